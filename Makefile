@@ -16,6 +16,9 @@ endif
 
 OPT    ?= -O2
 CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP $(OPT)
+# Of programs of this machine, where another build needs some.
+HOST_CC ?= cc
+HOST_CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP -O2 -D_POSIX_C_SOURCE=200809L
 
 # SAN=1: address and undefined behaviour sanitizers. CHECK=1: every fixed-point promise is checked.
 ifeq ($(SAN),1)
@@ -27,14 +30,18 @@ ifeq ($(CHECK),1)
 BUILD  := $(BUILD)-check
 CFLAGS += -DSMEAR_CHECK=1
 endif
+# Sources whose objects are this build's own: the others are those of build/host.
+OWN := %
 # COVERAGE=1: counts which branches of src/ are taken; each inline function is one.
 ifeq ($(COVERAGE),1)
+OWN     := $(if $(filter build/host,$(BUILD)),src/%,%)
 BUILD   := $(BUILD)-coverage
 LDFLAGS += --coverage
 $(BUILD)/src/%.o: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic -Dalways_inline=unused
 endif
 # EXR=1: tests keep their pictures as OpenEXR, too, and the suites that need it are there.
 ifeq ($(EXR),1)
+OWN      := $(if $(filter build/host,$(BUILD)),tests/run.c tests/suite/exr.c tests/suite/test_exr.c tests/suite/test_assets.c,%)
 BUILD    := $(BUILD)-exr
 CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
 EXR_LIBS := -lOpenEXRCore
@@ -44,6 +51,11 @@ ifeq ($(wildcard platform/$(TARGET)/target.mk),)
 $(error no TARGET=$(TARGET): make help lists them)
 endif
 include platform/$(TARGET)/target.mk
+
+# CALLS=1: objects of the library come with the compiler's call graph, which stack-test reads.
+ifeq ($(CALLS),1)
+$(BUILD)/src/%.o: CFLAGS += -fcallgraph-info=su
+endif
 
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
@@ -72,13 +84,16 @@ DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.
 REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 
-LIB := $(BUILD)/libsmear.a
+# Objects of sources: this build's, or those of build/host.
+objects = $(patsubst %.c,$(BUILD)/%.o,$(filter $(OWN),$1)) $(patsubst %.c,build/host/%.o,$(filter-out $(OWN),$1))
+# Those of programs of this machine, whatever is built.
+host_objects = $(1:%.c=build/host/%.o)
+
+LIB := $(if $(filter-out $(OWN),src/smear.c),build/host,$(BUILD))/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
 BIN := $(if $(SAN)$(CHECK)$(EXR)$(COVERAGE),$(BUILD),build)
 
 CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
-
-objects = $(1:%.c=$(BUILD)/%.o)
 
 .PHONY: all cost-model host-display help demo readme-pictures check test bench chart chart-picture layers house tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
@@ -88,6 +103,13 @@ $(BUILD)/%.o: %.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -c -o $@ $<
+
+ifneq ($(BUILD),build/host)
+build/host/%.o: %.c
+	$(call say,CC,$<)
+	@mkdir -p $(@D)
+	$(HOST_CC) $(HOST_CFLAGS) -c -o $@ $<
+endif
 
 $(LIB): $(call objects,$(LIB_SRC))
 	$(call say,AR)
@@ -284,11 +306,14 @@ VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c
 
-$(BUILD)/tests/run.o: CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
-$(BUILD)/tests/run.o: $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
+$(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
+$(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
+$(call objects,tests/run.c): $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
 
-$(BUILD)/tests/unit/test_kernels.o: CFLAGS += -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
-$(BUILD)/tests/unit/test_kernels.o: $(KERNEL_TESTS)
+KERNEL_FAMILIES := -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
+$(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): CFLAGS += $(KERNEL_FAMILIES)
+build/host/tests/unit/test_kernels.o: HOST_CFLAGS += $(KERNEL_FAMILIES)
+$(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): $(KERNEL_TESTS)
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
@@ -477,11 +502,10 @@ cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
 	$(RUN_BENCH) $< > $(BUILD)/cost.txt
 	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt
 
-build/tapes/view_cost: tests/target/view_cost.c tools/view/cost.c $(TAPES_SRC)
-	$(call say,CC)
+build/tapes/view_cost: $(call host_objects,tests/target/view_cost.c tools/view/cost.c $(filter-out tests/target/target_tapes.c,$(TAPES_SRC)))
+	$(call say,LD)
 	@mkdir -p $(@D)
-	$(HOST_CC) -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Iinclude -Isrc -I. -o $@ \
-	    $(filter-out tests/target/target_tapes.c,$^) -lm
+	$(HOST_CC) -o $@ $^ -lm
 
 build/tapes/cost.c: build/tapes/view_cost
 	$(call say,GEN)
@@ -491,4 +515,5 @@ $(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) platform/print.c tests
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 
--include $(shell find build -name '*.d' 2>/dev/null)
+# What the objects of this build are made of, those of this machine, which any build may want, and of web pages.
+-include $(shell find $(sort $(BUILD) build/host $(if $(filter web% build/web/%,$(MAKECMDGOALS)),build/web)) -name '*.d' 2>/dev/null)

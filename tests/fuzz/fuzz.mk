@@ -18,7 +18,8 @@ build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	@mkdir -p $(@D)
 	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm -lpthread
 
--include $(FUZZ_OBJ:.o=.d)
+FUZZ_GOALS := $(filter fuzz% build/fuzz/%,$(MAKECMDGOALS))
+-include $(if $(FUZZ_GOALS),$(FUZZ_OBJ:.o=.d))
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 .PHONY: fuzz-corpus
@@ -43,7 +44,7 @@ build/fuzz/$(1)/%.o: %.c
 build/fuzz/frames-$(1): $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.o)
 	$$(call say,LD)
 	$(2) $(3) -o $$@ $$^ -lpthread
--include $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.d)
+-include $(if $(FUZZ_GOALS),$(FRAMES_SRC:%.c=build/fuzz/$(1)/%.d))
 endef
 
 # Beside undefined behaviour, conversions that nobody wrote may not change a value. (A comma within a call would end its
