@@ -3,7 +3,7 @@
 # compile_cached.sh CACHE-FOLDER OBJECT-LIST COMPILER FLAGS... -- SOURCE...
 # Compiles sources, each only if nobody did before with the same compiler, flags and text after the
 # preprocessor: builds that differ in a switch share most objects. Writes the objects' names, one a
-# line. Two at once.
+# line, in the order of the sources. Two at once; processes are few, as most of a build is found in the cache.
 set -u
 cache=$1 list=$2
 shift 2
@@ -14,25 +14,30 @@ while [ "$1" != -- ]; do
 done
 shift
 mkdir -p "$cache"
-CACHE=$cache COMMAND=$command
-export CACHE COMMAND
-printf '%s\n' "$@" | xargs -P 2 -n 6 sh -c '
+texts=$(mktemp -d "$cache/texts.XXXXXX") || exit 1
+trap 'rm -rf "$texts"' EXIT
+(cd "$texts" && printf '%s\n' "$@" | sed 's|[^/]*$||; s|^$|.|' | sort -u | xargs mkdir -p) || exit 1
+COMMAND=$command TEXTS=$texts
+export COMMAND TEXTS
+printf '%s\n' "$@" | xargs -P 2 -n 12 sh -c '
     for source; do
-        text=$(mktemp "$CACHE/text.XXXXXX") || exit 1
-        eval "$COMMAND -E -P -o $text $source" || exit 1
-        name=$(basename "$source" .c)
-        key=$( { printf "%s\n" "$COMMAND" | sed "s/-DSMEAR_WITH_[A-Z0-9_]*=[01]//g; s/ //g; s/'\''//g"; cat "$text"; } | cksum | tr -d " ")
-        rm -f "$text"
-        object=$CACHE/$name-$key.o
-        if [ ! -e "$object" ]; then
-            eval "$COMMAND -c -o $object.part.o $source" || exit 1
-            [ ! -e "$object.part.ci" ] || mv "$object.part.ci" "$CACHE/$name-$key.ci"
-            mv "$object.part.o" "$object"
-        fi
-        printf "%s %s\n" "$source" "$object"
-    done' sh >"$list.part" || exit 1
-# in the order given: the linker may care
-for source; do
-    awk -v source="$source" '$1 == source { print $2 }' "$list.part"
-done >"$list"
+        eval "$COMMAND -E -P -o $TEXTS/$source $source" || exit 1
+    done' sh || exit 1
+
+# The switches are in the texts already.
+flags=$(printf '%s\n' "$command" | sed "s/-DSMEAR_WITH_[A-Z0-9_]*=[01]//g; s/ //g; s/'//g" | cksum | tr ' ' -)
+(cd "$texts" && cksum "$@") | while read -r sum size source; do
+    name=${source##*/}
+    echo "$source $cache/${name%.c}-$sum-$size-$flags"
+done >"$list.part"
+while read -r source object; do
+    [ -e "$object.o" ] || echo "$source $object"
+done <"$list.part" | xargs -P 2 -n 2 sh -c '
+    [ $# -eq 2 ] || exit 0      # none is lacking
+    eval "$COMMAND -c -o $2.part.o $1" || exit 1
+    [ ! -e "$2.part.ci" ] || mv "$2.part.ci" "$2.ci"
+    mv "$2.part.o" "$2.o"' sh || exit 1
+while read -r source object; do
+    echo "$object.o"
+done <"$list.part" >"$list"
 rm -f "$list.part"
