@@ -29,8 +29,15 @@ pico() {
     return 1
 }
 
-# Other machines: what they share with this one's suites is built before.
+# Other machines and other builds: what they share with this one's suites is built before.
+others() {
+    targets
+    generated
+}
+
 targets() {
+    CALLS=1         # stack-test reads the call graphs of the objects that the other suites build
+    export CALLS
     if needs arm-none-eabi-gcc "gcc-arm-none-eabi qemu-system-arm" && needs qemu-system-arm "qemu-system-arm"; then
         for target in cortex-m0plus cortex-m3 cortex-m4 cortex-m7 cortex-m33; do
             suite "target-$target" $make -s TARGET=$target target-test
@@ -98,16 +105,24 @@ targets() {
     fi
 }
 
+# Files and frames of generators.
+generated() {
+    needs clang-14 "clang-14 libclang-rt-14-dev" || return 0
+    suite fuzz-corpus $make -s $jobs fuzz-corpus
+    suite fuzz-frames $make -s $jobs fuzz MINUTES=1
+    ! m32 || suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
+}
+
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
     echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
 suite includes $make -s layers
 suite house $make -s house
+suite build $make -s $jobs all build/host/run build/host/frames build/host/demo build/host/game build/host/tiny build/tapes/golden.c \
+    build/tapes/small.c build/demo/target_screen
+beside others
 if needs clang-format-14 "clang-format-14"; then
     suite format $make -s format-check
 fi
-suite build $make -s $jobs all build/host/run build/host/demo build/host/game build/host/tiny build/tapes/golden.c \
-    build/tapes/small.c build/demo/target_screen
-beside targets
 suite demo sh tests/shell/demo.sh build/test/demo
 suite headers $make -s test-headers
 suite table-file $make -s test-tables
@@ -170,7 +185,7 @@ suite coverage $make -s $jobs coverage
 suite demo-host $make -s TARGET=host demo-test
 suite game-host $make -s TARGET=host game-test
 suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
-suite build-sanitized $make -s $jobs SAN=1 CHECK=1 all build/host-san-check/run
+suite build-sanitized $make -s $jobs SAN=1 CHECK=1 build/host-san-check/smear build/host-san-check/run
 for name in $($make -s print-san-suites); do
     suite "sanitized-$name" $make -s run-suite SUITE="$name" SAN=1 CHECK=1
 done
@@ -181,13 +196,6 @@ if needs qemu-system-x86_64 "qemu-system-x86"; then
     suite view-linux sh tests/shell/view_linux.sh build/smear build/kernel build/host/smear-static \
         build/host/view_linux_init build/host/mkcpio
     suite demo-linux $make -s TARGET=linux demo-test
-fi
-if needs clang-14 "clang-14 libclang-rt-14-dev"; then
-    suite fuzz-corpus $make -s $jobs fuzz-corpus
-    suite fuzz-frames $make -s $jobs fuzz MINUTES=1
-    if m32; then
-        suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
-    fi
 fi
 
 join

@@ -5,6 +5,9 @@
 CC ?= cc
 AR ?= ar
 
+# The library and tools are those of this machine's other programs.
+OWN := $(if $(SAN)$(CHECK),%,platform/% tests/%)
+
 CFLAGS  += -D_POSIX_C_SOURCE=200809L
 LDFLAGS += -static
 LDLIBS  += -lm

@@ -67,7 +67,6 @@ fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threa
 FUZZ_BUILDS := gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 trapv unsigned-char scalar pattern
 $(eval $(call frames_build,gcc-O0,gcc,-O0))
 $(eval $(call frames_build,gcc-O1,gcc,-O1))
-$(eval $(call frames_build,gcc-O2,gcc,-O2))
 $(eval $(call frames_build,gcc-O3,gcc,-O3))
 $(eval $(call frames_build,clang-O2,$(FUZZ_CC),-O2))
 $(eval $(call frames_build,m32,gcc,-m32 -O2))
@@ -75,6 +74,11 @@ $(eval $(call frames_build,mul16,gcc,-Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0))
 $(eval $(call frames_build,trapv,gcc,-O1 -ftrapv))
 $(eval $(call frames_build,unsigned-char,gcc,-O2 -funsigned-char))
 $(eval $(call frames_build,scalar,gcc,-O2 -DSMEAR_VECTORS=0))
+# The library of this machine's programs.
+build/fuzz/frames-gcc-O2: $(call host_objects,$(FRAMES_SRC))
+	$(call say,LD)
+	@mkdir -p $(@D)
+	gcc -o $@ $^ -lpthread
 # Where a picture depends on a variable that nobody wrote, or that is out of scope, it is another one here.
 $(eval $(call frames_build,pattern,gcc,-O1 -ftrivial-auto-var-init=pattern))
 

@@ -147,8 +147,8 @@ library LovyanGFX LovyanGFX.hpp LGFX_AUTODETECT.hpp
 library Adafruit_ST7789 Adafruit_ST7789.h
 library GFX_Library_for_Arduino Arduino_GFX_Library.h
 library U8g2 U8x8lib.h
+cp -r "$dist/arduino/smear" "$base/arduino-libraries/"     # once: the builder compiles again what is newer
 sketch() { # EXAMPLE
-    cp -r "$dist/arduino/smear" "$base/arduino-libraries/"
     arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
         -fqbn tests:here:here -build-path "$base/arduino-build" "$dist/arduino/smear/examples/$1/$1.ino" &&
         "$base/arduino-build/$1.ino.elf" >"$base/$1.panel"

@@ -19,9 +19,13 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tool
 WEB_FAST := $(filter src/kernels/% src/filter/% src/ports/% src/layers/% src/raster/% src/temporal/subframes.c src/temporal/timemask% \
     src/temporal/temporal_rows.c src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
+# Loops over pixels that the compiler makes vectors of; nothing else gains.
+WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/weights.c src/display/pixel_format.c src/display/band.c src/kernels/pixel_rows.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
+
 WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_DISPLAY=0 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
     -Iinclude -Isrc -I. -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
-web_objects = $(WEB_SRC:%.c=$(WEB)/$(1)/%.o)
+# What is compiled without vectors is the same in both.
+web_objects = $(foreach source,$(WEB_SRC),$(WEB)/$(if $(filter $(source),$(WEB_VECTORS)),$(1),scalar)/$(source:.c=.o))
 
 .PHONY: web game-web web-chart web-bench
 ## web pages: build/web/index.html and game.html, for any static host or as they lie (needs clang-14, lld-14, llvm-14 and xz)
@@ -63,8 +67,6 @@ $(call web_objects,scalar) $(call web_objects,simd): WEB_OPT = -Oz
 $(foreach v,scalar simd,$(WEB_FAST:%.c=$(WEB)/$(v)/%.o)): WEB_OPT = -O2
 $(foreach v,scalar simd,$(patsubst %.c,$(WEB)/$(v)/%.o,$(wildcard tools/web/libc/*.c))): WEB_OPT = -Oz -fno-builtin
 $(foreach v,scalar simd,$(WEB)/$(v)/tools/web/libc/libc.o): WEB_OPT = -O2 -fno-builtin
-# Loops over pixels that the compiler makes vectors of; nothing else gains.
-WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/ports/weights.c src/display/pixel_format.c src/display/band.c src/kernels/pixel_rows.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
 $(WEB_VECTORS:%.c=$(WEB)/simd/%.o): WEB_SIMD = -msimd128
 
 $(WEB)/scalar/%.o: %.c
