@@ -14,7 +14,8 @@ else
 say = $(if $(findstring s,$(firstword -$(MAKEFLAGS))),,$(info $(1) $(or $(2),$@)))
 endif
 
-OPT    ?= -O2
+# Sanitizers see more where less is optimized, and -O1 compiles in two thirds of the time.
+OPT    ?= $(if $(filter 1,$(SAN)),-O1,-O2)
 CFLAGS := -std=c11 -g -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP $(OPT)
 # Of programs of this machine, where another build needs some.
 HOST_CC ?= cc
