@@ -171,7 +171,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     a->material = draw->material != NULL ? draw->material : &white;
     a->draw = (uint16_t)i;
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
-    a->moves = 0;
+    a->apart = a->moves = 0;
     a->path = a->has_rest = false;
     a->fixed = frame_has_fog(&c->rows.raster);      /* of which a tiny triangle has one part, however the frame is cut */
     const bool moves = poses_differ(&poses);
@@ -258,7 +258,7 @@ static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kin
 }
 
 static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, uint32_t i,
-                          const struct smear_instant *instant)
+                          const struct smear_instant *instant, struct smear_refill *f)
 {
     struct smear_assembly a;
     const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
@@ -272,7 +272,16 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     }
     if (group != NULL)
         return smear_groups_assemble(c->layers, &c->assembler, &a);
-    return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
+    if (!assembly_has_path(&a))
+        return smear_assemble(as, &a);
+    if (f != NULL && f->apart_of == i)
+        a.apart = f->apart;
+    const bool done = smear_assemble_path(as, &a);
+    if (f != NULL && a.apart != 0) {
+        f->apart_of = (uint16_t)i;
+        f->apart = a.apart;
+    }
+    return done;
 }
 
 /* Whether a draw of the kind must be drawn. */
@@ -298,7 +307,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
             continue;
         if (f != NULL && k == f->draw)
             as->resume = (struct smear_resume){ f->triangle, f->parts };
-        if (assemble_draw(c, as, i, instant))
+        if (assemble_draw(c, as, i, instant, f))
             continue;
         if (f != NULL) {
             f->draw = k;

@@ -116,12 +116,11 @@ static void store_path(uint32_t *record, const struct smear_segment *s,
 /* What the loop over a draw's triangles needs for each of them. */
 struct path_batch {
     struct smear_assembler *a;
-    const struct smear_assembly *d;
+    struct smear_assembly *d;
     struct smear_segment *segment;      /* the newest */
     bool shares;                        /* all faces of a vertex share its record */
     uint16_t parts;                     /* of the triangle at hand: those that have been added, now or before */
     uint16_t parts_before;              /* before: they are left out */
-    int32_t apart;                      /* nothing of the draw that is nearer is seen: find_apart(); 0: not known yet */
 };
 
 static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
@@ -567,7 +566,7 @@ static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b, struct smea
 static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
                                             uint32_t triangle, uint32_t codes, bool back)
 {
-    const struct smear_assembly *d = b->d;
+    struct smear_assembly *d = b->d;
     struct clipping c;
     int near_codes = 0;
     for (int key = 0; key < KEYS; key++) {
@@ -576,8 +575,8 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
         near_codes |= c.codes[key] & OUT_NEAR;
     }
     const bool passes = near_codes != 0 && !is_orthographic(&d->at.now);
-    if (passes && b->apart == 0)
-        b->apart = find_apart(b, &c.polygon);
+    if (passes && d->apart == 0)
+        d->apart = find_apart(b, &c.polygon);
     c.interval = 0;
     c.face = smear_face_of(d, triangle, back);
     struct smear_clip_vertex *corner = c.polygon.vertex;
@@ -587,9 +586,9 @@ static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_ve
         smear_vertex_for_clipping(&corner[i], d, b->segment, index[i], &c.face);
     if (!passes)
         return add_cut(b, &c);
-    if (safe_distance(corner, d) > b->apart || !is_apart(&c.polygon, b, b->apart))
+    if (safe_distance(corner, d) > d->apart || !is_apart(&c.polygon, b, d->apart))
         return add_intervals(b, &c);
-    c.depths[MIDDLE].near_distance = b->apart;
+    c.depths[MIDDLE].near_distance = d->apart;
     for (int key = 0; key < KEYS; key++)
         c.codes[key] = (c.codes[key] & ~OUT_NEAR) | OUT_GUARD;
     c.codes[MIDDLE] |= OUT_NEAR;
@@ -659,7 +658,7 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         && (!behind || !d->material->double_sided || add_triangle(b, v[0], v2, v1, triangle, true));
 }
 
-bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *d)
+bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
 {
     struct path_batch b = { .a = a, .d = d, .segment = smear_vertex_segment(a, d) };
     if (b.segment == NULL)

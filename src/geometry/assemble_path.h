@@ -9,6 +9,6 @@
  * orthographic camera) cuts at some instant lose what lies beyond it there, for the whole exposure. Those that pass the
  * near plane of a perspective are cut where nothing nearer is seen or, where that is nowhere, listed in intervals of
  * the exposure (smear_path_bounds.interval). */
-bool smear_assemble_path(struct smear_assembler *a, const struct smear_assembly *draw);
+bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *draw);
 
 #endif

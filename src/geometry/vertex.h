@@ -127,6 +127,7 @@ struct smear_assembly {
     bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */
     bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
+    int32_t apart;                      /* with a path: nothing of it that is nearer is seen; 0: assemble_path.c has yet to find it */
     struct smear_placement at;          /* the instant that is drawn */
     union {                             /* large, and on the stack: `measured` where moves is not 0, `key` with a path */
         struct smear_measured_poses measured;
