@@ -126,7 +126,8 @@
     ((m) & SMEAR_SET(SMEAR_AUTO) ? (((size_t)(w) + 7u) / 8u) * (((size_t)(T) + 7u) / 8u) * 8u : 0u)
 /* Moving triangles, tiles and blocks of 8 x 8 pixels of a row; sums and depths of instants, or time samples and lists, of a worker. */
 #define SMEAR_TEMPORAL_(m, w, t, T, columns, k, tiles) \
-    (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * 20u) + SMEAR_BLOCKS_(m, w, T) \
+    (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * ((k) > 1 ? 40u : 20u)) \
+                                  + SMEAR_BLOCKS_(m, w, T) * ((k) > 1 ? 2u : 1u) \
                                   + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 10u) + 512u, \
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)

@@ -2,10 +2,41 @@
 /* jobs.c - see jobs.h. */
 #include "base/jobs.h"
 
+#if SMEAR_TICKETS
+enum { TICKET_TAKING = 1, TICKET_STEP = 2 };
+
+/* Whether worker `other` is before the one with this ticket, or may be. */
+static bool is_before(const struct smear_jobs *jobs, int other, unsigned ticket, int worker)
+{
+    const unsigned t = word_look(&jobs->ticket[other]);
+    return t != 0 && (t < ticket || (t == ticket && other < worker));
+}
+
+/* Claims a job; beyond the last one there are none left. */
+static int claim(struct smear_jobs *jobs, int worker)
+{
+    unsigned last = 0;
+    word_show(&jobs->ticket[worker], TICKET_TAKING);
+    for (int i = 0; i < jobs->workers; i++)
+        last = max_u32(last, word_look(&jobs->ticket[i]) & ~(unsigned)TICKET_TAKING);
+    const unsigned ticket = last + TICKET_STEP;
+    word_show(&jobs->ticket[worker], ticket);
+    for (int i = 0; i < jobs->workers; i++)
+        while (i != worker && is_before(jobs, i, ticket, worker))
+            ;
+    const int job = jobs->claimed++;
+    word_write(&jobs->ticket[worker], 0);
+    return job;
+}
+#endif
+
 static void do_share(struct smear_jobs *jobs, int worker)
 {
 #if SMEAR_CLAIMS
     for (int i; (i = __atomic_fetch_add(&jobs->claimed, 1, __ATOMIC_RELAXED)) < jobs->count;)
+        jobs->job(jobs->argument, i, worker);
+#elif SMEAR_TICKETS
+    for (int i; (i = claim(jobs, worker)) < jobs->count;)
         jobs->job(jobs->argument, i, worker);
 #else
     for (int i = worker; i < jobs->count; i += jobs->workers)
@@ -24,7 +55,7 @@ static void announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument,
     jobs->job = job;
     jobs->argument = argument;
     jobs->count = count;
-#if SMEAR_CLAIMS
+#if SMEAR_CLAIMS || SMEAR_TICKETS
     jobs->claimed = 0;
 #endif
     unsigned stage = word_own(&jobs->stage) + 1u;

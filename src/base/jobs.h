@@ -2,7 +2,8 @@
 /* jobs.h - independent jobs on one or several cores.
  *
  * Core 0 announces a stage (a function and a number of jobs); workers claim one job after the other and report. Where cores
- * have loads and stores of single words alone (Cortex-M), worker w of n does jobs w, w + n, w + 2n ... instead. */
+ * have loads and stores of single words alone (Cortex-M), they take turns by tickets (Lamport's bakery); where size counts or
+ * no compiler's word orders these, worker w of n does jobs w, w + n, w + 2n ... instead. */
 #ifndef SMEAR_JOBS_H
 #define SMEAR_JOBS_H
 
@@ -18,6 +19,8 @@
 #if SMEAR_GNU && !defined(SMEAR_BARRIER)
 static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
 static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }
+static inline unsigned word_look(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_SEQ_CST); }
+static inline void word_show(unsigned *word, unsigned value) { __atomic_store_n(word, value, __ATOMIC_SEQ_CST); }
 
 static inline void word_write(unsigned *word, unsigned value)
 {
@@ -41,6 +44,14 @@ static inline void word_write(unsigned *word, unsigned value)
     SMEAR_BARRIER;
     *(volatile unsigned *)word = value;
 }
+
+static inline unsigned word_look(const unsigned *word) { return word_read(word); }
+
+static inline void word_show(unsigned *word, unsigned value)
+{
+    word_write(word, value);
+    SMEAR_BARRIER;
+}
 #endif
 
 /* Cores can add to a word that they share: not where nobody but the program knows whether they watch each other's exclusive
@@ -54,6 +65,11 @@ static inline void word_write(unsigned *word, unsigned value)
 #endif
 #endif
 
+/* Elsewhere they take turns: word_show() is seen before word_look() looks at another word. */
+#ifndef SMEAR_TICKETS
+#define SMEAR_TICKETS (!SMEAR_CLAIMS && SMEAR_GNU && SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE)
+#endif
+
 #define SMEAR_WORKERS_MAX (SMEAR_WITH_WORKERS ? 8 : 1)
 
 typedef void smear_job_fn(void *argument, int job, int worker);
@@ -63,8 +79,11 @@ struct smear_jobs {
     smear_job_fn *job;          /* null: the frame is over */
     void *argument;
     int count;
-#if SMEAR_CLAIMS
+#if SMEAR_CLAIMS || SMEAR_TICKETS
     int claimed;                /* jobs that some worker does or has done */
+#endif
+#if SMEAR_TICKETS
+    unsigned ticket[SMEAR_WORKERS_MAX];      /* 0: does not want a job; TICKET_TAKING; else the least is next */
 #endif
     void (*idle)(void *user);   /* called while waiting; may be null */
     void *user;

@@ -2,6 +2,7 @@
 /* temporal.c - see temporal.h.
  *
  *     list        moving triangles of the row, and what they mean for its tiles
+ *                 (several cores: while the row before is drawn)
  *     for each run of tiles that must be drawn (one, unless the display keeps some):
  *         static      triangles that do not move, into the row's pixels
  *         finish      tiles by their method (tile_method.h): a copy, subframes of tiles beside each other, or a time
@@ -20,7 +21,12 @@ struct finish {
     struct row_job row;
     struct smear_temporal *self;
     struct smear_raster_target background;      /* what is static, drawn */
+    struct smear_row_moving moving;             /* what list_job() fills in, of a tile row whose first pixel row is `top` */
+    int32_t top;
+    int strips;
 };
+
+enum { LISTS_PER_WORKER = 2 };      /* jobs: the more there are, the more of them look at the same triangles */
 
 int32_t smear_strip_columns(int32_t strip, int32_t width)
 {
@@ -200,11 +206,94 @@ static void finish_tile(const struct finish *f, int column, const struct smear_t
     hand_on(f, &t);
 }
 
-/* Finishes the tiles of the run that lie in a strip. */
+/* ------------------------------------------------------------------ lists */
+
+/* What the moving triangles of a row mean for some of its tiles. */
+static void list_job(void *argument, int job, int worker)
+{
+    struct finish *f = (struct finish *)argument;
+    const struct smear_rows *rows = f->row.rows;
+    const int32_t columns = rows->window.columns, jobs = rows->jobs.workers * LISTS_PER_WORKER;
+    (void)worker;
+    smear_list_columns(&f->moving, &rows->bins, &rows->window, rows->moving, f->top, columns * job / jobs,
+                       columns * (job + 1) / jobs);
+}
+
+static void list_tiles(struct smear_temporal *self, struct smear_rows *rows, int row)
+{
+    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self, .moving = self->moving,
+                             .top = row_top(rows, row) };
+    if (rows->moving == SMEAR_NO_TRIANGLE)
+        return;
+    if (rows->jobs.workers == 1)
+        smear_list_columns(&self->moving, &rows->bins, &rows->window, rows->moving, finish.top, 0, rows->window.columns);
+    else
+        smear_jobs_run(&rows->jobs, list_job, &finish, rows->jobs.workers * LISTS_PER_WORKER);
+}
+
+#if SMEAR_WITH_WORKERS
+/* Exchanges the tiles and blocks of this row and of the next one. */
+static void exchange(struct smear_temporal *self, struct smear_row_moving *moving, const struct smear_window *w)
+{
+    moving->travel += self->beside * w->columns;
+    if (moving->blocks.block != NULL)
+        moving->blocks.block += self->beside * block_columns(w->width) * block_rows(w->tile);
+}
+
+/* Begins the next row's lists, for jobs beside those that finish this one. Returns how many there are. */
+static int begin_next(struct finish *f, int end)
+{
+    struct smear_temporal *self = f->self;
+    struct smear_rows *rows = f->row.rows;
+    const int next = f->row.row + 1;
+    if (self->beside == 0 || self->is_listed || rows->refill != NULL || next >= end)
+        return 0;
+    f->moving = self->moving;
+    exchange(self, &f->moving, &rows->window);
+    f->top = row_top(rows, next);
+    smear_list_begin(&f->moving, &rows->window);
+    rows->moving = row_advance(rows, rows->bins.moving_last, rows->moving, next);
+    self->is_listed = true;
+    return rows->moving != SMEAR_NO_TRIANGLE ? rows->jobs.workers * LISTS_PER_WORKER : 0;
+}
+
+/* Takes over what is known of the row; false where nothing is. */
+static bool take_next(struct smear_temporal *self, const struct smear_window *w)
+{
+    if (!self->is_listed)
+        return false;
+    exchange(self, &self->moving, w);
+    self->beside = (int8_t)-self->beside;
+    self->is_listed = false;
+    return true;
+}
+#else
+static int begin_next(struct finish *f, int end)
+{
+    (void)f;
+    (void)end;
+    return 0;
+}
+
+static bool take_next(struct smear_temporal *self, const struct smear_window *w)
+{
+    (void)self;
+    (void)w;
+    return false;
+}
+#endif
+
+/* ------------------------------------------------------------------ strips */
+
+/* Finishes the tiles of the run that lie in a strip; jobs behind the strips are those of list_job(). */
 static void finish_job(void *argument, int strip, int worker)
 {
     const struct finish *f = (const struct finish *)argument;
     const struct smear_window *w = &f->row.rows->window;
+    if (SMEAR_WITH_WORKERS && strip >= f->strips) {
+        list_job(argument, strip - f->strips, worker);
+        return;
+    }
     const int tiles = f->self->strip >> w->tile_shift,
               end = min_i32((strip + 1) * tiles, (job_right(&f->row) + w->tile - 1) >> w->tile_shift);
     for (int column = max_i32(strip * tiles, job_left(&f->row) >> w->tile_shift); column < end;) {
@@ -252,8 +341,8 @@ static bool next_run(const struct smear_temporal *self, const struct smear_rows 
     return run->first < run->end;
 }
 
-/* Draws, finishes and hands out tiles beside each other. */
-static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int row, const struct smear_damage_run *run)
+/* Draws, finishes and hands out tiles beside each other. `end`: of the tile rows that are assembled. */
+static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int row, int end, const struct smear_damage_run *run)
 {
     uint32_t start = stage_start(rows);
     struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
@@ -270,35 +359,17 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     start = stage_start(rows);
     finish.row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
-    const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
+    const int strips = finish.strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run))
         finish_static(&finish, run->first, run->end);
     else if (rows->refill == NULL)
-        smear_jobs_run(&rows->jobs, finish_job, &finish, strips);
+        smear_jobs_run(&rows->jobs, finish_job, &finish, strips + begin_next(&finish, end));
     for (int strip = 0; rows->refill != NULL && strip < strips; strip++)
         finish_job(&finish, strip, 0);
     stage_end(rows, &rows->stats->time.blur, start);
     if (rows->refill != NULL && rows->refill->failed)
         return SMEAR_ERR_ROOM;
     return smear_band_flush(&finish.row);
-}
-
-/* What the moving triangles of a row mean for some of its tiles. */
-static void list_job(void *argument, int job, int worker)
-{
-    const struct finish *f = (const struct finish *)argument;
-    const struct smear_rows *rows = f->row.rows;
-    const int32_t columns = rows->window.columns, jobs = rows->jobs.workers;
-    (void)worker;
-    smear_list_columns(&f->self->moving, &rows->bins, &rows->window, rows->moving, row_top(rows, f->row.row),
-                       columns * job / jobs, columns * (job + 1) / jobs);
-}
-
-static void list_tiles(struct smear_temporal *self, struct smear_rows *rows, int row)
-{
-    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
-    if (rows->moving != SMEAR_NO_TRIANGLE)
-        smear_jobs_run(&rows->jobs, list_job, &finish, rows->jobs.workers);
 }
 
 /* Finds what moves and is blended in a row that is refilled. */
@@ -315,15 +386,19 @@ static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, 
 static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_bins *bins = &rows->bins;
-    smear_list_begin(&self->moving, &rows->window);
+    const bool known = take_next(self, &rows->window);
+    if (!known)
+        smear_list_begin(&self->moving, &rows->window);
     if (rows->refill != NULL) {
         list_refilled(self, rows, row);
         return;
     }
     rows->opaque = row_advance(rows, bins->opaque_last, rows->opaque, row);
-    rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
+    if (!known)
+        rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
     smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
-    list_tiles(self, rows, row);
+    if (!known)
+        list_tiles(self, rows, row);
     if (!rows->blends)
         return;
     rows->blend = row_advance(rows, bins->blend_last, rows->blend, row);
@@ -340,14 +415,14 @@ static void add_shares(struct smear_temporal *self, int workers)
     }
 }
 
-static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row)
+static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
     struct smear_damage_run run = { 0, 0 };
     while (next_run(self, rows, row, &run)) {
-        int result = finish_run(self, rows, row, &run);
+        int result = finish_run(self, rows, row, end, &run);
         if (result != SMEAR_OK)
             return result;
     }
@@ -396,6 +471,9 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
     const bool plans = self->chooser.method == SMEAR_AUTO;
+#if SMEAR_WITH_WORKERS
+    self->is_listed = false;
+#endif
     self->moving.blocks.columns = plans ? block_columns(rows->window.width) : 0;
     if (plans) {
         self->chooser.target = self->target;        /* the part before may have had another */
@@ -404,7 +482,7 @@ int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, in
         rows->stats->target = max_u32(rows->stats->target, (uint32_t)self->chooser.target);
     }
     for (int row = first; row < end; row++) {
-        int result = draw_row(self, rows, row);
+        int result = draw_row(self, rows, row, end);
         if (result != SMEAR_OK)
             return result;
     }

@@ -41,12 +41,13 @@ miswired() {
         sed -i 's/^\(BOARD(breakout.* \)18, 19,/\117, 19,/' "$base/miswired/boards.h" &&
         arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c11 -fsyntax-only -DSMEAR_BOARD=breakout -include "$base/miswired/board.h" -x c /dev/null
 }
-# Data with core 1's stack, functions in RAM, the context with 22 bytes per pixel of core 1's strip, and core 0's stack.
+# Data with core 1's stack, functions in RAM, the context with what core 1 has of it (14 bytes per pixel of its strip and of 16
+# columns beside, a list, and what moves in the next row), and core 0's stack.
 fits() {
     sh platform/pico/run.sh build/pico/breakout/demo.elf cost pico-240 auto 72 >"$base/cost" || return 1
     own=$(arm-none-eabi-size -A build/pico/breakout/demo.elf | awk '$3 >= 536870912 && $3 < 537133056 { sum += $2 } END { print sum }')
     context=$(sed -n 's/^memory \([0-9]*\),.*/\1/p' "$base/cost")
-    is_true "$own + $context + 22 * 128 * 16 + 8192 <= 200 * 1024"
+    is_true "$own + $context + 14 * 144 * 16 + 512 + 800 + 8192 <= 200 * 1024"
 }
 
 claim "the interpreter is rp2040js's" sh platform/pico/run.sh --selftest 1000000 build/pico/breakout/demo.elf check pico-240 36
