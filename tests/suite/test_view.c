@@ -172,6 +172,21 @@ static void test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it(void
             }
 }
 
+/* The widest frame, doubled, with its last pixel first. */
+static void test_the_widest_panel_is_turned(void)
+{
+    enum { WIDEST = 2 * 2048 };
+    static uint32_t wide[WIDEST], out[WIDEST];
+    const struct panel_look look = { .zoom = 1, .turns = 2 };
+    const struct surface s = { WIDEST, 1, WIDEST, out };
+    for (uint32_t i = 0; i < WIDEST; i++)
+        wide[i] = i;
+    const struct panel_place place = panel_place_on(&look, WIDEST, 1, &s);
+    panel_show(&look, &place, wide, WIDEST, 1, &s);
+    for (uint32_t i = 0; i < WIDEST; i++)
+        CHECK_EQ(out[i], WIDEST - 1 - i);
+}
+
 static void test_shrinking_keeps_the_mean(void)
 {
     for (int i = 0; i < W * H; i++)
@@ -651,6 +666,53 @@ static void test_tiles_are_noted_as_they_are_counted(void)
     }
 }
 
+/* Of a display that keeps what it shows, bands are parts of rows: what none of them covers is still. */
+static void test_tiles_that_are_not_sent_are_noted_as_still(void)
+{
+    enum { WIDTH = 250, HEIGHT = 130, FRAMES = 4 };
+    struct failure f = { "" };
+    struct scene scene;
+    struct noted n = { .ctx = NULL };
+    struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = SMEAR_AUTO };
+    if (!CHECK(scene_builtin("suite/propeller", &scene, &f) && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
+        return;
+    struct presenter *p = presenter_new(&scene, &f);
+    void *memory = NULL;
+    uint32_t kept = 0;
+    for (int k = 0; k < FRAMES; k++) {
+        const struct presented *frame = presenter_frame(p, 0.4 + k / 30.0, &o, &f);
+        if (!CHECK(frame != NULL))
+            break;
+        if (k == 0) {
+            smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
+            desc.max_triangles *= 4;
+            desc.tile = 16;
+            desc.reuse.buffer_age = 1;
+            desc.flush = note_band;
+            desc.user = &n;
+            memory = malloc(smear_memory_size(&desc));
+            CHECK_EQ(smear_init(&n.ctx, &desc, memory, smear_memory_size(&desc)), SMEAR_OK);
+        }
+        smear_stats s;
+        uint32_t still = 0;
+        tiles_begin(&n.tiles);
+        CHECK_EQ(presented_submit(frame, n.ctx), SMEAR_OK);
+        CHECK_EQ(smear_render(n.ctx), SMEAR_OK);
+        smear_get_stats(n.ctx, &s);
+        CHECK_EQ(n.tiles.columns, 16);
+        CHECK_EQ(n.tiles.rows, 9);
+        for (int i = 0; i < n.tiles.columns * n.tiles.rows; i++)
+            still += n.tiles.note[i].method == SMEAR_NONE;
+        CHECK_EQ(still, s.tiles[SMEAR_NONE]);
+        kept += s.tiles_kept;
+    }
+    CHECK(kept > 0);
+    free(memory);
+    tiles_close(&n.tiles);
+    presenter_free(p);
+    scene_free(&scene);
+}
+
 /* ------------------------------------------------------------------ cookies, boards */
 
 static void put_field(FILE *to, const void *bytes, unsigned size)
@@ -719,6 +781,7 @@ void suite_view(void)
     RUN(test_a_turned_panel_is_turned_clockwise);
     RUN(test_zoom_is_the_largest_that_fits);
     RUN(test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it);
+    RUN(test_the_widest_panel_is_turned);
     RUN(test_shrinking_keeps_the_mean);
     RUN(test_a_round_glass_hides_the_corners_only);
     RUN(test_greys_run_between_the_panels_colours);
@@ -740,6 +803,7 @@ void suite_view(void)
     RUN(test_a_turntable_goes_round);
     RUN(test_wires_lie_on_what_is_drawn);
     RUN(test_tiles_are_noted_as_they_are_counted);
+    RUN(test_tiles_that_are_not_sent_are_noted_as_still);
     RUN(test_the_cookie_of_the_display_is_found);
     RUN(test_boards_have_names_of_their_own);
 }

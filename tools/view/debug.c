@@ -194,9 +194,10 @@ static void show_bands(const struct lane *lane, uint32_t *picture)
 {
     for (int i = 0; i < lane->band_count; i++) {
         const struct lane_band *b = &lane->band[i];
-        uint32_t *p = picture + (size_t)b->y * (size_t)lane->setup.width;
-        for (int k = 0; k < b->height * lane->setup.width; k++)
-            p[k] = blend(p[k], i & 1 ? 0x3060ff : 0xff9020, k < lane->setup.width ? 200 : 70);
+        uint32_t *p = picture + (size_t)b->y * (size_t)lane->setup.width + b->x;
+        for (int y = 0; y < b->height; y++, p += lane->setup.width)
+            for (int x = 0; x < b->width; x++)
+                p[x] = blend(p[x], i & 1 ? 0x3060ff : 0xff9020, y == 0 ? 200 : 70);
     }
 }
 

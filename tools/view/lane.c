@@ -15,13 +15,14 @@ static void note_band(void *user, const smear_band *band)
         return;
     const smear_doubled doubled = lane->options.doubled;
     smear_band drawn = *band;
+    drawn.x = (int16_t)(band->x >> (doubled & SMEAR_DOUBLED_X));
     drawn.y = (int16_t)(band->y >> (doubled >> 1));
     drawn.height = (int16_t)(band->height >> (doubled >> 1));
     drawn.width = (int16_t)(band->width >> (doubled & SMEAR_DOUBLED_X));
     tiles_note(&lane->tiles, lane->device.ctx, &drawn);
     if (lane->band_count == LANE_MAX_BANDS)
         return;
-    lane->band[lane->band_count++] = (struct lane_band){ .y = drawn.y, .height = drawn.height };
+    lane->band[lane->band_count++] = (struct lane_band){ drawn.x, drawn.y, drawn.width, drawn.height };
 }
 
 static bool open_parts(struct lane *lane, struct failure *f)
@@ -103,6 +104,7 @@ bool lane_draw(struct lane *lane, struct presenter *presenter, const struct inst
     if (presented == NULL || !device_fit(&lane->device, presented, f))
         return false;
     lane->band_count = 0;
+    tiles_begin(&lane->tiles);
     if (!device_draw(&lane->device, presented, f))
         return false;
     smear_get_stats(lane->device.ctx, &lane->stats);

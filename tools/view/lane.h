@@ -13,10 +13,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { LANE_MAX_BANDS = 256 };      /* rows of 8 pixels at a height of 2048 */
+enum { LANE_MAX_BANDS = 1024 };     /* 256 rows of 8 pixels are 2048; parts of rows may be more */
 
 struct lane_band {
-    int y, height;
+    int x, y, width, height;
 };
 
 struct lane {

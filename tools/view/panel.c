@@ -176,7 +176,7 @@ static void show_enlarged(const struct panel_look *look, const struct panel_plac
 {
     int w = place->width / place->zoom, h = place->height / place->zoom;
     bool is_plain = look->turns == 0 && !look->round && !look->has_tint;
-    uint32_t line[2048];                    /* the library draws no more */
+    uint32_t line[2 * 2048];                /* the library draws 2048 pixels, and may double them */
     for (int row = 0; row < h; row++) {
         int y = place->y + row * place->zoom, last = min_int(y + place->zoom, s->height);
         y = y > 0 ? y : 0;

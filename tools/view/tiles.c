@@ -14,7 +14,7 @@ bool tiles_open(struct tiles *t, int width, int height, struct failure *f)
 {
     size_t columns = ((size_t)width + SMALLEST_TILE - 1) / SMALLEST_TILE;
     size_t rows = ((size_t)height + SMALLEST_TILE - 1) / SMALLEST_TILE;
-    *t = (struct tiles){ .note = calloc(columns * rows, sizeof *t->note) };
+    *t = (struct tiles){ .room = (int)(columns * rows), .note = calloc(columns * rows, sizeof *t->note) };
     return t->note != NULL || fail(f, "out of memory");
 }
 
@@ -25,6 +25,12 @@ void tiles_close(struct tiles *t)
 }
 
 static const struct tile_note still = { SMEAR_NONE, TILES_STILL, 1 };
+
+void tiles_begin(struct tiles *t)
+{
+    for (int i = 0; i < t->room; i++)
+        t->note[i] = still;
+}
 
 /* The chooser is asked again for what it has said of this tile. */
 static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_travel *tile)
@@ -75,9 +81,9 @@ void tiles_note(struct tiles *t, const smear_context *ctx, const smear_band *ban
     const struct smear_probe c = smear_probe(ctx);
     const int edge = c.rows->window.tile;
     t->edge = edge;
-    t->columns = (band->width + edge - 1) / edge;
+    t->columns = (c.rows->window.width + edge - 1) / edge;
     t->rows = (c.rows->window.height + edge - 1) / edge;
     for (int row = band->y / edge; row * edge < band->y + band->height; row++)
-        for (int column = 0; column < t->columns; column++)
+        for (int column = band->x / edge; column * edge < band->x + band->width; column++)
             t->note[row * t->columns + column] = tile_of(&c, row, column);
 }

@@ -19,12 +19,16 @@ struct tile_note {
 
 struct tiles {
     int edge, columns, rows;
+    int room;                   /* notes */
     struct tile_note *note;     /* row after row */
 };
 
 /* Room for a frame of this size; zeroed before first use. */
 bool tiles_open(struct tiles *tiles, int width, int height, struct failure *f);
 void tiles_close(struct tiles *tiles);
+
+/* Before a frame: tiles that no band of it shows, as the display has them already, stand still. */
+void tiles_begin(struct tiles *tiles);
 
 /* The tiles of a band, while it is being flushed. */
 void tiles_note(struct tiles *tiles, const smear_context *ctx, const smear_band *band);
