@@ -361,6 +361,10 @@ done
 claim "options go before the board's" eval 'view $race --board gba --size 64x48 --frames 1 --crc &&
     equals "$(crcs)" "$(render_crcs $race 0-0 --size 64x48 --format rgb555 --arena 229376 \
     --method auto --quality draft --light encoded --keep-display --tile 16 --reach 8)"'
+claim "what contradicts the board's goes before it, too" eval 'view $race --board rp2040 --target 1 --frames 1 --crc &&
+    view $race --board oled --dither=diffuse --frames 1 --crc && view $race --board rp2040 --tile 8 --frames 1 --crc &&
+    view $race --board oled --reach 20 --frames 1 --crc'
+claim "but not what the user contradicts" fails 2 --target view --board rp2040 --target 1 --quality fine --out null --frames 1
 # the picture on the glass is not the frame: what the device draws stays the same
 for look in '--zoom 3' '--rotate 90' '--rotate 180' '--rotate 270' '--round' '--tint 102030,ffffff' \
     '--bus 1000000 --panel-hz 60' '--bus 1000000 --sync' '--cpu cortex-m3:72e6' '--see velocity' \

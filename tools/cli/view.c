@@ -283,13 +283,36 @@ static const char *find_board(int count, char **text)
     return name;
 }
 
-/* What a board has for its own method does not go with any. */
+/* Whether the user says the option, with this value unless that is null. */
+static bool says(int count, char **text, const char *option, const char *value)
+{
+    const size_t length = strlen(option);
+    for (int i = 0; i < count && strcmp(text[i], "--") != 0; i++) {
+        const char *said = NULL;
+        if (strncmp(text[i], option, length) == 0 && text[i][length] == '=')
+            said = text[i] + length + 1;
+        else if (strcmp(text[i], option) == 0 && i + 1 < count)
+            said = text[i + 1];
+        if (said != NULL && (value == NULL || strcmp(said, value) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* What a board has goes with its other options: it is left out where what the user says contradicts it. */
 static bool goes_with(const char *option, int count, char **text)
 {
-    bool has_method = false;
-    for (int i = 0; i < count && strcmp(text[i], "--") != 0; i++)
-        has_method = has_method || strncmp(text[i], "--method", 8) == 0;
-    return !has_method || strcmp(option, "--keep-display") != 0;
+    static const struct {
+        const char *board, *user, *value;
+    } contradictions[] = {
+        { "--keep-display", "--method", NULL }, { "--keep-display", "--dither", "diffuse" },
+        { "--quality", "--target", NULL }, { "--reach", "--tile", NULL }, { "--tile", "--reach", NULL },
+    };
+    for (size_t i = 0; i < sizeof contradictions / sizeof *contradictions; i++)
+        if (strcmp(option, contradictions[i].board) == 0
+            && says(count, text, contradictions[i].user, contradictions[i].value))
+            return false;
+    return true;
 }
 
 static bool part(int count, char **text, struct parted *p)
@@ -303,9 +326,13 @@ static bool part(int count, char **text, struct parted *p)
         return false;
     p->own = p->all + room;
     p->other = p->own + room;
-    for (int i = 0; board != NULL && board->option[i] != NULL; i++)
-        if (goes_with(board->option[i], count, text))
+    bool goes = true;
+    for (int i = 0; board != NULL && board->option[i] != NULL; i++) {
+        if (strncmp(board->option[i], "--", 2) == 0)        /* else the value of the one before */
+            goes = goes_with(board->option[i], count, text);
+        if (goes)
             p->all[p->all_count++] = (char *)board->option[i];
+    }
     for (int i = 0; i < count; i++)
         p->all[p->all_count++] = text[i];
     for (int i = 0; i < p->all_count; i++) {
