@@ -641,6 +641,9 @@ claim "knows one clip" out_has '^clips: 1$'
 claim "no clips" works convert "$plate" --clip none -o still.h
 claim "knows none" out_has '^clips: 0$'
 claim "nothing moves" out_has 'nodes: 0$'
+usage --clip convert "$plate" --clip none --clip spin -o still.h
+claim "which says why" has "$base/err" "none goes with no other --clip"
+usage --clip convert "$plate" --clip spin --clip all -o still.h
 claim "kept nodes" works convert "$plate" --clip none --keep wall --keep 1 -o kept.h
 claim "are nodes" out_has 'nodes: 2$'
 claim "a texture" works convert "$base/in/card.obj" --texture-size 8 -o card.h
@@ -747,6 +750,8 @@ done
 for frames in 1 1- -3 3-1 a-b 1-2-3 -1-2 1.5-2 '' 1-99999999999; do
     usage --frames render "$plate" --frames "$frames" -o '%d.png'
 done
+usage --frames render "$plate" --frames 7 -o 7.png
+claim "which says how to ask for one" has "$base/err" "7-7 is frame 7 alone"
 for shutter in -1 nan inf 3601 180deg ''; do
     usage --shutter render "$plate" --shutter "$shutter"
 done

@@ -261,7 +261,10 @@ static int choose_clips(const struct convert_command *c, const struct model *mod
     }
     for (int i = 0; i < c->clip_count; i++) {
         int found = model_find_clip(model, c->clip[i]);
-        if (found < 0 && strcmp(c->clip[i], "none") == 0 && c->clip_count == 1)
+        const bool is_word = found < 0 && (strcmp(c->clip[i], "none") == 0 || strcmp(c->clip[i], "all") == 0);
+        if (is_word && c->clip_count > 1)
+            return say_bad_usage("--clip", "%s goes with no other --clip", c->clip[i]);
+        if (is_word)
             return STATUS_OK;
         if (found < 0)
             return source_say_no_clip(model, c->clip[i]);

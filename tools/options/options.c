@@ -31,8 +31,14 @@ static const char *read_fps(void *to, const char *value)
 
 static const char *read_frames(void *to, const char *value)
 {
+    static char text[80];
     struct render_options *o = to;
+    long one;
     o->has_frames = read_range(value, &o->first, &o->last);
+    if (!o->has_frames && read_integer(value, 0, 999999999, &one)) {
+        snprintf(text, sizeof text, "needs FIRST-LAST: %ld-%ld is frame %ld alone", one, one, one);
+        return text;
+    }
     return o->has_frames ? NULL : "needs FIRST-LAST, two frame numbers from 0 to 999999999";
 }
 
