@@ -363,7 +363,7 @@ claim "options go before the board's" eval 'view $race --board gba --size 64x48 
     --method auto --quality draft --light encoded --keep-display --tile 16 --reach 8)"'
 claim "what contradicts the board's goes before it, too" eval 'view $race --board rp2040 --target 1 --frames 1 --crc &&
     view $race --board oled --dither=diffuse --frames 1 --crc && view $race --board rp2040 --tile 8 --frames 1 --crc &&
-    view $race --board oled --reach 20 --frames 1 --crc'
+    view $race --board lcd144 --reach 20 --frames 1 --crc'
 claim "but not what the user contradicts" fails 2 --target view --board rp2040 --target 1 --quality fine --out null --frames 1
 # the picture on the glass is not the frame: what the device draws stays the same
 for look in '--zoom 3' '--rotate 90' '--rotate 180' '--rotate 270' '--round' '--tint 102030,ffffff' \
