@@ -5,6 +5,12 @@
 set -u
 . "$(dirname "$0")/shell/suites.sh"
 
+# CMake's projects, of which many compile the library and pico-sdk, share objects.
+SMEAR_OBJECTS=$PWD/build/test/objects
+CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
+export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
+rm -rf "$SMEAR_OBJECTS"
+
 exr() {
     command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
 }

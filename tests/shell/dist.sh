@@ -291,6 +291,7 @@ END
     # The real one, where it lies beside the repository or was unpacked for firmware.
     archive=${PICO_SDK_ARCHIVE:-../shared/third-party/pico-sdk-1.5.1.tar.xz}
     sdk=${PICO_SDK_PATH:-}
+    [ -n "$sdk" ] || [ ! -f build/pico/sdk/unpacked ] || sdk=$PWD/build/pico/sdk
     if [ -z "$sdk" ] && [ -f "$archive" ]; then
         sdk=$base/sdk
         mkdir -p "$sdk" && tar -C "$sdk" --strip-components=1 -xJf "$archive"
