@@ -11,6 +11,10 @@ base=$PWD/build/dist-test
 version=$(sh tools/dist/version.sh)
 rm -rf "$base"
 mkdir -p "$base"
+# The library is compiled once for all projects that want it alike.
+SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
+CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
+export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
 stand_ins=$PWD/tests/examples/stand_ins
 
 # Everything below comes out of the archives.
@@ -110,7 +114,7 @@ cat >"$board/platform.txt" <<END
 name=This machine
 version=1.0.0
 compiler.flags=-O1 -Wall -Wextra -Werror -DARDUINO={runtime.ide.version}
-recipe.c.o.pattern=${CC:-cc} -std=gnu11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
+recipe.c.o.pattern=sh "$PWD/tests/shell/launch_cached.sh" ${CC:-cc} -std=gnu11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.cpp.o.pattern=${CXX:-c++} -std=gnu++11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.ar.pattern=ar rcs "{archive_file_path}" "{object_file}"
 recipe.c.combine.pattern=${CXX:-c++} -o "{build.path}/{build.project_name}.elf" {object_files} "{build.path}/{archive_file}"
@@ -147,7 +151,7 @@ library LovyanGFX LovyanGFX.hpp LGFX_AUTODETECT.hpp
 library Adafruit_ST7789 Adafruit_ST7789.h
 library GFX_Library_for_Arduino Arduino_GFX_Library.h
 library U8g2 U8x8lib.h
-cp -r "$dist/arduino/smear" "$base/arduino-libraries/"     # once: the builder compiles again what is newer
+cp -r "$dist/arduino/smear" "$base/arduino-libraries/"
 sketch() { # EXAMPLE
     arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
         -fqbn tests:here:here -build-path "$base/arduino-build" "$dist/arduino/smear/examples/$1/$1.ino" &&

@@ -1,26 +1,27 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # launch_cached.sh COMPILER FLAGS... -o OBJECT -c SOURCE
-# For CMAKE_C_COMPILER_LAUNCHER: compiles a source only if nobody did before with the same compiler, flags and text after the
-# preprocessor, whatever project it belongs to. Objects are kept in the folder SMEAR_OBJECTS.
+# What other people's build tools call in the compiler's place (CMAKE_C_COMPILER_LAUNCHER): compiles a source only if nobody
+# did before with the same compiler, flags and text after the preprocessor, whatever project it belongs to. Objects are kept in
+# the folder SMEAR_OBJECTS.
 set -u
 cache=$SMEAR_OBJECTS
 object= source= flags= before=
 for word; do
     case $before in
     -o) object=$word ;;
-    -c) source=$word ;;
-    -I | -isystem | -include | -MF | -MT | -MQ) ;;
+    -I | -isystem | -include | -MF | -MT | -MQ) ;;                # names of files, which change nothing
     *)
         case $word in
-        -o | -c | -I* | -isystem | -include | -D* | -M*) ;;      # these are in the text, or say where files are
+        *.c) source=$word ;;
+        -o | -I* | -isystem | -include | -D* | -M*) ;;           # what they do is in the text
         *) flags="$flags $word" ;;
         esac
         ;;
     esac
     before=$word
 done
-case $source in *.c) [ -n "$object" ] || exec "$@" ;; *) exec "$@" ;; esac
+[ -n "$source" ] && [ -n "$object" ] || exec "$@"
 mkdir -p "$cache"
 "$@" -E -P || exit 1         # the text lies where the object will
 kept=$cache/$({ echo "$flags"; cat "$object"; } | cksum | tr ' ' -).o
