@@ -21,10 +21,11 @@ printf '%-14s %-4s %7s %7s %8s %5s %7s %7s %7s %7s %6s\n' target "" code tables 
 for pair in "$@"; do
     target=${pair%:*} optimization=${pair#*:}
     build=build/footprint/$target$optimization
+    # With CALLS=1 the target's own build has call graphs.
+    [ "${CALLS:-}" != 1 ] || [ "$optimization" != -O2 ] || build=build/$target
     log=$build.log
     mkdir -p "$build"
-    $make --no-print-directory -s TARGET="$target" BUILD="$build" \
-        OPT="$optimization -fcallgraph-info=su" "$build/demo.elf" >"$log" 2>&1 ||
+    $make --no-print-directory -s TARGET="$target" BUILD="$build" CALLS=1 OPT="$optimization" "$build/demo.elf" >"$log" 2>&1 ||
         { tail -5 "$log"; exit 1; }
     [ ! -e "platform/$target/gbarun.c" ] || $make --no-print-directory -s TARGET="$target" build/gba/gbarun
     run=$($make --no-print-directory -s TARGET="$target" print-run)
