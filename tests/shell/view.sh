@@ -361,6 +361,18 @@ done
 claim "options go before the board's" eval 'view $race --board gba --size 64x48 --frames 1 --crc &&
     equals "$(crcs)" "$(render_crcs $race 0-0 --size 64x48 --format rgb555 --arena 229376 \
     --method auto --quality draft --light encoded --keep-display --tile 16 --reach 8)"'
+kept_as_drawn() { # the picture is that of a display that is sent everything; less is sent
+    view builtin:suite/propeller --board rp2040 --frames 4 --crc --times || return 1
+    crcs >"$base/kept" && sent=$(sed -n 's/.* bus_ms=//p' "$base/out")
+    render_crcs builtin:suite/propeller 0-3 --size 240x240 --format rgb565be --quality draft --light encoded --tile 16 --reach 12 >"$base/want" || return 1
+    diff "$base/want" "$base/kept" && is_true "0 < $sent && $sent < 12"         # all of it: 13.9 ms at 66.5 MHz
+}
+claim "a board's display keeps what it shows" kept_as_drawn
+keeps_within() { # an arena does not make it forget
+    works render builtin:suite/propeller --size 96x72 --frames 0-3 --arena 100000 --keep-display --stats "$base/kept" &&
+        [ "$(grep -c '"kept":0' "$base/kept")" -eq 1 ]
+}
+claim "with little memory, too" keeps_within
 claim "what contradicts the board's goes before it, too" eval 'view $race --board rp2040 --target 1 --frames 1 --crc &&
     view $race --board oled --dither=diffuse --frames 1 --crc && view $race --board rp2040 --tile 8 --frames 1 --crc &&
     view $race --board lcd144 --reach 20 --frames 1 --crc'

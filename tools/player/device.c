@@ -24,6 +24,7 @@ static uint32_t clock_ticks(void *user)
 static int take_band(void *user, const smear_band *band)
 {
     struct device *device = user;
+    device->sent += band->size;
     if (!device->is_timed)
         picture_put_band(device->pixels, device->stride, (smear_format)device->desc.format, band);
     if (device->setup.band != NULL)
@@ -149,6 +150,23 @@ static bool is_limited(const struct device *device)
     return device->setup.arena > 0 || device->setup.max_triangles > 0;
 }
 
+/* What is kept from frame to frame would be lost in another context, and drawn again there is less to draw. */
+static bool is_drawn_once(const struct device *device)
+{
+    return device->desc.reuse.cache_static || device->desc.reuse.buffer_age != 0;
+}
+
+/* Whether the context may draw what asks for this desc. What limited memory makes of a frame depends on no other one, but
+ * where something is kept from frame to frame. */
+static bool has_room(const struct device *device, const smear_desc *desc)
+{
+    const smear_desc *has = &device->desc;
+    if (device->ctx == NULL || desc->max_draws > has->max_draws || desc->max_triangles > has->max_triangles)
+        return false;
+    return !is_limited(device) || is_drawn_once(device)
+        || (desc->max_draws == has->max_draws && desc->max_triangles == has->max_triangles);
+}
+
 bool device_fit(struct device *device, const struct presented *presented, struct failure *f)
 {
     smear_desc desc = full_desc(device, presented);
@@ -157,13 +175,9 @@ bool device_fit(struct device *device, const struct presented *presented, struct
                     presented->draw_count);
     if (smear_memory_size(&desc) == 0)
         return fail(f, "%u triangles are too many for the library", presented->triangle_count);
-    /* An arena's list of triangles depends on the draws beside it, and on no other frame. */
     if (device->setup.arena > 0 && !fit_arena(&desc, device->setup.arena, f))
         return false;
-    if (!is_limited(device) && device->ctx != NULL && desc.max_draws <= device->desc.max_draws &&
-        desc.max_triangles <= device->desc.max_triangles)
-        return true;
-    return make_context(device, &desc, f);
+    return has_room(device, &desc) || make_context(device, &desc, f);
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -172,6 +186,7 @@ static bool draw(struct device *device, const struct presented *presented, uint3
                  struct failure *f)
 {
     uint32_t start = clock_ticks(NULL);
+    device->sent = 0;
     int result = presented_submit(presented, device->ctx);
     *submit_ticks = clock_ticks(NULL) - start;
     if (result == SMEAR_OK)
@@ -207,12 +222,6 @@ bool device_draw(struct device *device, const struct presented *presented, struc
         if (!make_context(device, &larger, f))
             return false;
     }
-}
-
-/* What is kept from frame to frame would be lost in another context, and drawn again there is less to draw. */
-static bool is_drawn_once(const struct device *device)
-{
-    return device->desc.reuse.cache_static || device->desc.reuse.buffer_age != 0;
 }
 
 bool device_time(struct device *device, const struct presented *presented,

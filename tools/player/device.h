@@ -50,6 +50,7 @@ struct device {
     int width, height;                  /* of the display: where it is doubled, not those of the setup */
     uint8_t *pixels;                    /* the frame in the display's format, row after row */
     size_t stride, size;                /* bytes; of a page of 8 rows with SMEAR_L1_PAGES */
+    size_t sent;                        /* bytes of the last frame's bands: fewer where the display keeps tiles */
 };
 
 /* Smallest list of triangles a short arena is tried with. */

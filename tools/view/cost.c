@@ -47,6 +47,7 @@ void cost_count(const smear_stats *s, double work[COST_WORKS])
         is_timed |= smear_method_is_temporal(m) && s->tiles[m] > 0;
         is_filtered |= smear_method_is_filter(m) && s->tiles[m] > 0;
     }
+    const double all = (double)s->tiles_static + s->tiles_uniform + s->tiles_complex;
     double tiles = 0.0, instants = 1.0;
     if (s->tiles[SMEAR_ACCUMULATE] > 0 && s->pixels > 0)
         instants = (double)s->samples / s->pixels;
@@ -54,7 +55,7 @@ void cost_count(const smear_stats *s, double work[COST_WORKS])
     work[COST_FRAME] = 1.0;
     work[COST_TRIANGLE_IN] = s->triangles_in * instants;
     work[COST_TRIANGLE_DRAWN] = s->triangles_drawn;
-    work[COST_PIXEL] = s->pixels;
+    work[COST_PIXEL] = all > 0.0 ? s->pixels * (1.0 - s->tiles_kept / all) : s->pixels;     /* not those that the display has */
     work[COST_WINDOW] = is_filtered ? s->pixels : 0.0;
     work[COST_TIMED_TRIANGLE] = is_timed ? s->triangles_drawn : 0.0;
     for (int i = 0; i < METHODS; i++)

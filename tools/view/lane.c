@@ -108,6 +108,8 @@ bool lane_draw(struct lane *lane, struct presenter *presenter, const struct inst
     if (!device_draw(&lane->device, presented, f))
         return false;
     smear_get_stats(lane->device.ctx, &lane->stats);
+    if (lane->options.keep_display)         /* not of what was sent, but of what is shown */
+        lane->stats.crc32 = device_crc(&lane->device);
     bool ok = decode(lane, f);
     lane->wall_us = clock_us() - start;
     return ok;

@@ -254,7 +254,7 @@ static void send(struct view *v)
 {
     size_t row_bytes = (size_t)v->width * sizeof *v->picture;
     bool old_above;
-    v->wire_us = bus_wire_us(&v->wish.bus, v->main.device.size);
+    v->wire_us = bus_wire_us(&v->wish.bus, v->main.device.sent);
     v->board_us = 0.0;
     if (v->wish.core != NULL)
         v->board_us = cost_us(v->wish.core, v->wish.cpu_hz, &v->main.stats);
