@@ -134,6 +134,23 @@
 #define SMEAR_ENTER_STAGE(stage) ((void)0)
 #endif
 
+/* Called by smear_init for parts of its memory, with the desc, the part, its address (or null, while memory is only measured)
+ * and its bytes; returns where it shall lie, at a multiple of 8. A port whose memories differ in speed returns an address
+ * in a fast one. Colour, depth, instants and bands of 16 bits per pixel and more are written by 16 and 32 bits, by memcpy and
+ * by memset. */
+#define SMEAR_PART_CONTEXT 0            /* the context itself */
+#define SMEAR_PART_COLOR 1              /* of the rows that are drawn: 32 bits per pixel */
+#define SMEAR_PART_DEPTH 2              /* of these: 16 bits */
+#define SMEAR_PART_INSTANTS 3           /* of a strip, one at a time, and finished pixels: 32 bits */
+#define SMEAR_PART_SUMS 4               /* of a strip's instants, with a depth and a list */
+#define SMEAR_PART_BAND 5               /* rows in the display's format */
+#define SMEAR_PART_SEGMENTS 6           /* what triangles of one draw share */
+#define SMEAR_PART_TRIANGLES 7          /* these, and vertices */
+#define SMEAR_PART_DRAWS 8              /* as they were submitted */
+#ifndef SMEAR_PLACE
+#define SMEAR_PLACE(desc, part, address, bytes) (address)
+#endif
+
 /* 1 where the stack lies in faster memory than the arena, and 2 kB more of it are there: what the loop over
  * triangles needs at every turn is kept on the stack meanwhile, the vertex cache with it. */
 #ifndef SMEAR_FAST_STACK

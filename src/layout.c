@@ -61,8 +61,8 @@ static void lay_out_window(struct smear_window *w, struct smear_arena *a, const 
     w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
     if (caches_static(d))
         w->ring = max_i32(w->ring, d->height);
-    w->color = arena_take(a, plane_of(w), 4);
-    w->depth = arena_take(a, plane_of(w), 2);
+    w->color = SMEAR_PLACE(d, SMEAR_PART_COLOR, arena_take(a, plane_of(w), 4), plane_of(w) * 4);
+    w->depth = SMEAR_PLACE(d, SMEAR_PART_DEPTH, arena_take(a, plane_of(w), 2), plane_of(w) * 2);
     w->moving = arena_take(a, (size_t)w->columns, 1);
 }
 
@@ -119,7 +119,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
-    t->work = arena_take(a, d->workers, t->work_bytes);
+    t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
 }
 
 static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
@@ -181,7 +181,7 @@ static void lay_out_layers(struct smear_context *c, struct smear_arena *a, const
 
 static void lay_out_draws(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
-    c->submitted = arena_take(a, d->max_draws, sizeof *c->submitted);
+    c->submitted = SMEAR_PLACE(d, SMEAR_PART_DRAWS, arena_take(a, d->max_draws, sizeof *c->submitted), d->max_draws * sizeof *c->submitted);
     smear_history_lay_out(&c->history, a, d->max_draws, d->reuse.one_pose);
     c->raster_draw = arena_take(a, d->max_draws, sizeof *c->raster_draw);
 }
@@ -193,9 +193,10 @@ static void lay_out_store(struct smear_context *c, struct smear_arena *a, const 
     g->row_px = row_px(d);
     g->row_count = c->rows.window.rows;
     g->pool_words = pool_words(d);
-    g->pool = arena_take(a, g->pool_words, 4);
+    g->pool = SMEAR_PLACE(d, SMEAR_PART_TRIANGLES, arena_take(a, g->pool_words, 4), g->pool_words * 4);
     g->segment_limit = min_u32(d->max_draws + 2u + g->pool_words / 50000u, 65536u);    /* 16-bit numbers */
-    g->segment = arena_take(a, g->segment_limit, sizeof *g->segment);
+    g->segment = SMEAR_PLACE(d, SMEAR_PART_SEGMENTS, arena_take(a, g->segment_limit, sizeof *g->segment),
+                             g->segment_limit * sizeof *g->segment);
     g->opaque_last = arena_take(a, rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, rows, sizeof *g->blend_last);
     g->moving_rows = has_layers(d) ? 2 : 0;
@@ -205,6 +206,13 @@ static void lay_out_store(struct smear_context *c, struct smear_arena *a, const 
     c->assembler.cache_mask = d->vertex_cache - 1u;
 }
 
+static void lay_out_scratch(struct smear_rows *rows, struct smear_arena *a, const smear_desc *d)
+{
+    const size_t pixels = (size_t)d->workers * (size_t)d->band_rows
+                        * (size_t)(is_temporal(d) ? smear_strip_columns(d->strip, d->width) : d->strip);
+    rows->scratch = SMEAR_PLACE(d, SMEAR_PART_INSTANTS, arena_take(a, pixels, 4), pixels * 4);
+}
+
 void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
     struct smear_rows *rows = &c->rows;
@@ -212,8 +220,7 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     lay_out_filtered(&c->filtered, &rows->window, a, d);
     c->temporal.strip = d->strip;
     if (has_window(d) || is_temporal(d))
-        rows->scratch = arena_take(a, (size_t)d->workers * (size_t)d->band_rows
-                                          * (size_t)(is_temporal(d) ? smear_strip_columns(d->strip, d->width) : d->strip), 4);
+        lay_out_scratch(rows, a, d);
     lay_out_temporal(c, a, d);
     lay_out_damage(c, a, d);
     lay_out_layers(c, a, d);
@@ -224,8 +231,10 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
         c->sums.sum = arena_take(a, (size_t)d->width * (size_t)(c->sums.whole ? d->height : row_px(d)),
                                  3 * sizeof *c->sums.sum);
     rows->bands.bytes = band_bytes(d);
-    for (int i = 0; i < d->bands; i++)
-        rows->bands.buffer[i] = arena_take(a, rows->bands.bytes + (i == 0 ? band_state_bytes(d) : 0), 1);
+    for (int i = 0; i < d->bands; i++) {
+        const size_t bytes = rows->bands.bytes + (i == 0 ? band_state_bytes(d) : 0);
+        rows->bands.buffer[i] = SMEAR_PLACE(d, SMEAR_PART_BAND, arena_take(a, bytes, 1), bytes);
+    }
     lay_out_draws(c, a, d);
     lay_out_store(c, a, d);
 }

@@ -57,7 +57,7 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
         return SMEAR_ERR_MEMORY;
 
     struct smear_arena a = { (uint8_t *)memory, 0 };
-    struct smear_context *c = arena_take(&a, 1, sizeof *c);
+    struct smear_context *c = SMEAR_PLACE(&d, SMEAR_PART_CONTEXT, arena_take(&a, 1, sizeof *c), sizeof *c);
     __builtin_memset(c, 0, sizeof *c);
     smear_layout(c, &a, &d);
     c->desc = d;

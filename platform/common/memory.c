@@ -15,6 +15,15 @@ void *memset(void *to, int value, size_t count);
 int memcmp(const void *a, const void *b, size_t count);
 
 typedef uint32_t __attribute__((may_alias)) word;
+typedef uint16_t __attribute__((may_alias)) half;
+
+/* A port may name a file with copy_words(), for COPY_LEAST bytes and more, and with COPY_HALVES: memory that takes no single
+ * bytes, so that what consists of halfwords is written by those. */
+#ifdef PLATFORM_COPY_FILE
+#include PLATFORM_COPY_FILE
+#else
+enum { COPY_HALVES = 0 };
+#endif
 
 #ifdef __arm__
 /* Four words in two instructions, which no compiler makes of a loop. */
@@ -87,6 +96,14 @@ void *memcpy(void *restrict to, const void *restrict from, size_t count)
     if ((((uintptr_t)to | (uintptr_t)from) & 3) == 0) {
         word *w = (word *)to;
         const word *s = (const word *)from;
+#ifdef PLATFORM_COPY_FILE
+        if (count >= COPY_LEAST) {
+            copy_words(w, s, count / 4);
+            w += count / 4;
+            s += count / 4;
+            count &= 3;
+        }
+#endif
         if (count >= 16) {
             count -= 16;
             copy_fours(&w, &s, &count);
@@ -97,6 +114,9 @@ void *memcpy(void *restrict to, const void *restrict from, size_t count)
         byte = (uint8_t *)w;
         source = (const uint8_t *)s;
     }
+    if (COPY_HALVES && (((uintptr_t)byte | (uintptr_t)source) & 1) == 0)
+        for (; count >= 2; count -= 2, byte += 2, source += 2)
+            *(half *)(void *)byte = *(const half *)(const void *)source;
     while (count-- != 0)
         *byte++ = *source++;
     return to;
@@ -116,6 +136,11 @@ void *memmove(void *to, const void *from, size_t count)
 void *memset(void *to, int value, size_t count)
 {
     uint8_t *byte = to;
+    if (COPY_HALVES && ((uintptr_t)byte & 3) == 2 && count >= 2) {
+        *(half *)(void *)byte = (half)((uint8_t)value * 0x101u);
+        byte += 2;
+        count -= 2;
+    }
     for (; count != 0 && ((uintptr_t)byte & 3) != 0; count--)
         *byte++ = (uint8_t)value;
     word *w = (word *)(void *)byte, fill = (uint8_t)value * 0x01010101u;
@@ -127,6 +152,11 @@ void *memset(void *to, int value, size_t count)
     for (; count >= 4; count -= 4)
         *w++ = fill;
     byte = (uint8_t *)w;
+    if (COPY_HALVES && count >= 2) {
+        *(half *)(void *)byte = (half)fill;
+        byte += 2;
+        count -= 2;
+    }
     while (count-- != 0)
         *byte++ = (uint8_t)value;
     return to;

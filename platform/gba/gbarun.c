@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gbarun.c - host program: runs a Game Boy Advance program in libmgba, without a window.
  *
- *     gbarun [-n FRAMES] [-s SHOT.ppm] [-k KEYS] [-p PROFILE] PROGRAM.gba [ARGUMENT...]
+ *     gbarun [-n FRAMES] [-s SHOT.ppm] [-k KEYS] [-p PROFILE] [-d DATA] PROGRAM.gba [ARGUMENT...]
  *
  * Prints what the program prints; ends with its exit status, with 99 when it does what it must not
  * (like an access to nowhere), or with 124 after FRAMES video frames [400000]. The arguments
@@ -9,12 +9,15 @@
  *
  * -s: takes a picture of the screen once the program has printed "shown", and ends. -k: a mask of
  * keys to press then, before a second "shown". -p: single steps and writes "ADDRESS CYCLES COUNT"
- * for every word of code that ran. */
+ * for every word of code that ran, then "jump FROM TO COUNT". -d: writes "ADDRESS CYCLES" and how often
+ * it was read by 8, 16 and 32 bits, and written by these, for every 8 bytes of fast, slow and video memory, and of ROM's
+ * first MB. */
 #include <mgba/flags.h>         /* first: it says how the library was built */
 
 #include <mgba/core/core.h>
 #include <mgba/core/log.h>
 #include <mgba/core/timing.h>
+#include <mgba/internal/arm/arm.h>
 #include <mgba-util/vfs.h>
 
 #include <stdbool.h>
@@ -53,26 +56,183 @@ static void take_log(struct mLogger *logger, int category, enum mLogLevel level,
     printf("%s\n", text);
 }
 
-/* --- profile: one slot per word of ROM (256 kB), fast (and its first mirror), slow and video memory --- */
+/* --- profile: one slot per word of ROM (its first MB), fast (and its first mirror), slow and video memory --- */
 
-enum { BANKS = 4, SLOTS = 65536 };
+enum { BANKS = 4, SLOTS = 262144 };
 static struct { uint64_t cycles, count; } profile[BANKS][SLOTS];
 static const uint32_t bank_base[BANKS] = { 0x08000000u, 0x03000000u, 0x02000000u, 0x06000000u };
 
+/* --- data: what loads and stores took, by 8 bytes, in the same memories --- */
+
+enum { DATA_SLOTS = 131072, WIDTHS = 3 };
+static struct { int64_t cycles; uint32_t loads[WIDTHS], stores[WIDTHS]; } data[BANKS][DATA_SLOTS];
+static struct ARMMemory plain;
+
+static void note(uint32_t address, bool stores, int width, uint32_t words, int cycles)
+{
+    for (int bank = 0; bank < BANKS; bank++)
+        if (address >> 24 == bank_base[bank] >> 24) {
+            const uint32_t slot = (address & (bank == 1 ? 0x7fffu : bank == 0 ? 0xfffffu : 0x3ffffu)) >> 3;
+            uint32_t *count = stores ? data[bank][slot].stores : data[bank][slot].loads;
+            data[bank][slot].cycles += cycles;
+            count[width] += words;
+        }
+}
+
+static uint32_t load_32(struct ARMCore *cpu, uint32_t address, int *wait)
+{
+    int took = 0;
+    const uint32_t value = plain.load32(cpu, address, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, false, 2, 1, took);
+    return value;
+}
+
+static uint32_t load_16(struct ARMCore *cpu, uint32_t address, int *wait)
+{
+    int took = 0;
+    const uint32_t value = plain.load16(cpu, address, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, false, 1, 1, took);
+    return value;
+}
+
+static uint32_t load_8(struct ARMCore *cpu, uint32_t address, int *wait)
+{
+    int took = 0;
+    const uint32_t value = plain.load8(cpu, address, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, false, 0, 1, took);
+    return value;
+}
+
+static void store_32(struct ARMCore *cpu, uint32_t address, int32_t value, int *wait)
+{
+    int took = 0;
+    plain.store32(cpu, address, value, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, true, 2, 1, took);
+}
+
+static void store_16(struct ARMCore *cpu, uint32_t address, int16_t value, int *wait)
+{
+    int took = 0;
+    plain.store16(cpu, address, value, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, true, 1, 1, took);
+}
+
+static void store_8(struct ARMCore *cpu, uint32_t address, int8_t value, int *wait)
+{
+    int took = 0;
+    plain.store8(cpu, address, value, &took);
+    if (wait != NULL)
+        *wait += took;
+    note(address, true, 0, 1, took);
+}
+
+static void note_words(uint32_t address, int mask, enum LSMDirection direction, bool stores, int took)
+{
+    const int words = __builtin_popcount((unsigned)mask);
+    uint32_t first = address;
+    switch (direction) {
+    case LSM_IA: break;
+    case LSM_IB: first = address + 4; break;
+    case LSM_DA: first = address - 4 * (uint32_t)words + 4; break;
+    case LSM_DB: first = address - 4 * (uint32_t)words; break;
+    }
+    for (int i = 0; i < words; i++)
+        note(first + 4 * (uint32_t)i, stores, 2, 1, (int)(took * (i + 1) / words - took * i / words));
+}
+
+static uint32_t load_words(struct ARMCore *cpu, uint32_t base, int mask, enum LSMDirection direction, int *wait)
+{
+    int took = 0;
+    const uint32_t value = plain.loadMultiple(cpu, base, mask, direction, &took);
+    if (wait != NULL)
+        *wait += took;
+    note_words(base, mask, direction, false, took);
+    return value;
+}
+
+static uint32_t store_words(struct ARMCore *cpu, uint32_t base, int mask, enum LSMDirection direction, int *wait)
+{
+    int took = 0;
+    const uint32_t value = plain.storeMultiple(cpu, base, mask, direction, &took);
+    if (wait != NULL)
+        *wait += took;
+    note_words(base, mask, direction, true, took);
+    return value;
+}
+
+static void watch_data(struct mCore *core)
+{
+    struct ARMCore *cpu = core->cpu;
+    plain = cpu->memory;
+    cpu->memory.load32 = load_32;
+    cpu->memory.load16 = load_16;
+    cpu->memory.load8 = load_8;
+    cpu->memory.store32 = store_32;
+    cpu->memory.store16 = store_16;
+    cpu->memory.store8 = store_8;
+    cpu->memory.loadMultiple = load_words;
+    cpu->memory.storeMultiple = store_words;
+}
+
+static bool write_data(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return false;
+    for (int bank = 0; bank < BANKS; bank++)
+        for (uint32_t i = 0; i < DATA_SLOTS; i++)
+            if (data[bank][i].cycles != 0)
+                fprintf(file, "%08x %lld %u %u %u %u %u %u\n", (unsigned)(bank_base[bank] + i * 8),
+                        (long long)data[bank][i].cycles, data[bank][i].loads[0], data[bank][i].loads[1],
+                        data[bank][i].loads[2], data[bank][i].stores[0], data[bank][i].stores[1],
+                        data[bank][i].stores[2]);
+    return fclose(file) == 0;
+}
+
+/* Jumps, by where they come from and where they go: calls are those to a function's start. */
+enum { JUMPS = 1 << 17 };
+static struct { uint32_t from, to; uint64_t count; } jump[JUMPS];
+
+static void note_jump(uint32_t from, uint32_t to)
+{
+    uint32_t at = (from * 2654435761u ^ to * 40503u) >> 4 & (JUMPS - 1);
+    for (int tries = 0; tries < JUMPS && jump[at].count != 0 && (jump[at].from != from || jump[at].to != to); tries++)
+        at = (at + 1) & (JUMPS - 1);
+    if (jump[at].count == 0 || (jump[at].from == from && jump[at].to == to)) {
+        jump[at].from = from;
+        jump[at].to = to;
+        jump[at].count++;
+    }
+}
+
 static void step_frame(struct mCore *core)
 {
+    static uint32_t last;
     uint32_t frame = core->frameCounter(core);
     while (core->frameCounter(core) == frame && program.status < 0) {
         uint32_t pc = 0, flags = 0;
         core->readRegister(core, "pc", &pc);
         core->readRegister(core, "cpsr", &flags);
         pc -= flags & 0x20 ? 2 : 4;     /* libmgba 0.10 is one instruction ahead between steps */
+        if (pc - last > 4)
+            note_jump(last, pc);
+        last = pc;
         uint32_t before = (uint32_t)mTimingCurrentTime(core->timing);
         core->step(core);
         uint32_t took = (uint32_t)mTimingCurrentTime(core->timing) - before;
         for (int bank = 0; bank < BANKS; bank++)
             if (pc >> 24 == bank_base[bank] >> 24) {
-                uint32_t slot = (pc & (bank == 1 ? 0xffffu : 0x3ffffu)) >> 2;
+                uint32_t slot = (pc & (bank == 1 ? 0xffffu : bank == 0 ? 0xfffffu : 0x3ffffu)) >> 2;
                 profile[bank][slot].cycles += took;
                 profile[bank][slot].count++;
             }
@@ -90,6 +250,10 @@ static bool write_profile(const char *path)
                 fprintf(file, "%08x %llu %llu\n", (unsigned)(bank_base[bank] + i * 4),
                         (unsigned long long)profile[bank][i].cycles,
                         (unsigned long long)profile[bank][i].count);
+    for (int i = 0; i < JUMPS; i++)
+        if (jump[i].count != 0)
+            fprintf(file, "jump %08x %08x %llu\n", (unsigned)jump[i].from, (unsigned)jump[i].to,
+                    (unsigned long long)jump[i].count);
     return fclose(file) == 0;
 }
 
@@ -152,7 +316,7 @@ static uint8_t *read_program(const char *path, size_t *size)
 
 int main(int argc, char **argv)
 {
-    const char *shot = NULL, *profile_path = NULL;
+    const char *shot = NULL, *profile_path = NULL, *data_path = NULL;
     int limit = 400000, at = 1;
     uint32_t keys = 0;
     for (; at + 1 < argc && argv[at][0] == '-'; at += 2) {
@@ -161,11 +325,12 @@ int main(int argc, char **argv)
         case 's': shot = argv[at + 1]; break;
         case 'k': keys = (uint32_t)strtoul(argv[at + 1], NULL, 0); break;
         case 'p': profile_path = argv[at + 1]; break;
+        case 'd': data_path = argv[at + 1]; break;
         default: argc = 0;
         }
     }
     if (at >= argc) {
-        fprintf(stderr, "usage: gbarun [-n FRAMES] [-s SHOT.ppm] [-k KEYS] [-p PROFILE] "
+        fprintf(stderr, "usage: gbarun [-n FRAMES] [-s SHOT.ppm] [-k KEYS] [-p PROFILE] [-d DATA] "
                         "PROGRAM.gba [ARGUMENT...]\n");
         return 2;
     }
@@ -198,6 +363,8 @@ int main(int argc, char **argv)
     }
     core->opts.skipBios = true;
     core->reset(core);
+    if (data_path != NULL)
+        watch_data(core);
 
     bool ok = true;
     if (shot != NULL) {
@@ -215,7 +382,7 @@ int main(int argc, char **argv)
         else
             core->runFrame(core);
     }
-    ok = ok && (profile_path == NULL || write_profile(profile_path));
+    ok = ok && (profile_path == NULL || write_profile(profile_path)) && (data_path == NULL || write_data(data_path));
     mCoreConfigDeinit(&core->config);
     core->deinit(core);
     free(pixels);

@@ -23,6 +23,9 @@ CFLAGS += -DSMEAR_WITH_FOG=0
 CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
 $(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o: CFLAGS += -Os
 
+# Video memory takes no single bytes.
+$(BUILD)/platform/common/memory.o: CFLAGS += -D'PLATFORM_COPY_FILE="platform/gba/copy.h"'
+
 PLATFORM_SRC := platform/gba/platform.c $(addprefix platform/common/,arena.c arguments.c memory.c)
 PLATFORM_OBJ := $(BUILD)/platform/gba/start.o $(BUILD)/platform/gba/arithmetic.o
 RUN_NEEDS    := $(BUILD)/gbarun
@@ -36,7 +39,7 @@ RUN       := platform/gba/run.sh
 RUN_BENCH := platform/gba/run.sh
 
 TARGET_TESTS := golden
-SYMBOLS_HOOKS := gba_enter_stage
+SYMBOLS_HOOKS := gba_enter_stage|gba_place
 
 # Of gba.ld.
 STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/gba/gba.ld)
@@ -84,20 +87,20 @@ symbols-test: gba-stages-test
 gba-stages-test: $(BUILD)/libsmear.a
 	sh tests/shell/gba_stages.sh $<
 
-## chooses again what lies in the Game Boy Advance's fast memory, and when; HOT_WAYS: for which ways to blur
+## chooses again what lies in the Game Boy Advance's fast memory, and when, by measuring
 gba-hot: $(BUILD)/gbarun
 	@mkdir -p $(BUILD)/hot
-	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(LIB)
-	for name in $(notdir $(HOT)); do : > $(BUILD)/hot/$$name; done
-	$(CC) -L$(BUILD)/hot $(LDFLAGS) $(TEST_LDFLAGS) -o $(BUILD)/hot/demo.elf $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)
-	for way in $(HOT_WAYS); do \
-	    $(RUN) -p $(BUILD)/hot/$$way.profile $(BUILD)/hot/demo.elf cost gba $$way 1 || exit 1; \
-	done
-	sh platform/gba/hot.sh $(BUILD)/hot $(LIB) $(HOT_BYTES) $(WARM_BYTES) $(HOT_WAYS:%=$(BUILD)/hot/%.profile)
+	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(GAME_OBJ) $(LIB)
+	LINK_DEMO='$(CC) -L$(BUILD)/hot $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-S -o $(BUILD)/hot/demo.elf $(FIRMWARE_OBJ) $(LIB) $(LDLIBS)' \
+	LINK_GAME='$(CC) -L$(BUILD)/hot $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-S -o $(BUILD)/hot/game.elf $(GAME_OBJ) $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(LIB) $(LDLIBS)' \
+	    sh platform/gba/hot.sh $(BUILD)/hot $(LIB)
 	mv $(HOT:platform/gba/%=$(BUILD)/hot/%) platform/gba/
 
-# Bytes for the functions: fast memory without the stack, interrupts, arithmetic.S and veneers.
-HOT_WAYS  ?= none auto-balanced
-HOT_BYTES ?= 22600
-# And of video memory, without veneers.
-WARM_BYTES ?= 15600
+.PHONY: gba-places
+## what each part of the library's memory would gain by lying in the Game Boy Advance's video or fast memory, by measuring
+gba-places: $(BUILD)/gbarun
+	@mkdir -p $(BUILD)/places
+	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(LIB)
+	$(CC) $(CFLAGS) -Iinclude -Isrc -I. -std=c11 -O2 -DGBA_SAYS_PLACES=1 -c -o $(BUILD)/places/platform.o platform/gba/platform.c
+	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -o $(BUILD)/places/demo.elf $(BUILD)/places/platform.o $(filter-out %/gba/platform.o,$(FIRMWARE_OBJ)) $(LIB) $(LDLIBS)
+	sh platform/gba/places.sh $(BUILD)/places
