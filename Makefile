@@ -53,10 +53,6 @@ $(error no TARGET=$(TARGET): make help lists them)
 endif
 include platform/$(TARGET)/target.mk
 
-# CALLS=1: objects of the library come with the compiler's call graph, which stack-test reads.
-ifeq ($(CALLS),1)
-$(BUILD)/src/%.o: CFLAGS += -fcallgraph-info=su
-endif
 
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
@@ -103,6 +99,7 @@ all: $(BIN)/smear $(BIN)/smear-bench
 $(BUILD)/%.o: %.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
+	$(if $(CALLS),,$(if $(wildcard $(@:.o=.ci)),rm -f $(@:.o=.ci)))
 	$(CC) $(CFLAGS) -c -o $@ $<
 
 ifneq ($(BUILD),build/host)
@@ -110,6 +107,15 @@ build/host/%.o: %.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
 	$(HOST_CC) $(HOST_CFLAGS) -c -o $@ $<
+endif
+
+# CALLS=1: objects of another machine's library come with the compiler's call graph, which stack-test reads; those that have
+# none are compiled again.
+ifeq ($(CALLS)$(filter host,$(TARGET)),1)
+$(BUILD)/src/%.o: CFLAGS += -fcallgraph-info=su
+ifeq ($(findstring -flto,$(LDFLAGS)),)
+$(foreach object,$(LIB_SRC:%.c=$(BUILD)/%.o),$(if $(wildcard $(object:.o=.ci)),,$(object))): always
+endif
 endif
 
 $(LIB): $(call objects,$(LIB_SRC))
