@@ -163,5 +163,19 @@ int main(void)
     for (uint32_t i = 0; i < 256; i++)
         t[i] = (i * 31 + ((i + (i >> 7)) * 31 >> 8) + 2) >> 2;      /* as convert.c has it */
     print_table("code to level of 31, in 1/64", "uint16_t", "smear_levels_31", t, 256);
+
+    for (int i = 0; i < 128; i++) {     /* of the middle of each 1/128 of a radius */
+        const double d = (i + 0.5) / 128, half = sqrt(1 - d * d);
+        t[i] = (uint32_t)floor(256 / half + 0.5) << 16 | (uint32_t)floor(32768 * pow(half, 5) + 0.5);
+    }
+    print_table("across a streak: 2^24 / h, whole multiples of 2^16, + 2^15 h^5 for half chords h at (i + 1/2) / 128 radii",
+                "uint32_t", "smear_streak_across", t, 128);
+
+    for (int i = 0; i < 256; i++) {     /* 15/16 of the integral of (1 - s^2)^2 from -1 */
+        const double s = (i - 127.5) / 128;
+        t[i] = (uint32_t)fmin(65535, floor(65536 * (0.5 + 15.0 / 16 * s * (1 - s * s * (2.0 / 3 - s * s / 5))) + 0.5));
+    }
+    print_table("end of a streak: the part of a chord's light up to (i - 127.5) / 128 of its half, q16", "uint16_t",
+                "smear_streak_end", t, 256);
     return 0;
 }

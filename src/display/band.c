@@ -97,17 +97,11 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                      (smear_dither)rows->desc->display.dither);
 }
 
-/* Converts columns [x0, x1) of row y with what lies over them. `depth`: of the scene there; `points`: where they may be. */
-static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0,
-                                           int32_t x1, int32_t y, const struct overlay_box *points)
+/* Converts columns [x0, x1) of row y with what lies over them. */
+static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;
-    const bool sparks = y >= points->y0 && y < points->y1;
-    struct overlay_box box = smear_overlay_row(rows->overlay, y);
-    if (sparks) {
-        box.x0 = min_i32(box.x0, points->x0);
-        box.x1 = max_i32(box.x1, points->x1);
-    }
+    const struct overlay_box box = smear_overlay_row(rows->overlay, y);
     /* Parts begin and end on whole bytes of every format. */
     const int32_t first = clamp_i32(box.x0, x0, x1) & ~7, covered = max_i32(first, x0), end = min_i32((box.x1 + 7) & ~7, x1);
     uint32_t part[OVERLAY_PART];
@@ -120,11 +114,6 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
     for (int32_t x = covered, next; x < end; x = next) {
         const uint32_t *pixels = in + (x - x0);
         next = min_i32((x & ~7) + OVERLAY_PART, end);
-        if (sparks && points->x0 < next && points->x1 > x) {
-            __builtin_memcpy(part, pixels, (size_t)(next - x) * sizeof *part);
-            smear_points_draw(rows, part, depth + (x - x0), x, next, y);
-            pixels = part;
-        }
         if (smear_overlay_draw(rows->overlay, part, pixels, x, next, y, frame_is_linear(&rows->raster)))
             pixels = part;
         convert(r, pixels, x, next, y);
@@ -133,40 +122,20 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
         convert(r, in + (end - x0), end, x1, y);
 }
 
-/* What lies over some columns of the job's rows. */
-struct cover {
-    bool any;
-    struct overlay_box points;          /* where points may be; empty where none are */
-};
-
-static inline struct cover cover_of(const struct row_job *r, int32_t x0, int32_t x1)
-{
-    const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
-    struct cover cover = { false, { x1, 0, x0, 0 } };
-    if (!rows_have_overlay(r->rows))
-        return cover;
-    if (rows_have_points(r->rows))
-        cover.points = smear_points_box(r->rows, &box);
-    cover.any = cover.points.x0 < cover.points.x1 || smear_overlay_touches(r->rows->overlay, &box);
-    return cover;
-}
-
-static void convert_row(const struct row_job *r, const uint32_t *in, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y,
-                        const struct cover *cover)
-{
-    if (SMEAR_WITH_OVERLAY && cover->any)
-        convert_covered(r, in, depth, x0, x1, y, &cover->points);
-    else
-        convert(r, in, x0, x1, y);
-}
-
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
                              int32_t x1)
 {
-    const struct cover cover = cover_of(r, x0, x1);
-    for (int32_t y = job_top(r); x0 < x1 && y < job_bottom(r); y++)
-        convert_row(r, t->color + target_row(&t->color_rows, t, y) + x0, t->depth + target_row(&t->window_rows, t, y) + x0, x0,
-                    x1, y, &cover);
+    const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
+    const bool covered = rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
+    if (rows_have_points(r->rows))
+        smear_points_draw(r->rows, t, &box);
+    for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++) {
+        const uint32_t *in = t->color + target_row(&t->color_rows, t, y) + x0;
+        if (SMEAR_WITH_OVERLAY && covered)
+            convert_covered(r, in, x0, x1, y);
+        else
+            convert(r, in, x0, x1, y);
+    }
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
@@ -176,25 +145,29 @@ void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
     smear_band_convert_rows(r, &t, x0, x1);
 }
 
-void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile)
+/* Points `t` at rows of a tile apart from the window, which shares its depths. */
+static void tile_target(const struct row_job *r, int column, uint32_t *tile, struct smear_raster_target *t)
 {
-    const struct smear_window *w = &r->rows->window;
-    const int32_t x0 = tile_left(r->rows, column), x1 = tile_right(r->rows, column);
-    const struct cover cover = cover_of(r, x0, x1);
-    for (int32_t y = job_top(r); y < job_bottom(r); y++, tile += w->tile)
-        convert_row(r, tile, w->depth + window_ring_row(w, y) * w->width + x0, x0, x1, y, &cover);
+    const struct smear_rows *rows = r->rows;
+    smear_window_target(rows, job_top(r), job_bottom(r), t);
+    t->x0 = tile_left(rows, column);
+    t->x1 = tile_right(rows, column);
+    t->color = tile;
+    t->color_rows = (struct smear_plane_rows){ rows->window.tile, 0, rows->window.tile, t->x0 };
+}
+
+void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile)
+{
+    struct smear_raster_target t;
+    tile_target(r, column, tile, &t);
+    smear_band_convert_rows(r, &t, t.x0, t.x1);
 }
 
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)
 {
-    const struct smear_rows *rows = r->rows;
     struct smear_raster_target t;
-    smear_window_target(rows, job_top(r), job_bottom(r), &t);
-    t.x0 = tile_left(rows, column);
-    t.x1 = tile_right(rows, column);
-    t.color = tile;
-    t.color_rows = (struct smear_plane_rows){ rows->window.tile, 0, rows->window.tile, t.x0 };
-    smear_raster_list(&rows->raster, &t, rows->blend);
+    tile_target(r, column, tile, &t);
+    smear_raster_list(&r->rows->raster, &t, r->rows->blend);
 }
 
 static void convert_job(void *argument, int job, int worker)

@@ -44,7 +44,7 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1);
 
 /* Converts a tile of finished pixels, rows a tile apart. */
-void smear_band_convert_tile(const struct row_job *r, int column, const uint32_t *tile);
+void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile);
 
 /* Draws blended triangles of the row (rows->blend) over the job's rows of a tile, finished pixels. */
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* points.c - see points.h. Lengths along and across a streak are in radii of its dot, q13; weights in q15 and q16,
- * those of pixels at most one. */
+/* points.c - see points.h. Lengths along and across a streak are in radii of its dot, q13; weights of pixels, at most one,
+ * in q15. */
 #include "display/points.h"
+
+#include "base/fixmath.h"
 
 #if SMEAR_WITH_OVERLAY
 
@@ -38,73 +40,160 @@ bool smear_points_touch(const struct smear_rows *rows, int32_t y0, int32_t y1)
     return false;
 }
 
-struct overlay_box smear_points_box(const struct smear_rows *rows, const struct overlay_box *area)
+bool smear_points_listed(const struct smear_rows *rows, int32_t *x0, int32_t *x1)
 {
-    struct overlay_box all = { area->x1, area->y1, area->x0, area->y0 };
-    for (uint32_t i = rows->points; i != SMEAR_NO_POINT;) {
-        const smear_point_place *p = place_of(rows, i);
-        i = p->next;
-        if (p->x0 >= area->x1 || p->x1 <= area->x0 || p->y0 >= area->y1 || p->y1 <= area->y0)
-            continue;
-        all.x0 = min_i32(all.x0, max_i32(p->x0, area->x0));
-        all.x1 = max_i32(all.x1, min_i32(p->x1, area->x1));
-        all.y0 = min_i32(all.y0, max_i32(p->y0, area->y0));
-        all.y1 = max_i32(all.y1, min_i32(p->y1, area->y1));
+    int32_t left = *x1, right = *x0;
+    for (uint32_t i = rows->points; i != SMEAR_NO_POINT; i = place_of(rows, i)->next) {
+        const int32_t from = max_i32(place_of(rows, i)->x0, *x0), to = min_i32(place_of(rows, i)->x1, *x1);
+        left = from < to ? min_i32(left, from) : left;
+        right = from < to ? max_i32(right, to) : right;
     }
-    return all;
+    *x0 = left;
+    *x1 = right;
+    return left < right;
 }
 
 /* ------------------------------------------------------------------ pixels */
 
-enum { RADIUS = 1 << SMEAR_POINT_RADIUS };
-
-/* A point while a part of a row is drawn. */
-struct brush {
-    uint32_t light[3];        /* of its colour, linear */
-    uint32_t red_blue, green; /* codes: two as in a pixel, one alone */
-    uint16_t depth;
-    bool blends, linear;
+enum {
+    RADIUS = 1 << SMEAR_POINT_RADIUS,
+    WEIGHTS = 128, /* pixels that are weighed at once, and rows of them */
+    RUNS = 16
 };
 
-/* Returns 15/16 of the integral of a dot's light from its middle to v along a chord, q15 radii, for |v| less than a radius.
- * `c2`: of half the chord, squared, and `c4` its square; `half`: the integral to the chord's end. Beyond it the polynomial
- * still grows, so a bound will do. */
-static inline int32_t chord_light(int32_t v, int32_t c2, int32_t c4, int32_t half)
+/* Pixels of a row that a streak is seen in. */
+struct run {
+    int16_t x, count;
+};
+
+/* A part of a point's box while it is drawn: what pixels weigh, and what is made of that. */
+struct brush {
+    int32_t u, d;                /* of the next row's first pixel: along the streak from its middle, and across */
+    int32_t along, step;         /* from pixel to pixel: u goes on, and d back, the side of which is chosen so */
+    int32_t row_along, row_step; /* from row to row both go on */
+    int32_t radius;              /* of a dot: one */
+    int32_t length, reach;       /* of the streak's half; how far from its middle line something is seen */
+    uint32_t gain;
+    int32_t columns, rows; /* of the part; rows are left */
+    uint32_t *out;         /* the next row's pixels and depths, and from row to row */
+    const uint16_t *depth;
+    int32_t pitch, depth_pitch;
+    uint32_t light[3];        /* of its colour, linear */
+    uint32_t red_blue, green; /* codes: two as in a pixel, one alone */
+    uint32_t nearest;         /* depth code */
+    bool blends, linear;
+    struct run run[RUNS];
+    uint16_t weight[WEIGHTS]; /* of all runs, q15 */
+};
+
+/* Whether there is room for another run. */
+static inline bool has_room(const struct brush *b, const struct run *run, const uint16_t *weight)
 {
-    const int32_t w = v * 4, w2 = w * w >> 15;
-    const int32_t light = w * (c4 - (c4 >> 4) - (w2 * ((10 * c2 - 3 * w2) >> 4) >> 15)) >> 15;
-    return clamp_i32(light, -half, half);
+    return run < b->run + RUNS && weight + b->columns <= b->weight + WEIGHTS;
 }
 
-/* Does so for a streak of less than two radii, which a pixel sees both ends of. */
-static SMEAR_NOINLINE int32_t other_chord(int32_t v, int32_t c2, int32_t c4, int32_t half)
+/* Returns the pixels that are left of n when those beyond the reach of the streak are left out. */
+static inline int32_t skip_to_streak(int32_t n, int32_t d, int32_t reach, int32_t step)
 {
-    return chord_light(v, c2, c4, half);
+    if (d >= reach && step == 0)
+        return 0;
+    for (; d >= reach && n > 0; n--)
+        d -= step;
+    return d > -reach ? n : 0;
+}
+
+/* Returns what a pixel that sees both ends of a streak gets of a chord's light, less the gain. */
+static SMEAR_NOINLINE uint32_t between_ends(uint32_t chord, int32_t near, int32_t far)
+{
+    const int32_t per_chord = (int32_t)(chord >> 16);
+    const int32_t k = ((near >> 4) * per_chord >> 10) + 128, m = ((far >> 4) * per_chord >> 10) + 128;
+    const int32_t from = m > 255 ? 0 : 65536 - smear_streak_end[m], to = k < 0 ? 0 : k > 255 ? 65536
+                                                                                             : smear_streak_end[k];
+    return (chord & 0xffff) * (uint32_t)max_i32(to - from, 0) >> 16;
+}
+
+/* Finds weights of the next rows' pixels that a long streak is seen in. Returns the number of runs.
+ *
+ * All of the light that a dot has on a chord is there between the ends, and near an end the part that depends on how many
+ * halves of the chord the end is away. */
+static SMEAR_NOINLINE int32_t weigh_long(struct brush *b)
+{
+    const int32_t along = b->along, step = b->step, length = b->length, reach = b->reach, columns = b->columns;
+    const int32_t row_along = b->row_along, row_step = b->row_step;
+    const uint32_t gain = b->gain;
+    const int32_t radius = b->radius;
+    struct run *run = b->run;
+    uint16_t *weight = b->weight;
+    int32_t row_u = b->u, row_d = b->d, rows = b->rows;
+    do {
+        const int32_t n = skip_to_streak(columns, row_d, reach, step), x = columns - n;
+        int32_t u = row_u + x * along, d = row_d - x * step;
+        const uint16_t *const first = weight, *const end = weight + n;
+        while (weight != end) {
+            const int32_t across = abs_i32(d), away = abs_i32(u), near = length - away;
+            if (across >= reach)
+                break;
+            const uint32_t chord = smear_streak_across[across >> (SMEAR_POINT_RADIUS - 7)];
+            uint32_t light = chord & 0xffff;
+            if (near < radius) {
+                const uint32_t k = (uint32_t)(((near >> 4) * (int32_t)(chord >> 16) >> 10) + 128);
+                if (length < radius)
+                    light = between_ends(chord, near, length + away);
+                else if (k <= 255)
+                    light = light * smear_streak_end[k] >> 16;
+                else if ((int32_t)k < 0)
+                    light = 0;
+            }
+            *weight++ = (uint16_t)min_u32(light * gain >> 16, 32768);
+            u += along;
+            d -= step;
+        }
+        *run++ = (struct run){ (int16_t)x, (int16_t)(weight - first) };
+        row_u += row_along;
+        row_d += row_step;
+    } while (--rows > 0 && has_room(b, run, weight));
+    b->u = row_u;
+    b->d = row_d;
+    b->rows = rows;
+    return (int32_t)(run - b->run);
 }
 
 /* Returns the light of a dot at v along a chord, q30. */
 static inline uint32_t dot_light(int32_t v, int32_t c2)
 {
-    const int32_t q = max_i32(c2 - (v * v >> 11), 0);
+    const int32_t q = max_i32(c2 - (mul_wrap(v, v) >> 11), 0);
     return (uint32_t)q * (uint32_t)q;
 }
 
-/* Returns what the point's gain makes a pixel's share of the light. `u`: along the streak from its start, of a short one from
- * its middle; `d`: across, less than a radius. Over a short one, two places tell the mean (Gauss), and better than a
- * difference of chords. */
-static inline uint32_t light_of(int32_t length, int32_t u, int32_t d)
+/* Does what weigh_long does for a short one, over which two places tell the mean (Gauss), and better than a difference. */
+static SMEAR_NOINLINE int32_t weigh_short(struct brush *b)
 {
-    const int32_t c2 = (RADIUS * RADIUS - 1 - d * d) >> 11;
-    if (length < SMEAR_POINT_SHORT)
-        return (dot_light(u - length, c2) + dot_light(u + length, c2)) >> 16;
-    const int32_t c4 = c2 * c2 >> 15, whole = c4 * smear_sqrt_q3[c2 >> 5] >> 8, half = whole >> 1;
-    const int32_t near = min_i32(u, length - u), far = length - near; /* from the ends */
-    if (near >= RADIUS)
-        return (uint32_t)whole;
-    if (near <= -RADIUS)
-        return 0;
-    const int32_t light = chord_light(near, c2, c4, half) + (far >= RADIUS ? half : other_chord(far, c2, c4, half));
-    return (uint32_t)max_i32(light, 0);
+    const int32_t along = b->along, step = b->step, length = b->length, columns = b->columns;
+    const int32_t row_along = b->row_along, row_step = b->row_step;
+    const uint32_t gain = b->gain;
+    struct run *run = b->run;
+    uint16_t *weight = b->weight;
+    int32_t row_u = b->u, row_d = b->d, rows = b->rows;
+    do {
+        const int32_t n = skip_to_streak(columns, row_d, RADIUS, step), x = columns - n;
+        int32_t u = row_u + x * along, d = row_d - x * step;
+        const uint16_t *const first = weight, *const end = weight + n;
+        while (weight != end) {
+            const int32_t square = RADIUS * RADIUS - 1 - d * d, c2 = square >> 11;
+            if (square < 0)
+                break;
+            *weight++ = (uint16_t)(((dot_light(u - length, c2) + dot_light(u + length, c2)) >> 16) * gain >> 16);
+            u += along;
+            d -= step;
+        }
+        *run++ = (struct run){ (int16_t)x, (int16_t)(weight - first) };
+        row_u += row_along;
+        row_d += row_step;
+    } while (--rows > 0 && has_room(b, run, weight));
+    b->u = row_u;
+    b->d = row_d;
+    b->rows = rows;
+    return (int32_t)(run - b->run);
 }
 
 static inline uint32_t lit_linear(uint32_t code, uint32_t light, uint32_t weight, bool blends)
@@ -114,77 +203,153 @@ static inline uint32_t lit_linear(uint32_t code, uint32_t light, uint32_t weight
     return smear_srgb_encode[min_u32(now, 65535u) >> 4];
 }
 
-/* Two channels at once: fields of eight bits with eight of room above each. */
-static inline uint32_t lit_codes(uint32_t pixel, const struct brush *b, uint32_t weight)
-{
-    enum { TWO = 0xff00ff,
-           HALVES = 0x800080,
-           BEYOND = 0x1000100 };
-    const uint32_t part = min_u32((weight + 64) >> 7, 256), old = b->blends ? 256 - part : 256;
-    uint32_t rb = pixel & TWO, g = pixel >> 8 & 255;
-    if (b->blends) {
-        rb = (rb * old + b->red_blue * part + HALVES) >> 8 & TWO;
-        return rb | ((g * old + b->green * part + 128) & 0xff00);
-    }
-    rb += (b->red_blue * part + HALVES) >> 8 & TWO;
-    g += (b->green * part + 128) >> 8;
-    if (((rb | g) & BEYOND) == 0)
-        return rb | g << 8;
-    rb |= (rb & BEYOND) - ((rb & BEYOND) >> 8);
-    return (rb & TWO) | min_u32(g, 255) << 8;
-}
+/* Codes are added and blended two channels at once: fields of eight bits with eight of room above each. */
+enum { TWO = 0xff00ff,
+       HALVES = 0x800080,
+       BEYOND = 0x1010100 };
 
-static inline uint32_t lit(uint32_t pixel, const struct brush *b, uint32_t weight)
+/* Adds light. What is beyond a channel's most shows in the bit above it. */
+static SMEAR_NOINLINE void add_runs(const struct brush *b, int32_t runs)
 {
-    if (SMEAR_WITH_LINEAR && b->linear)
-        return pixel_make(0, lit_linear(pixel_red(pixel), b->light[0], weight, b->blends),
-                          lit_linear(pixel_green(pixel), b->light[1], weight, b->blends),
-                          lit_linear(pixel_blue(pixel), b->light[2], weight, b->blends));
-    return lit_codes(pixel, b, weight);
-}
-
-/* Draws over n pixels of row y, from x on, which are within the point's box. */
-static void draw_row(const smear_point_place *p, const struct brush *b, uint32_t *out, const uint16_t *depth, int32_t n, int32_t x,
-                     int32_t y)
-{
-    enum { INSIDE = 2 * RADIUS - 1 };
-    const int32_t dx = x * 256 + 128 - p->x, dy = y * 256 + 128 - p->y, along = p->along_x, step = p->along_y;
-    const int32_t length = p->length;
-    const uint32_t gain = p->gain, *const end = out + n;
-    int32_t u = add_wrap(mul_wrap(dx, along), mul_wrap(dy, step)) >> 8;
-    int32_t d = sub_wrap(mul_wrap(dy, along), mul_wrap(dx, step)) >> 8;
-    if (d >= RADIUS ? step > 0 : d <= -RADIUS && step < 0) /* the row reaches the streak further on */
-        for (; out < end && (uint32_t)(d + RADIUS - 1) >= INSIDE; out++, depth++, u += along)
-            d -= step;
-    for (; out < end && (uint32_t)(d + RADIUS - 1) < INSIDE; out++, depth++, u += along, d -= step) {
-        if (*depth > b->depth)
-            continue;
-        const uint32_t weight = light_of(length, u, d) * gain >> 16;
-        if (weight != 0)
-            *out = lit(*out, b, weight);
+    const uint32_t red_blue = b->red_blue, green = b->green, nearest = b->nearest;
+    const uint16_t *weight = b->weight, *row_depth = b->depth;
+    uint32_t *row = b->out;
+    for (const struct run *run = b->run, *const last = run + runs; run < last; run++, row += b->pitch, row_depth += b->depth_pitch) {
+        const uint16_t *depth = row_depth + run->x;
+        uint32_t *out = row + run->x;
+        for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
+            const uint32_t part = ((uint32_t)*weight++ + 64) >> 7;
+            if (part == 0 || *depth > nearest)
+                continue;
+            const uint32_t was = *out, more = ((red_blue * part + HALVES) >> 8 & TWO) | ((green * part + 128) & 0xff00);
+            uint32_t sum = was + more;
+            const uint32_t over = (was ^ more ^ sum) & BEYOND;
+            if (over != 0)
+                sum = (sum - over) | (over - (over >> 8));
+            *out = sum;
+        }
     }
 }
 
-void smear_points_draw(const struct smear_rows *rows, uint32_t *out, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y)
+static SMEAR_NOINLINE void blend_runs(const struct brush *b, int32_t runs)
+{
+    const uint32_t red_blue = b->red_blue, green = b->green, nearest = b->nearest;
+    const uint16_t *weight = b->weight, *row_depth = b->depth;
+    uint32_t *row = b->out;
+    for (const struct run *run = b->run, *const last = run + runs; run < last; run++, row += b->pitch, row_depth += b->depth_pitch) {
+        const uint16_t *depth = row_depth + run->x;
+        uint32_t *out = row + run->x;
+        for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
+            const uint32_t part = ((uint32_t)*weight++ + 64) >> 7, old = 256 - part;
+            if (part == 0 || *depth > nearest)
+                continue;
+            const uint32_t was = *out;
+            *out = (((was & TWO) * old + red_blue * part + HALVES) >> 8 & TWO)
+                 | (((was >> 8 & 255) * old + green * part + 128) & 0xff00);
+        }
+    }
+}
+
+static SMEAR_NOINLINE void light_runs(const struct brush *b, int32_t runs)
+{
+    const uint16_t *weight = b->weight, *row_depth = b->depth;
+    uint32_t *row = b->out;
+    for (const struct run *run = b->run, *const last = run + runs; run < last; run++, row += b->pitch, row_depth += b->depth_pitch) {
+        const uint16_t *depth = row_depth + run->x;
+        uint32_t *out = row + run->x;
+        for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
+            const uint32_t part = *weight++, pixel = *out;
+            if (part != 0 && *depth <= b->nearest)
+                *out = pixel_make(0, lit_linear(pixel_red(pixel), b->light[0], part, b->blends),
+                                  lit_linear(pixel_green(pixel), b->light[1], part, b->blends),
+                                  lit_linear(pixel_blue(pixel), b->light[2], part, b->blends));
+        }
+    }
+}
+
+static void draw_part(struct brush *b)
+{
+    do {
+        const int32_t runs = b->length >= SMEAR_POINT_SHORT ? weigh_long(b) : weigh_short(b);
+        if (SMEAR_WITH_LINEAR && b->linear)
+            light_runs(b, runs);
+        else if (b->blends)
+            blend_runs(b, runs);
+        else
+            add_runs(b, runs);
+        b->out += runs * b->pitch;
+        b->depth += runs * b->depth_pitch;
+    } while (b->rows > 0);
+}
+
+/* How far across a long streak something is seen in codes, in 1/128 radii, of a gain below 2^8 and more. */
+static const uint8_t seen_across[10] = { 63, 84, 96, 105, 111, 115, 118, 121, 123, 124 };
+
+static void make_brush(struct brush *b, const smear_point *point, bool linear)
+{
+    const smear_point_place *p = &point->place;
+    b->along = p->along_x;
+    b->row_along = p->along_y;
+    b->step = abs_i32(p->along_y);
+    b->row_step = p->along_y < 0 ? -p->along_x : p->along_x;
+    b->length = p->length;
+    b->gain = p->gain;
+    b->reach = b->radius = RADIUS;
+    b->linear = linear;
+    b->nearest = p->depth;
+    b->blends = point->mode != SMEAR_POINT_ADD;
+    b->red_blue = (uint32_t)point->color[0] << 16 | point->color[2];
+    b->green = point->color[1];
+    for (int k = 0; SMEAR_WITH_LINEAR && linear && k < 3; k++)
+        b->light[k] = smear_srgb_decode[point->color[k]];
+    if (!linear && p->length >= SMEAR_POINT_SHORT) {
+        const int size = 24 - count_leading_zeros(p->gain | 1);
+        if (size < 10)
+            b->reach = size < 0 ? 0 : seen_across[size] << (SMEAR_POINT_RADIUS - 7);
+    }
+}
+
+/* Returns how many rows of a plane lie one after the other from row y on. */
+static inline int32_t rows_from(const struct smear_plane_rows *rows, const struct smear_raster_target *t, int32_t y)
+{
+    const int32_t row = rows->ring_row + (y - t->y0);
+    return rows->ring - (row >= rows->ring ? row - rows->ring : row);
+}
+
+/* Draws a point over pixels of a box. */
+static void draw_point(struct brush *b, const smear_point_place *p, const struct smear_raster_target *t,
+                       const struct overlay_box *box)
+{
+    for (int32_t y = box->y0, rows; y < box->y1; y += rows) {
+        rows = min_i32(box->y1 - y, min_i32(rows_from(&t->color_rows, t, y), rows_from(&t->window_rows, t, y)));
+        for (int32_t x = box->x0; x < box->x1; x += WEIGHTS) {
+            const int32_t dx = x * 256 + 128 - p->x, dy = y * 256 + 128 - p->y;
+            b->u = add_wrap(mul_wrap(dx, b->along), mul_wrap(dy, b->row_along)) >> 8;
+            b->d = sub_wrap(mul_wrap(dy, b->row_step), mul_wrap(dx, b->step)) >> 8;
+            b->columns = min_i32(box->x1 - x, WEIGHTS);
+            b->rows = rows;
+            b->out = t->color + target_row(&t->color_rows, t, y) + x;
+            b->depth = t->depth + target_row(&t->window_rows, t, y) + x;
+            draw_part(b);
+        }
+    }
+}
+
+void smear_points_draw(const struct smear_rows *rows, const struct smear_raster_target *t, const struct overlay_box *area)
 {
     struct brush b;
-    b.linear = frame_is_linear(&rows->raster);
+    b.pitch = t->color_rows.stride;
+    b.depth_pitch = t->window_rows.stride;
     for (uint32_t i = rows->points; i != SMEAR_NO_POINT;) {
         const smear_point *point = &rows->overlay->points->point[i];
         const smear_point_place *p = &point->place;
+        const struct overlay_box box = { max_i32(area->x0, p->x0), max_i32(area->y0, p->y0), min_i32(area->x1, p->x1),
+                                         min_i32(area->y1, p->y1) };
         i = p->next;
-        if (y < p->y0 || y >= p->y1)
+        if (box.x0 >= box.x1 || box.y0 >= box.y1)
             continue;
-        const int32_t first = max_i32(x0, p->x0), n = min_i32(x1, p->x1) - first;
-        if (n <= 0)
-            continue;
-        b.depth = p->depth;
-        b.blends = point->mode != SMEAR_POINT_ADD;
-        b.red_blue = (uint32_t)point->color[0] << 16 | point->color[2];
-        b.green = point->color[1];
-        for (int k = 0; SMEAR_WITH_LINEAR && k < 3; k++)
-            b.light[k] = b.linear ? smear_srgb_decode[point->color[k]] : 0;
-        draw_row(p, &b, out + (first - x0), depth + (first - x0), n, first, y);
+        make_brush(&b, point, frame_is_linear(&rows->raster));
+        draw_point(&b, p, t, &box);
     }
 }
 
@@ -192,11 +357,9 @@ void smear_points_draw_window(struct smear_rows *rows, int row)
 {
     struct smear_raster_target t;
     smear_row_target(rows, row, &t);
+    const struct overlay_box area = { 0, t.y0, t.x1, t.y1 };
     smear_points_list(rows, t.y0, t.y1);
-    for (int32_t y = t.y0; y < t.y1 && rows->points != SMEAR_NO_POINT; y++) {
-        const int32_t at = target_row(&t.window_rows, &t, y);
-        smear_points_draw(rows, t.color + at, t.depth + at, 0, t.x1, y);
-    }
+    smear_points_draw(rows, &t, &area);
 }
 
 #endif

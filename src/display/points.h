@@ -14,9 +14,10 @@
 
 enum {
     SMEAR_NO_POINT = UINT16_MAX,
-    SMEAR_POINT_RADIUS = 13,    /* fraction bits of lengths in radii of a dot */
-    /* Streaks of less are short: `x`, `y` is their middle, and `length` is from there to where two places weigh. */
-    SMEAR_POINT_SHORT = 1 << (SMEAR_POINT_RADIUS - 1)
+    SMEAR_POINT_RADIUS = 13, /* fraction bits of lengths in radii of a dot */
+    /* A streak's `x`, `y` is its middle, and `length` is from there to its ends; of a short one, where it is less, to the two
+     * places that weigh. */
+    SMEAR_POINT_SHORT = 1 << (SMEAR_POINT_RADIUS - 2)
 };
 
 static inline bool rows_have_points(const struct smear_rows *rows)
@@ -37,14 +38,19 @@ static inline void rows_list_points(struct smear_rows *rows, int32_t y0, int32_t
         smear_points_list(rows, y0, y1);
 }
 
-/* Returns the part of `area` that listed points may touch; x0 is not below x1 where there is none. */
-struct overlay_box smear_points_box(const struct smear_rows *rows, const struct overlay_box *area);
+/* Whether listed points may touch columns [x0, x1), which become those that they may. */
+bool smear_points_listed(const struct smear_rows *rows, int32_t *x0, int32_t *x1);
+
+static inline bool rows_list_has_points(const struct smear_rows *rows, int32_t x0, int32_t x1)
+{
+    return rows_have_points(rows) && smear_points_listed(rows, &x0, &x1);
+}
 
 /* Whether any point may touch pixel rows [y0, y1), listed or not. */
 bool smear_points_touch(const struct smear_rows *rows, int32_t y0, int32_t y1);
 
-/* Draws listed points over pixels [x0, x1) of row y. `depth`: codes of the scene at the same pixels. */
-void smear_points_draw(const struct smear_rows *rows, uint32_t *out, const uint16_t *depth, int32_t x0, int32_t x1, int32_t y);
+/* Draws listed points over pixels of `area`, which is within the target; its depths are those of the scene. */
+void smear_points_draw(const struct smear_rows *rows, const struct smear_raster_target *t, const struct overlay_box *area);
 
 /* Where each instant has its part of the streaks: list points of a tile row and draw them into the window; have no point seen
  * any more until they are placed again. */

@@ -13,7 +13,7 @@
 /* An end of the exposure in clip space: rows of what is added up for an offset from the eye, q16, for the way that a point goes
  * in a frame, and of where eyes are that the pose of now has not. */
 struct lens_end {
-    int32_t offset[4][3], way[4][3];
+    int32_t offset[4][4], way[4][3]; /* the last is 0; ways: q2, as their sums are short */
     int64_t eyes[4];
 };
 
@@ -96,10 +96,10 @@ static void make_end(struct lens_end *end, const struct sums *sum, const struct 
 {
     const int64_t most = 1 << 29;
     for (int r = 0; r < 4; r++) {
-        end->eyes[r] = 0;
+        end->eyes[r] = end->offset[r][3] = 0;
         for (int j = 0; j < 3; j++) {
             end->offset[r][j] = (int32_t)(sum->offset[r][j] >> down) & ~3;
-            end->way[r][j] = (int32_t)(sum->way[r][j] >> down) & ~3;
+            end->way[r][j] = (int32_t)(sum->way[r][j] >> down) >> 14;
             for (int k = 1; k < poses && (r < 3 || is_orthographic(&pose[0])); k++) {
                 const int64_t apart = (int64_t)camera_of(shot, 0)->pose.origin[j] - camera_of(shot, k)->pose.origin[j];
                 const int64_t row = (int64_t)pose[k].m[r][j] * weight[k] >> down >> 4;
@@ -170,11 +170,10 @@ static inline int16_t in_steps(int32_t a, int exponent)
     return (int16_t)(exponent >= 0 ? a >> exponent : shl_wrap(a, -exponent));
 }
 
-/* Returns a row's sum for three of 15 bits. */
-static inline int32_t row_of(const int32_t m[3], const int16_t v[3])
+/* Returns a row's sum for three of 15 bits. Its factors have 14, so that it takes three products. */
+static inline int32_t way_row(const int32_t m[3], const int16_t w[3])
 {
-    const int32_t row[4] = { m[0], m[1], m[2], 0 };
-    return transform_row(row, v);
+    return (w[0] * m[0] + w[1] * m[1] + w[2] * m[2]) >> 2;
 }
 
 static int32_t eyes_of(const struct lens_end *end, int r, int exponent)
@@ -201,18 +200,16 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
         w[i] = in_steps(way[i], exponent);
     }
     const int rows = is_orthographic(&l->projection) ? 4 : 3;
-    int32_t from_eye[4];
-    for (int e = 0; e < 2; e++) {
-        int32_t row[4];
-        for (int r = 0; r < rows; r++) {
-            if (e == 0 || !l->still)
-                from_eye[r] = row_of(l->end[e].offset[r], v);
-            row[r] = from_eye[r] + row_of(l->end[e].way[r], w);
-            if (!l->still)
-                row[r] = narrow_sat((int64_t)row[r] + eyes_of(&l->end[e], r, exponent));
-        }
-        end[e].h = (struct smear_homogeneous){ row[0], row[1], row[2], row[rows - 1] };
+    int32_t row[2][4];
+    for (int r = 0; r < rows; r++) {
+        const int32_t from_eye = transform_row(l->end[0].offset[r], v);
+        row[0][r] = from_eye + way_row(l->end[0].way[r], w);
+        row[1][r] = (l->still ? from_eye : transform_row(l->end[1].offset[r], v)) + way_row(l->end[1].way[r], w);
+        for (int e = 0; e < 2 && !l->still; e++)
+            row[e][r] = narrow_sat((int64_t)row[e][r] + eyes_of(&l->end[e], r, exponent));
     }
+    for (int e = 0; e < 2; e++)
+        end[e].h = (struct smear_homogeneous){ row[e][0], row[e][1], row[e][2], row[e][rows - 1] };
     return exponent;
 }
 
@@ -251,14 +248,46 @@ static void unscale(struct smear_homogeneous *h, int shift, const struct smear_p
     h->w = p->m[2][3];
 }
 
-/* Returns the radius of a disc in pixels, q8, at a distance w of exponent - 8. */
-static int32_t radius_of(const struct lens *l, int32_t size, int32_t w, int exponent)
+/* Returns the radius of a disc in pixels, q8, where 1 / distance is recip 2^(zeros - 61), of exponent - 8. */
+static int32_t radius_of(const struct lens *l, int32_t size, int32_t recip, int zeros, int exponent)
 {
     if (size == 0)
         return 0;
-    const int up = count_leading_zeros((uint32_t)size) - 1, zeros = count_leading_zeros((uint32_t)w);
-    const int32_t high = mulh_i32(mulh_i32(shl_wrap(size, up), l->unit), (int32_t)recip_norm((uint32_t)w << zeros));
+    const int up = count_leading_zeros((uint32_t)size) - 1;
+    const int32_t high = mulh_i32(mulh_i32(shl_wrap(size, up), l->unit), recip);
     return min_i32(scale_sat(high, clamp_i32(zeros - up - 13 - exponent, -31, 31)), 64 << 8);
+}
+
+/* Puts the ends of a streak on the screen. Returns the mean of 1 / distance: the result 2^(zeros - 61). */
+static int32_t project_ends(struct end end[2], const struct lens *l, int *zeros)
+{
+    int digits[2];
+    uint32_t recip[2];
+    for (int e = 0; e < 2; e++) {
+        struct smear_homogeneous *h = &end[e].h;
+        h->w = max_i32(h->w, 1);
+        digits[e] = count_leading_zeros((uint32_t)h->w);
+        recip[e] = recip_norm((uint32_t)h->w << digits[e]);
+        const int down = 21 - digits[e];
+        if (down <= 0 || is_orthographic(&l->projection)) {
+            smear_project(&end[e].s, &l->projection.depths, h, &l->viewport);
+            continue;
+        }
+        const int32_t half = 1 << (down - 1);
+        end[e].s.x = (l->viewport.width << 7) + ((mulh_i32(h->x, (int32_t)recip[e]) + half) >> down);
+        end[e].s.y = (l->viewport.height << 7) + ((mulh_i32(h->y, (int32_t)recip[e]) + half) >> down);
+    }
+    *zeros = max_i32(digits[0], digits[1]);
+    return (int32_t)(((recip[0] >> (*zeros - digits[0])) + (recip[1] >> (*zeros - digits[1]))) >> 1);
+}
+
+/* Returns the depth in the middle of a streak whose mean of 1 / distance is given. */
+static int32_t middle_depth(const struct end end[2], const struct smear_depths *d, int32_t recip, int zeros)
+{
+    if (depths_are_even(d))
+        return (end[0].s.depth >> 1) + (end[1].s.depth >> 1);
+    const int32_t depth = scale_sat(mulh_i32(d->depth_mantissa, recip), clamp_i32(d->depth_shift + zeros, -31, 31));
+    return clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
 static uint16_t depth_code(int32_t units_q11)
@@ -331,18 +360,16 @@ static bool make_streak(smear_point_place *p, const struct end end[2], const str
     const uint32_t recip = recip_norm(root << zeros); /* 1 / root = recip 2^(zeros - 61) */
     const int32_t length = (int32_t)(down >= 0 ? root << down : (root + 8) >> 4);
     const int32_t scale = (int32_t)(((uint32_t)dot->per_radius * (recip >> 13)) >> (33 - zeros));
-    p->x = end[0].s.x;
-    p->y = end[0].s.y;
+    p->x = end[0].s.x + (x >> 1);
+    p->y = end[0].s.y + (y >> 1);
     p->along_x = (int16_t)((dx * scale + (1 << 14)) >> 15);
     p->along_y = (int16_t)((dy * scale + (1 << 14)) >> 15);
-    p->length = length * dot->per_radius >> 8;
+    p->length = length * dot->per_radius >> 9;
     if (p->length >= SMEAR_POINT_SHORT) { /* of 15/16 of the light */
         p->gain = mulh_u32((uint32_t)a * (dot->light + (dot->light >> 4) + (dot->light >> 8)), recip) >> (29 - zeros + down);
         return true;
     }
-    p->x += x >> 1;
-    p->y += y >> 1;
-    p->length = p->length * 9459 >> 15; /* 1 / sqrt(12) */
+    p->length = p->length * 18919 >> 15; /* 1 / sqrt(3) */
     p->gain = dot->light;
     if (square == 0)
         p->along_x = (int16_t)dot->per_radius;
@@ -365,17 +392,16 @@ static bool place(smear_point *point, struct lens *l)
     const uint32_t seen = clip_near(end, near);
     if (seen == 0 || (end[0].h.distance > far && end[1].h.distance > far))
         return false;
-    const int32_t radius = radius_of(l, point->size, (end[0].h.w >> 1) + (end[1].h.w >> 1) + 1, shift + 8);
-    const struct dot dot = dot_of(radius, (seen >> 1) * ((255u - point->fade) * 257u + (point->fade == 0)) >> 15);
     p->depths.depth_shift = (int16_t)(l->depth_shift - (is_orthographic(p) ? 0 : shift));
-    for (int e = 0; e < 2; e++) {
+    if (is_orthographic(p)) {
         const int32_t nearer = scale_sat(point->size, clamp_i32(p->distance_scale - 17, -31, 31));
-        if (is_orthographic(p))
+        for (int e = 0; e < 2; e++)
             end[e].h.distance = max_i32(sub_wrap(end[e].h.distance, nearer), near);
-        end[e].h.w = max_i32(end[e].h.w, 1);
-        smear_project(&end[e].s, &p->depths, &end[e].h, &l->viewport);
     }
-    const int32_t middle = (end[0].s.depth >> 1) + (end[1].s.depth >> 1);
+    int zeros;
+    const int32_t recip = project_ends(end, l, &zeros), radius = radius_of(l, point->size, recip, zeros, shift + 8);
+    const struct dot dot = dot_of(radius, (seen >> 1) * ((255u - point->fade) * 257u + (point->fade == 0)) >> 15);
+    const int32_t middle = middle_depth(end, &p->depths, recip, zeros);
     const uint32_t nearer = mulh_u32((uint32_t)middle << 4, (uint32_t)radius * l->pixel << 2), /* in 4 steps */
         room = (uint32_t)(SMEAR_DEPTH_MAX - middle);
     point->place.depth = depth_code(nearer < room >> 2 ? middle + (int32_t)(nearer << 2) : SMEAR_DEPTH_MAX);

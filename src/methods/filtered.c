@@ -7,6 +7,7 @@
 
 #include "base/fixmath.h"
 #include "display/band.h"
+#include "display/points.h"
 #include "filter/tilemax.h"
 #include "ports/half.h"
 
@@ -82,15 +83,22 @@ static void reduce_row(struct smear_filtered *f, struct smear_rows *rows, int ro
 
 /* ------------------------------------------------------------------ tiles */
 
-/* Static tiles go to the display as they lie in the window, a run of them at once: the job of the run's first tile. */
+/* Whether a tile goes to the display as it lies in the window, which other rows read, too. */
+static bool is_bare(const struct filter_job *r, int column)
+{
+    const struct smear_rows *rows = r->row.rows;
+    return is_static(r->filtered->window, r->row.row, column) && rows->blend == SMEAR_NO_TRIANGLE
+        && !rows_list_has_points(rows, tile_left(rows, column), tile_right(rows, column));
+}
+
+/* Such tiles are converted a run of them at once: the job of the run's first tile. */
 static void convert_static(const struct filter_job *r, int column)
 {
     const struct smear_window *w = r->filtered->window;
-    const int row = r->row.row;
-    if (column > 0 && is_static(w, row, column - 1))
+    if (column > 0 && is_bare(r, column - 1))
         return;
     int end = column + 1;
-    while (end < w->columns && is_static(w, row, end))
+    while (end < w->columns && is_bare(r, end))
         end++;
     smear_band_convert_window(&r->row, tile_left(r->row.rows, column), tile_right(r->row.rows, end - 1));
 }
@@ -151,9 +159,8 @@ static uint32_t filter_any(const struct filter_job *r, uint32_t *tile, int colum
 static void tile_job(void *argument, int column, int worker)
 {
     const struct filter_job *r = (const struct filter_job *)argument;
-    const struct smear_filtered *f = r->filtered;
     struct smear_rows *rows = r->row.rows;
-    if (is_static(f->window, r->row.row, column) && rows->blend == SMEAR_NO_TRIANGLE) {
+    if (is_bare(r, column)) {
         convert_static(r, column);
         return;
     }

@@ -48,8 +48,7 @@ static void background_job(void *argument, int job, int worker)
     smear_row_draw_opaque(&f->row, job, &t, 0);
 }
 
-/* Draws blended triangles over a tile without moving ones. */
-static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
+static void copy_background(const struct smear_tile_run *t)
 {
     const struct smear_raster_target *s = &t->background;
     for (int32_t y = s->y0; y < s->y1; y++) {
@@ -57,6 +56,13 @@ static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows
         for (int32_t i = 0; i < s->x1 - s->x0; i++)
             t->out[(y - s->y0) * t->pitch + i] = in[i];
     }
+}
+
+/* Draws blended triangles over a tile without moving ones. */
+static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
+{
+    const struct smear_raster_target *s = &t->background;
+    copy_background(t);
     struct smear_raster_target over = *s;
     over.color = t->out;
     over.color_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
@@ -111,29 +117,44 @@ static struct smear_tile_run tiles_of(const struct finish *f, int first, int end
     return t;
 }
 
+/* Points `out` at the finished pixels of tiles, with the depths of the background. */
+static void finished_target(const struct smear_tile_run *t, struct smear_raster_target *out)
+{
+    *out = t->background;
+    out->color = t->out;
+    out->color_rows = (struct smear_plane_rows){ t->pitch, 0, out->y1 - out->y0, out->x0 };
+}
+
 static void hand_on(const struct finish *f, const struct smear_tile_run *t)
 {
-    struct smear_raster_target out = t->background;
-    out.color = t->out;
-    out.color_rows = (struct smear_plane_rows){ t->pitch, 0, out.y1 - out.y0, out.x0 };
-    if (rows_have_points(f->row.rows)) {
-        const struct overlay_box area = { t->x0, out.y0, t->x1, out.y1 };
-        const struct overlay_box box = smear_points_box(f->row.rows, &area);
-        if (box.x0 < box.x1) {
-            out.depth = smear_subframes_depth(t, box.x0, box.x1);
-            out.window_rows = out.color_rows;
-        }
+    struct smear_raster_target out;
+    finished_target(t, &out);
+    int32_t x0 = t->x0, x1 = t->x1;
+    if (rows_have_points(f->row.rows) && smear_points_listed(f->row.rows, &x0, &x1)) {
+        out.depth = smear_subframes_depth(t, x0, x1);
+        out.window_rows = out.color_rows;
     }
     smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
 }
 
-/* Converts static tiles from `first` on; returns the first that is not, or `end`. */
-static int finish_static(const struct finish *f, int first, int end)
+/* Converts static tiles from `first` on; returns the first that is not, or `end`. Points are drawn over what the next frame
+ * needs no more. */
+static int finish_static(const struct finish *f, int first, int end, int worker)
 {
+    const struct smear_rows *rows = f->row.rows;
     int next = first;
     while (next < end && is_static(&f->self->moving.travel[next]))
         next++;
-    smear_band_convert_rows(&f->row, &f->background, tile_left(f->row.rows, first), tile_right(f->row.rows, next - 1));
+    const int32_t x0 = tile_left(rows, first), x1 = tile_right(rows, next - 1);
+    if (!static_is_cached(f->self->damage) || !rows_list_has_points(rows, x0, x1)) {
+        smear_band_convert_rows(&f->row, &f->background, x0, x1);
+        return next;
+    }
+    const struct smear_tile_run t = tiles_of(f, first, next, worker);
+    struct smear_raster_target out;
+    finished_target(&t, &out);
+    copy_background(&t);
+    smear_band_convert_rows(&f->row, &out, x0, x1);
     return next;
 }
 
@@ -300,7 +321,7 @@ static void finish_job(void *argument, int strip, int worker)
         const struct smear_tile_travel *tile = &f->self->moving.travel[column];
         struct smear_tile_choice choice;
         if (is_static(tile)) {
-            column = finish_static(f, column, end);
+            column = finish_static(f, column, end, worker);
             continue;
         }
         smear_tile_method_choose(&choice, &f->self->chooser, tile);
@@ -360,8 +381,8 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     finish.row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
     const int strips = finish.strips = (int)((rows->window.width + self->strip - 1) / self->strip);
-    if (rows->jobs.workers == 1 && run_is_static(self, run))
-        finish_static(&finish, run->first, run->end);
+    if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_cached(self->damage) && rows_have_points(rows)))
+        finish_static(&finish, run->first, run->end, 0);
     else if (rows->refill == NULL)
         smear_jobs_run(&rows->jobs, finish_job, &finish, strips + begin_next(&finish, end));
     for (int strip = 0; rows->refill != NULL && strip < strips; strip++)
