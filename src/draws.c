@@ -4,6 +4,7 @@
 
 #include "base/compiled.h"
 #include "geometry/assemble_path.h"
+#include "geometry/parts.h"
 #include "layers/groups.h"
 
 /* Several cores assemble draws: not where size counts, or the assembler's state lies on the stack. */
@@ -378,142 +379,81 @@ static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
 #if SMEAR_ASSEMBLY_JOBS
 enum {
     PART_TRIANGLES_LEAST = 256,     /* submitted: below, one core is faster */
-    PART_CACHE = 64,                /* vertices */
     PART_WORDS_LEAST = 2048,
     PARTS_RETRY = 32                /* assemblies on one core after one whose parts found no room */
 };
 
-/* A part of what was submitted, and a store of its own within the pool: numbers of triangles tell the order of parts, as
- * they count from the pool's end. */
-struct assembly_part {
-    struct smear_assembler as;
-    struct smear_bins bins;
-    uint32_t first, end;            /* triangles, counted through all draws */
-    uint32_t beside;
-    bool done;
-};
-
-/* It lies at the pool's start. */
+/* Numbers of triangles tell the order of parts, as they count from a store's end. */
 struct assembly_parts {
     struct smear_context *c;
     const struct smear_instant *instant;
-    struct assembly_part part[SMEAR_WORKERS_MAX];
+    enum draws kind;
+    struct smear_part part[SMEAR_WORKERS_MAX];
 };
 
 enum { PARTS_WORDS = (sizeof(struct assembly_parts) + 7) / 8 * 2 };
 
+/* Returns how many triangles of draw i are assembled. `seen`: the box of a static draw. */
+static uint32_t part_triangles(const struct assembly_parts *all, uint32_t i, const struct smear_tile_box *seen)
+{
+    const struct smear_context *c = all->c;
+    const bool left_out = !is_of_kind(c, i, all->kind)
+                       || (all->kind == DRAWS_STATIC && !tile_box_is_damaged(&c->damage->tiles, *seen));
+    return left_out ? 0 : c->submitted[i].draw.mesh->triangle_count;
+}
+
 /* Assembles triangles [first, end) of draw i. */
-static bool assemble_range(const struct assembly_parts *all, struct assembly_part *p, uint32_t i, uint32_t first, uint32_t end)
+static bool assemble_range(const struct assembly_parts *all, struct smear_part *p, uint32_t i, uint32_t first, uint32_t end,
+                           struct smear_tile_box *seen)
 {
     struct smear_assembly a;
     if (!make_assembly(all->c, i, all->instant, &a)) {
         p->beside += first == 0;
         return true;
     }
-    if (assembly_has_path(&a))      /* is not cut: it belongs to where it begins */
-        return first != 0 || smear_assemble_path(&p->as, &a);
+    p->tiles.only = all->kind == DRAWS_STATIC;
+    p->tiles.seen = seen;
+    if (seen != NULL && first != 0) {           /* the part in which it begins writes to it */
+        p->rest = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
+        p->rest_of = seen;
+        p->tiles.seen = &p->rest;
+    }
     a.first = first;
     a.end = end;
-    return smear_assemble(&p->as, &a);
+    return assembly_has_path(&a) ? smear_assemble_path(&p->as, &a) : smear_assemble(&p->as, &a);
 }
 
 static void assemble_job(void *argument, int job, int worker)
 {
     struct assembly_parts *all = (struct assembly_parts *)argument;
-    struct assembly_part *p = &all->part[job];
+    const struct smear_context *c = all->c;
+    struct smear_part *p = &all->part[job];
+    const bool notes = assembler_has_damage(&c->assembler) && !c->damage->is_same;
+    struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
     uint32_t at = 0;
     (void)worker;
-    p->done = true;
-    smear_assembler_reset(&p->as);
-    for (uint32_t i = 0; i < all->c->draw_count && at < p->end && p->done; i++) {
-        const uint32_t count = all->c->submitted[i].draw.mesh->triangle_count;
-        const uint32_t first = max_u32(p->first, at) - at, end = min_u32(p->end - at, count);
+    for (uint32_t i = 0; i < c->draw_count && at < p->end && p->done; i++) {
+        const bool is_static = draw_is_static(c, i);
+        const uint32_t count = part_triangles(all, i, seen), first = max_u32(p->first, at) - at, end = min_u32(p->end - at, count);
         if (first < end)
-            p->done = assemble_range(all, p, i, first, end);
+            p->done = assemble_range(all, p, i, first, end, notes && is_static ? seen : NULL);
         at += count;
+        seen += seen != NULL && is_static;
     }
 }
 
-/* Returns total k / n without a product of 64 bits; k <= n. */
-static uint32_t share_of(uint32_t total, uint32_t k, uint32_t n) { return total / n * k + total % n * k / n; }
-
-/* Makes part k of n: its share of the pool, of the segments' table and of triangles with a path. */
-static void make_part(struct assembly_parts *all, uint32_t k, uint32_t n)
+/* Returns the bytes that each part but the first has in the memory of temporal methods, from rows.scratch on. */
+static size_t room_apart(const struct smear_context *c)
 {
-    const struct smear_context *c = all->c;
-    const struct smear_bins *g = &c->rows.bins;
-    struct assembly_part *p = &all->part[k];
-    const uint32_t rows = (uint32_t)(g->row_count + g->moving_rows), words = (g->pool_words - PARTS_WORDS) / n & ~3u;
-    const uint32_t spare = g->segment_limit - c->draw_count, total = c->stats.triangles_in;
-    uint32_t *ring = g->pool + (g->pool_words - (k + 1) * words);
-    *p = (struct assembly_part){ .as = c->assembler, .bins = *g, .first = share_of(total, k, n),
-                                 .end = share_of(total, k + 1, n) };
-    p->as.bins = &p->bins;
-    p->as.cache = (struct smear_cached_vertex *)(void *)(ring + 3 * rows);
-    p->as.cache_mask = PART_CACHE - 1;
-    p->as.serial = p->as.path_static_count = p->as.triangles_drawn = 0;
-    p->as.path_limit = c->assembler.path_limit / n;
-    p->bins.triangle_count = k * words / 4;
-    p->bins.vertex_words = g->pool_words - (k + 1) * words + 3 * rows
-                         + PART_CACHE * (uint32_t)(sizeof(struct smear_cached_vertex) / 4);
-    /* A draw may have triangles in many parts, each of which begins a segment. */
-    uint32_t draws = 0;
-    for (uint32_t at = 0; draws < c->draw_count && at < p->first; draws++)
-        at += c->submitted[draws].draw.mesh->triangle_count;
-    p->bins.segment_count = draws + spare * k / n;
-    if (k != 0)
-        all->part[k - 1].bins.segment_limit = p->bins.segment_count;
-    for (uint32_t i = 0; i < 3 * rows; i++)
-        ring[i] = SMEAR_NO_TRIANGLE;
-    p->bins.opaque_last = ring;
-    p->bins.blend_last = ring + rows;
-    p->bins.moving_last = g->moving_last != NULL ? ring + 2 * rows : NULL;
+    const uint32_t n = (uint32_t)c->rows.jobs.workers;
+    const uintptr_t start = (uintptr_t)c->rows.scratch, end = (uintptr_t)c->temporal.work + n * c->temporal.work_bytes;
+    return c->temporal.work == NULL || end - start < PARTS_WORDS * 4u ? 0 : (end - start - PARTS_WORDS * 4u) / (n - 1) & ~(size_t)7;
 }
 
-/* Appends a part's rings to those of the parts before it. */
-static void join_rings(const struct smear_bins *g, uint32_t *last, const uint32_t *more)
+/* Whether parts lie there: where their triangles are likely to find room, or tiles are kept, which parts of the pool don't do. */
+static bool are_apart(const struct smear_context *c)
 {
-    for (int row = g->row_first; row < g->row_end; row++) {
-        if (more[row] == SMEAR_NO_TRIANGLE)
-            continue;
-        if (last[row] != SMEAR_NO_TRIANGLE) {
-            struct smear_triangle *a = bins_triangle(g, last[row]), *b = bins_triangle(g, more[row]);
-            const uint32_t first = a->next;
-            a->next = b->next;
-            b->next = first;
-        }
-        last[row] = more[row];
-    }
-}
-
-/* Joins the parts. What is free of the pool becomes what is free in the part that has the most. */
-static void join_parts(struct smear_context *c, const struct assembly_parts *all, uint32_t n)
-{
-    struct smear_bins *g = &c->rows.bins;
-    uint32_t most = 0, free = 0;
-    for (uint32_t k = 0; k < n; k++) {
-        const struct assembly_part *p = &all->part[k];
-        const struct smear_bins *b = &p->bins;
-        const uint32_t rest = g->pool_words - b->vertex_words - b->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-        join_rings(g, g->opaque_last, b->opaque_last);
-        join_rings(g, g->blend_last, b->blend_last);
-        if (g->moving_last != NULL)
-            join_rings(g, g->moving_last, b->moving_last);
-        c->assembler.path_count += p->as.path_count;
-        c->assembler.path_static_count += p->as.path_static_count;
-        c->assembler.triangles_drawn += p->as.triangles_drawn;
-        c->assembler.triangles_dropped += p->as.triangles_dropped;
-        c->stats.draws_beside += p->beside;
-        free += rest;
-        if (k == 0 || rest > most) {
-            most = rest;
-            g->vertex_words = b->vertex_words;
-            g->triangle_count = b->triangle_count;
-        }
-    }
-    g->segment_count = all->part[n - 1].bins.segment_count;
-    note_fill(&c->stats.fill.geometry, 4 * (g->pool_words - free), 4 * g->pool_words);
-    c->in_parts = true;
+    return assembler_has_damage(&c->assembler) || room_apart(c) >= 4u * c->rows.bins.pool_words / (uint32_t)c->rows.jobs.workers;
 }
 
 /* Whether it pays to assemble in parts. */
@@ -522,37 +462,97 @@ static bool has_parts(struct smear_context *c)
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
     c->in_parts = false;
-    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || assembler_has_damage(&c->assembler)
-        || c->stats.triangles_in < PART_TRIANGLES_LEAST
-        || g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows)))
+    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || c->stats.triangles_in < PART_TRIANGLES_LEAST
+        || (!are_apart(c)
+            && g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows))))
         return false;
-    if (c->parts_wait == 0)
-        return true;
-    c->parts_wait--;
-    return false;
+    return c->parts_wait == 0 || c->parts_wait-- == 0;
+}
+
+/* Assembles draws of a kind into parts that have been made. False where one finds no room. */
+static bool run_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
+{
+    const struct smear_context *c = all->c;
+    const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
+    uint32_t total = 0;
+    bool done = true;
+    all->kind = kind;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        total += part_triangles(all, i, seen);
+        seen += seen != NULL && draw_is_static(c, i);
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        all->part[k].first = part_share(total, k, n);
+        all->part[k].end = part_share(total, k + 1, n);
+    }
+    smear_jobs_run(&all->c->rows.jobs, assemble_job, all, (int)n);
+    for (uint32_t k = 0; k < n; k++)
+        done = done && all->part[k].done;
+    return done;
+}
+
+/* Assembles all draws in the memory of temporal methods, which is free until rows are drawn. What moves comes first where the
+ * display keeps tiles, see assemble_draws(). */
+static bool assemble_apart(struct smear_context *c, const struct smear_instant *instant)
+{
+    const uint32_t n = (uint32_t)c->rows.jobs.workers;
+    struct assembly_parts *all = (struct assembly_parts *)(void *)c->rows.scratch;
+    const size_t share = room_apart(c);
+    const bool keeps = assembler_has_damage(&c->assembler) && c->damage->is_same;
+    if (share == 0)
+        return false;
+    all->c = c;
+    all->instant = instant;
+    smear_part_within(&all->part[0], &c->assembler);
+    for (uint32_t k = 1; k < n; k++)
+        if (!smear_part_apart(&all->part[k], &c->assembler, c->rows.scratch + PARTS_WORDS + (k - 1) * (share / 4), share))
+            return false;
+    bool done = run_parts(all, keeps ? DRAWS_MOVING : DRAWS_ALL, n), moves = false;
+    for (uint32_t k = 0; k < n; k++)
+        moves = moves || all->part[k].as.path_static_count != 0;
+    done = done && (!keeps || (!moves && run_parts(all, DRAWS_STATIC, n)));
+    all->part[0].done = done;
+    if (!smear_parts_join(&c->assembler, all->part, n))
+        return false;
+    c->stats.draws_beside += smear_parts_beside(all->part, n);
+    return true;
+}
+
+/* Assembles all draws in parts of the pool. A draw may have triangles in many parts, each of which begins a segment. */
+static bool assemble_within(struct smear_context *c, const struct smear_instant *instant)
+{
+    struct smear_bins *g = &c->rows.bins;
+    struct assembly_parts *all = (struct assembly_parts *)(void *)g->pool;
+    const uint32_t n = (uint32_t)c->rows.jobs.workers, total = c->stats.triangles_in, spare = g->segment_limit - c->draw_count;
+    all->c = c;
+    all->instant = instant;
+    for (uint32_t i = 0; i < g->segment_limit; i++)
+        g->segment[i] = (struct smear_segment){ 0 };
+    for (uint32_t k = 0, draws = 0, at = 0; k < n; k++) {
+        while (draws < c->draw_count && at < part_share(total, k, n))
+            at += c->submitted[draws++].draw.mesh->triangle_count;
+        smear_part_in_pool(all->part, &c->assembler, k, n, PARTS_WORDS, draws + spare * k / n);
+    }
+    if (!run_parts(all, DRAWS_ALL, n))
+        return false;
+    note_fill(&c->stats.fill.geometry, 4 * smear_parts_join_pool(&c->assembler, all->part, n), 4 * g->pool_words);
+    c->stats.draws_beside += smear_parts_beside(all->part, n);
+    c->in_parts = true;
+    return true;
 }
 
 /* Assembles all draws in as many parts as there are workers. False where a part finds no room. */
 static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct smear_instant *instant)
 {
-    struct smear_bins *g = &c->rows.bins;
-    struct assembly_parts *all = (struct assembly_parts *)(void *)g->pool;
-    const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    bool done = true;
-    all->c = c;
-    all->instant = instant;
-    for (uint32_t i = 0; i < g->segment_limit; i++)
-        g->segment[i] = (struct smear_segment){ 0 };
-    for (uint32_t k = 0; k < n; k++)
-        make_part(all, k, n);
-    smear_jobs_run(&c->rows.jobs, assemble_job, all, (int)n);
-    for (uint32_t k = 0; k < n; k++)
-        done = done && all->part[k].done;
-    if (done)
-        join_parts(c, all, n);
-    else
-        c->parts_wait = PARTS_RETRY;
-    return done;
+    const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped,
+                   among = c->assembler.path_static_count;
+    if (are_apart(c) ? assemble_apart(c, instant) : assemble_within(c, instant))
+        return true;
+    c->assembler.triangles_drawn = drawn;
+    c->assembler.triangles_dropped = dropped;
+    c->assembler.path_static_count = among;
+    c->parts_wait = PARTS_RETRY;
+    return false;
 }
 #endif
 

@@ -181,7 +181,7 @@ static void mark_tiles(const struct smear_damaged_tiles *d, const struct smear_p
     const struct smear_tile_box box = tile_box_of(d, b->x0, b->x1, b->y0, b->y1);
     for (int row = box.y0; row <= box.y1; row++)
         for (int column = box.x0; column <= box.x1; column++)
-            d->tile[row * (d->columns + 1) + column] |= TILE_DAMAGED_NOW;
+            tile_mark(&d->tile[row * (d->columns + 1) + column]);
 }
 
 /* Adds a triangle to its list. There must be room. */
@@ -667,13 +667,15 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     uint32_t mask;
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
-    const uint16_t *index = d->mesh->index + 3 * a->resume.triangle;
+    const uint32_t first = max_u32(d->first, a->resume.triangle);
+    const uint16_t *index = d->mesh->index + 3 * first;
 #ifndef __OPTIMIZE_SIZE__
-    if (d->mesh->vertex_count <= mask + 1u && a->resume.triangle == 0)      /* one after the other they cost less */
+    /* One after the other they cost less. */
+    if (d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
             find_vertex(&cache[i], a, d, tag + i);
 #endif
-    for (uint32_t i = a->resume.triangle; i < d->mesh->triangle_count; i++, index += 3) {
+    for (uint32_t i = first; i < d->end; i++, index += 3) {
         struct path_vertex *v[3];
         v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
         v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);

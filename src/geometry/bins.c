@@ -74,3 +74,64 @@ uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, ui
 {
     return smear_bins_merge(g, last, head, row, row * g->row_px);
 }
+
+#if SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE
+void smear_bins_join(const struct smear_bins *g, uint32_t *last, const uint32_t *more)
+{
+    for (int row = g->row_first; row < g->row_end; row++) {
+        if (more[row] == SMEAR_NO_TRIANGLE)
+            continue;
+        if (last[row] != SMEAR_NO_TRIANGLE) {
+            struct smear_triangle *a = bins_triangle(g, last[row]), *b = bins_triangle(g, more[row]);
+            const uint32_t first = a->next;
+            a->next = b->next;
+            b->next = first;
+        }
+        last[row] = more[row];
+    }
+}
+
+/* Counts the numbers of rings, and their triangles' segments, from those of the store on. */
+static void renumber(const struct smear_bins *g, uint32_t *last)
+{
+    for (int row = g->row_first; row < g->row_end; row++) {
+        if (last[row] == SMEAR_NO_TRIANGLE)
+            continue;
+        const uint32_t end = last[row] += g->triangle_count;
+        for (uint32_t i = end, next;; i = next) {
+            struct smear_triangle *t = bins_triangle(g, i);
+            next = t->next += g->triangle_count;
+            if (t->segment != SMEAR_POINT)
+                t->segment = (uint16_t)(t->segment + g->segment_count);
+            if (next == end)
+                break;
+        }
+    }
+}
+
+bool smear_bins_append(struct smear_bins *g, const struct smear_bins *more)
+{
+    if (!bins_has_room(g, more->vertex_words, more->triangle_count)
+        || g->segment_count + more->segment_count > min_u32(g->segment_limit, SMEAR_POINT))
+        return false;
+    __builtin_memcpy(g->pool + g->vertex_words, more->pool, (size_t)more->vertex_words * 4);
+    if (more->triangle_count != 0)
+        __builtin_memcpy(bins_triangle(g, g->triangle_count + more->triangle_count - 1),
+                         bins_triangle(more, more->triangle_count - 1), more->triangle_count * sizeof(struct smear_triangle));
+    for (uint32_t i = 0; i < more->segment_count; i++) {
+        g->segment[g->segment_count + i] = more->segment[i];
+        g->segment[g->segment_count + i].base += g->vertex_words;
+    }
+    uint32_t *const from[3] = { more->opaque_last, more->blend_last, more->moving_last };
+    uint32_t *const to[3] = { g->opaque_last, g->blend_last, g->moving_last };
+    for (int i = 0; i < 3; i++)
+        if (to[i] != NULL) {
+            renumber(g, from[i]);
+            smear_bins_join(g, to[i], from[i]);
+        }
+    g->vertex_words += more->vertex_words;
+    g->triangle_count += more->triangle_count;
+    g->segment_count += more->segment_count;
+    return true;
+}
+#endif

@@ -205,6 +205,13 @@ static inline const struct smear_path_bounds *bins_bounds(const struct smear_bin
     return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
 }
 
+/* Appends a part's rings, whose numbers are larger than all others, to those of the parts before it. */
+void smear_bins_join(const struct smear_bins *g, uint32_t *last, const uint32_t *more);
+
+/* Appends all that another store has, with segments, rings and numbers of its own; its rings are used up. False where
+ * there is no room. */
+bool smear_bins_append(struct smear_bins *g, const struct smear_bins *more);
+
 /* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission
  * order. `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the
  * new head; lists end with SMEAR_NO_TRIANGLE. */

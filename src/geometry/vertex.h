@@ -45,6 +45,16 @@ struct smear_damaged_tiles {
 
 enum { TILE_DAMAGED_NOW = 0x80 };       /* a moving triangle is seen in it */
 
+/* Cores that assemble parts of the draws may mark a tile at once: they all write the same. */
+static inline void tile_mark(uint8_t *tile)
+{
+#if SMEAR_GNU
+    __atomic_store_n(tile, (uint8_t)(__atomic_load_n(tile, __ATOMIC_RELAXED) | TILE_DAMAGED_NOW), __ATOMIC_RELAXED);
+#else
+    *tile |= TILE_DAMAGED_NOW;
+#endif
+}
+
 static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1,
                                                 int32_t y0, int32_t y1)
 {
@@ -119,7 +129,7 @@ struct smear_measured_poses {
 struct smear_assembly {
     const smear_mesh *mesh;
     const smear_material *material;     /* never null */
-    uint32_t first, end;                /* its triangles that are assembled; those with a path are not cut */
+    uint32_t first, end;                /* its triangles that are assembled */
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
     bool path;                          /* motion.key is set, and records get a path (path.h); moves is 0 */

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT */
+/* parts.c - see parts.h. */
+#include "geometry/parts.h"
+
+#include "base/arena.h"
+#include "geometry/assemble.h"
+
+#if SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE
+
+enum {
+    POOL_WORDS_LEAST = 1024,
+    PART_CACHE = 64                 /* vertices */
+};
+
+uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n)
+{
+    uint32_t sum = 0;
+    for (uint32_t k = 0; k < n; k++)
+        sum += part[k].beside;
+    return sum;
+}
+
+void smear_part_within(struct smear_part *p, const struct smear_assembler *a)
+{
+    *p = (struct smear_part){ .as = *a, .bins = *a->bins };
+    if (assembler_has_damage(a)) {
+        p->tiles = *a->damaged;
+        p->as.damaged = &p->tiles;
+    }
+    p->done = true;
+    p->as.bins = &p->bins;
+    p->as.path_static_count = p->as.triangles_drawn = p->as.triangles_dropped = 0;
+}
+
+bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, void *memory, size_t bytes)
+{
+    struct smear_arena arena = { (uint8_t *)memory, 0 };
+    const size_t rows = (size_t)(a->bins->row_count + a->bins->moving_rows);
+    smear_part_within(p, a);
+    uint32_t *ring = arena_take(&arena, 3 * rows, sizeof *ring);
+    p->bins.segment = arena_take(&arena, a->bins->segment_limit, sizeof *p->bins.segment);
+    p->as.cache = arena_take(&arena, a->cache_mask + 1u, sizeof *p->as.cache);
+    p->as.serial = 0;
+    if (arena.used + POOL_WORDS_LEAST * 4 > bytes)
+        return false;
+    smear_assembler_reset(&p->as);
+    for (size_t i = 0; i < 3 * rows; i++)
+        ring[i] = SMEAR_NO_TRIANGLE;
+    p->bins.opaque_last = ring;
+    p->bins.blend_last = ring + rows;
+    p->bins.moving_last = a->bins->moving_last != NULL ? ring + 2 * rows : NULL;
+    p->bins.pool_words = (uint32_t)((bytes - arena.used) / 16 * 4);
+    p->bins.pool = arena_take(&arena, p->bins.pool_words, 4);
+    return true;
+}
+
+static void add_counts(struct smear_assembler *a, const struct smear_part *p)
+{
+    a->path_count += p->as.path_count;
+    a->path_static_count += p->as.path_static_count;
+    a->triangles_drawn += p->as.triangles_drawn;
+    a->triangles_dropped += p->as.triangles_dropped;
+}
+
+bool smear_parts_join(struct smear_assembler *a, const struct smear_part *part, uint32_t n)
+{
+    struct smear_bins *g = a->bins;
+    bool done = true;
+    *g = part[0].bins;
+    a->serial = part[0].as.serial;
+    a->cache_has_paths = part[0].as.cache_has_paths;
+    a->path_count = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const struct smear_part *p = &part[k];
+        done = done && p->done && p->as.path_count <= a->path_limit - a->path_count && (k == 0 || smear_bins_append(g, &p->bins));
+        if (!done)
+            return false;
+        add_counts(a, p);
+        if (p->rest_of != NULL)
+            tile_box_add(p->rest_of, p->rest);
+    }
+    return true;
+}
+
+void smear_part_in_pool(struct smear_part *part, const struct smear_assembler *a, uint32_t k, uint32_t n, uint32_t head,
+                        uint32_t segment)
+{
+    const struct smear_bins *g = a->bins;
+    struct smear_part *p = &part[k];
+    const uint32_t rows = (uint32_t)(g->row_count + g->moving_rows), words = (g->pool_words - head) / n & ~3u;
+    uint32_t *ring = g->pool + (g->pool_words - (k + 1) * words);
+    smear_part_within(p, a);
+    p->as.cache = (struct smear_cached_vertex *)(void *)(ring + 3 * rows);
+    p->as.cache_mask = PART_CACHE - 1;
+    p->as.serial = 0;
+    p->as.path_limit = a->path_limit / n;
+    p->bins.triangle_count = k * words / 4;
+    p->bins.vertex_words = g->pool_words - (k + 1) * words + 3 * rows
+                         + PART_CACHE * (uint32_t)(sizeof(struct smear_cached_vertex) / 4);
+    p->bins.segment_count = segment;
+    if (k != 0)
+        part[k - 1].bins.segment_limit = segment;
+    for (uint32_t i = 0; i < 3 * rows; i++)
+        ring[i] = SMEAR_NO_TRIANGLE;
+    p->bins.opaque_last = ring;
+    p->bins.blend_last = ring + rows;
+    p->bins.moving_last = g->moving_last != NULL ? ring + 2 * rows : NULL;
+    smear_assembler_reset(&p->as);
+}
+
+uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_part *part, uint32_t n)
+{
+    struct smear_bins *g = a->bins;
+    uint32_t most = 0, free = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const struct smear_bins *b = &part[k].bins;
+        const uint32_t rest = g->pool_words - b->vertex_words - b->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+        smear_bins_join(g, g->opaque_last, b->opaque_last);
+        smear_bins_join(g, g->blend_last, b->blend_last);
+        if (g->moving_last != NULL)
+            smear_bins_join(g, g->moving_last, b->moving_last);
+        add_counts(a, &part[k]);
+        free += rest;
+        if (k == 0 || rest > most) {
+            most = rest;
+            g->vertex_words = b->vertex_words;
+            g->triangle_count = b->triangle_count;
+        }
+    }
+    g->segment_count = part[n - 1].bins.segment_count;
+    return g->pool_words - free;
+}
+
+#endif
