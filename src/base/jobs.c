@@ -2,7 +2,7 @@
 /* jobs.c - see jobs.h. */
 #include "base/jobs.h"
 
-#if SMEAR_TICKETS
+#if SMEAR_TICKETS && !SMEAR_CLAIMS
 enum { TICKET_TAKING = 1, TICKET_STEP = 2 };
 
 /* Whether worker `other` is before the one with this ticket, or may be. */

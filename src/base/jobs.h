@@ -2,8 +2,8 @@
 /* jobs.h - independent jobs on one or several cores.
  *
  * Core 0 announces a stage (a function and a number of jobs); workers claim one job after the other and report. Where cores
- * have loads and stores of single words alone (Cortex-M), they take turns by tickets (Lamport's bakery); where size counts or
- * no compiler's word orders these, worker w of n does jobs w, w + n, w + 2n ... instead. */
+ * have loads and stores of single words alone (Cortex-M), worker w of n does jobs w, w + n, w + 2n ... instead, or they take
+ * turns by tickets (Lamport's bakery) where the program says SMEAR_TICKETS=1. */
 #ifndef SMEAR_JOBS_H
 #define SMEAR_JOBS_H
 
@@ -65,9 +65,9 @@ static inline void word_show(unsigned *word, unsigned value)
 #endif
 #endif
 
-/* Elsewhere they take turns: word_show() is seen before word_look() looks at another word. */
+/* Cores take turns elsewhere: word_show() is seen before word_look() looks at another word. All files must agree. */
 #ifndef SMEAR_TICKETS
-#define SMEAR_TICKETS (!SMEAR_CLAIMS && SMEAR_GNU && SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE)
+#define SMEAR_TICKETS 0
 #endif
 
 #define SMEAR_WORKERS_MAX (SMEAR_WITH_WORKERS ? 8 : 1)
@@ -82,7 +82,7 @@ struct smear_jobs {
 #if SMEAR_CLAIMS || SMEAR_TICKETS
     int claimed;                /* jobs that some worker does or has done */
 #endif
-#if SMEAR_TICKETS
+#if SMEAR_TICKETS && !SMEAR_CLAIMS
     unsigned ticket[SMEAR_WORKERS_MAX];      /* 0: does not want a job; TICKET_TAKING; else the least is next */
 #endif
     void (*idle)(void *user);   /* called while waiting; may be null */
