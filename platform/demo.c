@@ -4,9 +4,9 @@
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
  *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
  *                                          and how much stack was used; fails if it overflowed
- *     demo cost [SCREEN [BLUR [STEP]]]     what the loop's frames cost, in the units of platform.h's clock;
+ *     demo cost [SCREEN [BLUR [STEP [FOG]]]]   what the loop's frames cost, in the units of platform.h's clock;
  *                                  of a way to blur of demo_player.c, or as the screen has it; of every
- *                                  STEPth frame, a divisor of the loop
+ *                                  STEPth frame, a divisor of the loop; in fog between two distances, 10-60
  *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
@@ -231,8 +231,23 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     return 0;
 }
 
-static int cost_of(const struct demo_screen *screen, const char *name, uint32_t step)
+/* Reads two distances in metres, as 10-60; false where they are none, or not in this order. */
+static bool read_fog(smear_fog *fog, const char *text)
 {
+    const char *end = text;
+    while (*end != '-' && *end != '\0')
+        end++;
+    const uint32_t begins = read_decimal(text), ends = *end == '-' ? read_decimal(end + 1) : 0;
+    *fog = (smear_fog){ .color = 0xa0b4c8, .near_plane = (int32_t)(begins << 16), .far_plane = (int32_t)(ends << 16) };
+    return begins < ends && ends < 1u << 15;
+}
+
+static int cost_of(const struct demo_screen *screen, const char *name, uint32_t step, const char *between)
+{
+    smear_fog fog;
+    if (between != NULL && !read_fog(&fog, between))
+        return failed("fog lies between two distances in metres, as 10-60", 0);
+    player.fog = between != NULL ? &fog : NULL;
     const struct demo_blur *way = name != NULL ? demo_blur_find(name) : NULL;
     if (name != NULL && way == NULL)
         return failed("no such way to blur", 0);
@@ -308,7 +323,7 @@ int main(int argc, char **argv)
     if (is_word(command, "check"))
         return check(screen, step > 0 ? step : 1, argc > 4);
     if (is_word(command, "cost"))
-        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_decimal(argv[4]) : 1);
+        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_decimal(argv[4]) : 1, argc > 5 ? argv[5] : NULL);
     if (is_word(command, "memory"))
         return memory();
     return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);

@@ -45,6 +45,7 @@ struct demo_player {
     const smear_draw *props;
     uint16_t shutter_degrees;       /* 0: sharp; what keys change */
     const struct demo_blur *blur;   /* null: as the screen has it */
+    const smear_fog *fog;           /* null: none */
     struct demo_scene scene;
 };
 

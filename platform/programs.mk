@@ -187,9 +187,10 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them
+## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them;
+## with both, FOG=10-60: in fog between 10 and 60 metres
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP) $(if $(FOG),$(if $(STEP),$(FOG),$(error FOG=$(FOG) needs a BLUR and a STEP)))
 
 # ---------------------------------------------------------------------- the smallest
 
