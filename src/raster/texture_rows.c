@@ -59,17 +59,24 @@ static SMEAR_NOINLINE void light_in_fog(struct texel_light *l, const struct setu
     texel_light_fog(l, smear_fog_run_part(s, side->left, side->right, x, n, y));
 }
 
-/* The same for a row of polynomials. */
-SMEAR_INLINE void light_row(struct texel_light *l, const struct setup *s, const struct span_side *side, int32_t y)
+/* Of polynomials, how many of a row's last `rest` pixels have one part of fog; brings their light. They are a block of span.c. */
+static SMEAR_NOINLINE int32_t part_in_fog(struct texel_light *l, const struct setup *s, const struct span_side *side, int32_t rest,
+                                          int32_t y)
 {
-    if (SMEAR_WITH_FOG && l != NULL && side->left < side->right && fog_varies(s))
-        light_in_fog(l, s, side, side->left, side->right - side->left, y);
+    const int32_t n = block_next(s->texture.block, rest - 1);
+    light_in_fog(l, s, side, side->right - rest, n, y);
+    return fog_is_by_rows(s) ? rest : n + (n == rest - 1);
+}
+
+SMEAR_INLINE bool light_is_in_fog(const struct texel_light *l, const struct setup *s)
+{
+    return SMEAR_WITH_FOG && l != NULL && fog_varies(s);
 }
 
 /* Whether there are no rows for a triangle's fog. */
 static bool fog_has_no_rows(const struct setup *s)
 {
-    return fog_varies(s) && !fog_is_by_rows(s) && (s->texture.mode == TEXTURE_CURVED || s->texture.block == 1);
+    return fog_varies(s) && !fog_is_by_rows(s) && s->texture.block == 1;
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -453,7 +460,6 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
         const int32_t left = side->left, n = side->right - left, x = left - x0,
                       row = (int32_t)(side - r->side);
         struct row_run p;
-        light_row(light, s, side, r->y + row);
         if (n > 0 && (whole || smear_row_run_next(&p, s, r, row, left))) {
             const uv_pair along = uv_times(dxx, x);
             run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
@@ -465,14 +471,25 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                 run.dz = p.dz;
                 run.z = p.z + p.dz * (uint32_t)left;
             }
-            if (!whole && (p.a != left || p.b != left + n)) {
-                struct texel_run part = run;        /* that one stays in registers */
-                draw_row_runs(s, r, row, &part, &p, left, left + n);
-            } else if (n < TEXELS_LEAST) {
-                texel_pixel(run.color, run.depth, run.z, run.texels, light, texel_run_uv(&run), log2_width,
-                            log2_height, kind);
-            } else {
-                texels_draw(&run, n, log2_width, log2_height, kind);
+            const bool cut = !whole && (p.a != left || p.b != left + n);
+            for (int32_t rest = n;;) {
+                const int32_t count = light_is_in_fog(light, s) ? part_in_fog(light, s, side, rest, r->y + row) : rest;
+                if (cut) {
+                    struct texel_run part = run;    /* that one stays in registers */
+                    if (!draw_row_runs(s, r, row, &part, &p, left + n - rest, left + n - rest + count))
+                        break;
+                    run = part;
+                } else if (count < TEXELS_LEAST) {
+                    texel_pixel(run.color, run.depth, run.z, run.texels, light, texel_run_uv(&run), log2_width,
+                                log2_height, kind);
+                } else {
+                    texels_draw(&run, count, log2_width, log2_height, kind);
+                }
+                rest -= count;
+                if (light == NULL || rest == 0)
+                    break;
+                if (!cut)
+                    texel_run_skip(&run, (uint32_t)count);
             }
         }
         depth += stride;
