@@ -44,10 +44,10 @@ struct texel_light {
     int format;
     bool narrow;                        /* pixels are RGB565 */
     bool linear;
-    bool composed;                      /* linear, or in fog: not what most texels become */
     const struct texel_table *table;    /* or null */
     uint32_t fog;                       /* 0x00RRGGBB, of which pixels have so much of 65536 */
     int32_t fog_part;
+    uint32_t clear, fog_pair, fog_green;    /* of 256; what fog adds to red and blue, and to green, 8 bits more */
 };
 
 /* White light. The texture's sizes are 2^log2_width and 2^log2_height, both at least 2. */
@@ -64,7 +64,7 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->palette = palette;
     l->format = format;
     l->narrow = narrow;
-    l->linear = l->composed = SMEAR_WITH_LINEAR && linear;
+    l->linear = SMEAR_WITH_LINEAR && linear;
     l->table = NULL;
     l->fog_part = 0;
     l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
@@ -72,13 +72,17 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->from_u = 32u - (uint32_t)log2_width;
 }
 
-/* Goes on with another part of fog: remembers no pixel. */
+/* Goes on with another part of fog: remembers no pixel. Codes show a 256th of fog, light less (pixel_mix_part). */
 static inline void texel_light_fog(struct texel_light *l, int32_t part)
 {
-    if (l->fog_part == part)
+    const int32_t seen = SMEAR_WITH_LINEAR && l->linear ? part : (part + 128) & ~255;
+    if (l->fog_part == seen)
         return;
-    l->fog_part = part;
-    l->composed = l->linear || part != 0;
+    const uint32_t a = (uint32_t)seen >> 8;
+    l->fog_part = seen;
+    l->clear = 256u - a;
+    l->fog_pair = (l->fog & 0xff00ffu) * a + 0x800080u;
+    l->fog_green = pixel_green(l->fog) * a + 0x80u;
     l->index = l->texel = ~0u;
     l->near = 0;
 }

@@ -158,6 +158,12 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
     p->a += hidden_run(s->target->depth + (at + p->a), p->b - p->a, p->z + p->dz * (uint32_t)p->a, p->dz);
     if (p->a == p->b)
         return;
+    if (SMEAR_WITH_FOG && fog_row_is_even(s, side->left, side->right)) {
+        k = (struct shade){ { 0, 0, 0 }, { 0, 0, 0 } };
+        smear_fog_channels((int32_t *)k.c, s, (side->left + side->right) >> 1, y);
+        draw(s, p, at, p->a, p->b, &k);
+        return;
+    }
     if (s->perspective_color || fog_of(s) != FOG_NONE) {
         draw_blocks(s, p, at, y, side->left, side->right);
         return;

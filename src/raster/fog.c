@@ -29,6 +29,15 @@ static int32_t quotient_round(struct quotient q)
     return q.shift > 31 ? 0 : (int32_t)(((q.mantissa >> (q.shift - 1)) + 1u) >> 1);
 }
 
+/* The largest difference of a channel. */
+static uint32_t contrast(uint32_t a, uint32_t b)
+{
+    uint32_t most = 0;
+    for (int shift = 0; shift < 24; shift += 8)
+        most = max_u32(most, (uint32_t)abs_i32((int32_t)(a >> shift & 255u) - (int32_t)(b >> shift & 255u)));
+    return most;
+}
+
 void smear_fog_make(struct smear_raster_frame *frame, const smear_fog *fog, const smear_camera *camera)
 {
     struct smear_fog_levels *f = &frame->fog;
@@ -38,6 +47,7 @@ void smear_fog_make(struct smear_raster_frame *frame, const smear_fog *fog, cons
     const uint32_t range = (uint32_t)(fog->far_plane - fog->near_plane), begin = (uint32_t)fog->near_plane;
     struct quotient q;
     f->color = fog->color & 0xffffffu;
+    f->contrast = (uint8_t)max_u32(contrast(f->color, 0), contrast(f->color, 0xffffffu));
     f->flat_depth = SMEAR_WITH_VIEWS && camera->half_height > 0;
     f->near_units = INT32_MAX;
     if (f->flat_depth) {        /* part = base - units q11 (far - near) 2^16 / (range NEAR 2^11) */
@@ -51,42 +61,44 @@ void smear_fog_make(struct smear_raster_frame *frame, const smear_fog *fog, cons
     /* part = near NEAR 2^11 2^16 / (range units q11) - base */
     const uint64_t nearest = (uint64_t)(uint32_t)camera->near_plane * SMEAR_DEPTH_NEAR;
     q = quotient_of(nearest, range);
-    f->scale = q.mantissa;
-    f->shift = (int8_t)(q.shift + 2);
+    f->scale = min_u32((q.mantissa + (1u << 13)) >> 14, 0xffffu);
+    f->shift = (int8_t)(q.shift + 6);
     f->base = quotient_round(quotient_of((uint64_t)begin << 16, range));
     if (fog->near_plane > camera->near_plane) {
         q = quotient_of(nearest, begin);
         q.shift -= 11;
         f->near_units = quotient_round(q);
     }
+    f->zeros = (uint8_t)count_leading_zeros((uint32_t)max_i32(f->near_units, 1));
 }
 
 int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units)
 {
-    const uint32_t q = (uint32_t)max_i32(units, 1);
+    uint32_t q = (uint32_t)max_i32(units, 1);
     if (units >= fog->near_units)
         return 0;
     if (SMEAR_WITH_VIEWS && fog->flat_depth)
         return clamp_i32(fog->base - (int32_t)(mulh_u32(fog->scale, q) >> clamp_i32(fog->shift, 0, 31)), 0, 65536);
-    const int zeros = count_leading_zeros(q);       /* 1 / q = r 2^(zeros - 61) */
-    const uint32_t over = mulh_u32(fog->scale, recip_norm(q << zeros));
-    return clamp_i32((int32_t)(over >> clamp_i32(fog->shift - zeros, 0, 31)) - fog->base, 0, 65536);
+#if SMEAR_HAS_CLZ
+    const int zeros = count_leading_zeros(q);
+    q <<= zeros;
+#else
+    int zeros = fog->zeros;         /* few are left, as fog ends where it does */
+    for (q <<= zeros; (int32_t)q >= 0; q <<= 1)
+        zeros++;
+#endif
+    const uint32_t over = fog->scale * ((recip_norm(q) + (1u << 13)) >> 14);        /* 1 / q = r 2^(zeros - 61) */
+    return clamp_i32((int32_t)(over >> clamp_i32(fog->shift - zeros, 1, 31)) - fog->base, 0, 65536);
 }
 
 /* ------------------------------------------------------------------ a triangle */
 
-/* The largest difference of a channel. */
-static uint32_t contrast(uint32_t a, uint32_t b)
-{
-    uint32_t most = 0;
-    for (int shift = 0; shift < 24; shift += 8)
-        most = max_u32(most, (uint32_t)abs_i32((int32_t)(a >> shift & 255u) - (int32_t)(b >> shift & 255u)));
-    return most;
-}
-
 /* By how many codes a channel of the colour, or of black or white where that is null, changes between two parts of fog. */
 static uint32_t codes_between(const struct smear_raster_frame *frame, const uint32_t *color, int32_t part, int32_t other)
 {
+    const struct smear_fog_levels *fog = frame_fog(frame);
+    if (!frame_is_linear(frame))
+        return ((uint32_t)(part - other) * (color != NULL ? contrast(*color, fog->color) : fog->contrast) + 32768u) >> 16;
     if (color != NULL)
         return contrast(fog_pixel(frame, *color, part), fog_pixel(frame, *color, other));
     return max_u32(contrast(fog_pixel(frame, 0, part), fog_pixel(frame, 0, other)),
@@ -138,6 +150,9 @@ void smear_fog_triangle(struct setup *s)
  * of that. */
 enum { FOG_BLOCK = 8 };
 
+/* Codes by which fog may change along a row that has one colour. */
+enum { FOG_ROW = 2 };
+
 void smear_fog_blocks(struct setup *s)
 {
     const struct smear_fog_levels *fog = frame_fog(s->frame);
@@ -154,10 +169,13 @@ void smear_fog_blocks(struct setup *s)
         /* one part for a block, which errs by up to half */
         const int block = codes == 0 ? FOG_LEVEL : codes <= FOG_STEP / 4 ? BLOCK_LONGEST : codes <= FOG_STEP ? 16
                         : codes <= 2 * FOG_STEP ? 8 : 4;
-        s->fog = (uint16_t)(FOG_VARIES + block);
+        const int32_t left = max_i32(s->bounds.x0 >> 8, 0), right = min_i32(s->bounds.x1 >> 8, s->frame->width - 1);
+        s->fog = (uint16_t)(FOG_VARIES + (right - left < block ? FOG_LEVEL : block));
         s->color_block = (uint8_t)min_i32(s->color_block, block);
         return;
     }
+    if (!segment_gouraud(s->segment))
+        s->fog = (uint16_t)(FOG_VARIES + (codes == 0 ? FOG_LEVEL : 16 * FOG_ROW / min_u32(codes, 16 * FOG_ROW)));
     if (codes <= FOG_BLOCK / 4 && !s->perspective_color)
         s->color_block = BLOCK_LONGEST;
     else if (codes > FOG_BLOCK)
@@ -176,7 +194,7 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 {
     if (!segment_gouraud(s->segment)) {
         for (int i = 0; i < 3; i++)
-            c[i] = channel_of_code(s->color >> (16 - 8 * i) & 255u, frame_is_linear(s->frame));
+            c[i] = channel_of_code(s->color >> (16 - 8 * i) & 255u, true);
         return;
     }
     const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
@@ -191,12 +209,18 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
 {
-    const int32_t part = fog_is_even(s) ? fog_even_part(s) : part_at(s, x, y);
-    channels_at(c, s, x, y);
-    for (int i = 0; i < 3; i++) {
-        const uint32_t code = frame_fog(s->frame)->color >> (16 - 8 * i) & 255u;
-        c[i] += ((channel_of_code(code, frame_is_linear(s->frame)) - c[i]) >> 9) * part >> 7;
+    const int32_t part = part_at(s, x, y);
+    const uint32_t fog = frame_fog(s->frame)->color;
+    if (!segment_gouraud(s->segment) && !frame_is_linear(s->frame)) {
+        for (int i = 0; i < 3; i++) {
+            const int32_t code = (int32_t)(s->color >> (16 - 8 * i) & 255u);
+            c[i] = (code << 16) + 0x8000 + ((int32_t)(fog >> (16 - 8 * i) & 255u) - code) * part;
+        }
+        return;
     }
+    channels_at(c, s, x, y);
+    for (int i = 0; i < 3; i++)
+        c[i] = fog_channel(s->frame, c[i], i, part);
 }
 
 void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear)

@@ -34,6 +34,13 @@ void smear_fog_blocks(struct setup *s);
 /* The part of fog of a triangle with FOG_EVEN. */
 static inline int32_t fog_even_part(const struct setup *s) { return (s->fog - FOG_EVEN) * 4; }
 
+/* A channel, 0 .. 2, as channel_value has it, in so much of fog. */
+static inline int32_t fog_channel(const struct smear_raster_frame *frame, int32_t value, int channel, int32_t part)
+{
+    const uint32_t code = frame_fog(frame)->color >> (16 - 8 * channel) & 255u;
+    return value + (((channel_of_code(code, frame_is_linear(frame)) - value) >> 9) * part >> 7);
+}
+
 /* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y);
 
@@ -41,12 +48,13 @@ void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t 
  * `from` becomes the mean: one colour is drawn faster. */
 void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear);
 
-/* Whether a textured triangle with FOG_VARIES has one part of it in each row. */
-static inline bool fog_is_by_rows(const struct setup *s)
+/* Whether a triangle that is textured or not opaque has one part of fog in each row. */
+static inline bool fog_is_by_rows(const struct setup *s) { return s->fog == FOG_VARIES + FOG_LEVEL; }
+
+/* Whether an opaque triangle without a texture has one colour in a row of the frame, that of the middle pixel. */
+static inline bool fog_row_is_even(const struct setup *s, int32_t left, int32_t right)
 {
-    const int32_t left = max_i32(s->bounds.x0 >> 8, 0), right = min_i32(s->bounds.x1 >> 8, s->frame->width - 1);
-    const int32_t block = s->fog - FOG_VARIES;
-    return right - left < block || block == FOG_LEVEL;
+    return fog_varies(s) && (right - left <= s->fog - FOG_VARIES || s->fog == FOG_VARIES + FOG_LEVEL);
 }
 
 /* The part of fog of pixels that begin at `start` and end n later, of a row from left to right of the frame, of a triangle

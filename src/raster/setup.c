@@ -138,6 +138,13 @@ static inline int32_t times_q16(int32_t a, int32_t q)
     return a * (q >> 16) + (int32_t)((uint32_t)a * ((uint32_t)q & 0xffffu) >> 16);
 }
 
+/* Red, green or blue of a vertex; where there is no texture, in the triangle's part of fog. */
+static int32_t value_in_fog(const struct setup *s, int vertex, int c)
+{
+    const int32_t value = channel_value(s, vertex, c);
+    return SMEAR_WITH_FOG && fog_is_even(s) && !segment_textured(s->segment) ? fog_channel(s->frame, value, c, fog_even_part(s)) : value;
+}
+
 static void setup_color(struct setup *s)
 {
     s->even_color = s->perspective_color = false;
@@ -154,7 +161,7 @@ static void setup_color(struct setup *s)
     }
     for (int c = 0; c < channels; c++) {
         for (int i = 0; i < 3; i++)
-            value[c][i] = channel_value(s, i, c);
+            value[c][i] = c < 3 ? value_in_fog(s, i, c) : channel_value(s, i, c);
         for (int i = 0; i < 3; i++)
             range = max_u32(range, magnitude_i32(value[c][i] - value[c][i == 2 ? 0 : i + 1]));
     }
@@ -522,12 +529,10 @@ static bool is_flat(struct setup *s)
         return false;
     uint32_t code[3];
     for (int c = 0; c < 3; c++) {
-        uint32_t value = (uint32_t)channel_value(s, 0, c);
+        uint32_t value = (uint32_t)value_in_fog(s, 0, c);
         code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
-    if (SMEAR_WITH_FOG && fog_is_even(s))
-        s->color = fog_pixel(s->frame, s->color, fog_even_part(s));
     return true;
 }
 
@@ -541,6 +546,8 @@ void smear_setup(struct setup *s, uint64_t area)
         setup_color(s);
     if (SMEAR_WITH_FOG && fog_varies(s))
         smear_fog_blocks(s);
+    else if (SMEAR_WITH_FOG && !segment_textured(s->segment))
+        s->fog = FOG_NONE;
     if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
         setup_texture(s);
 }

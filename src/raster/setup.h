@@ -72,7 +72,7 @@ enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 enum {
     FOG_NONE,
     FOG_EVEN,               /* and above: one part of it throughout, see fog_even_part */
-    FOG_VARIES = 0x8000     /* and the pixels that may have one part where colours have no planes, or FOG_LEVEL */
+    FOG_VARIES = 0x8000     /* and the pixels that may have one part where vertices have no colours, or FOG_LEVEL */
 };
 
 /* A row has one part of fog, however long it is. */

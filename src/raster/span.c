@@ -109,10 +109,13 @@ static inline bool has_channels_in_fog(const struct setup *s)
 static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
                                            uint32_t d[4])
 {
+    const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
+    const bool even = fog_row_is_even(s, left, right);
     int32_t a[3], b[3], step[3] = { 0, 0, 0 };
-    smear_fog_channels(a, s, k->start, p->y);
-    smear_fog_channels(b, s, k->end, p->y);
-    if (k->end > k->start)
+    smear_fog_channels(a, s, even ? (left + right) >> 1 : k->start, p->y);
+    if (!even)
+        smear_fog_channels(b, s, k->end, p->y);
+    if (!even && k->end > k->start)
         smear_fog_steps(step, a, b, k->end - k->start, frame_is_linear(s->frame));
     for (int i = 0; i < 3; i++) {
         c[i] = (uint32_t)(a[i] + step[i] * (k->x - k->start));

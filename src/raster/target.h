@@ -116,6 +116,8 @@ struct smear_raster_draw {          /* one per draw, indexed by smear_segment.dr
 struct smear_fog_levels {
     bool on, flat_depth;
     int8_t shift;
+    uint8_t zeros;                  /* leading zeros that all units in fog have */
+    uint8_t contrast;               /* codes between the fog and black or white, whichever is more */
     uint32_t color;                 /* 0x00RRGGBB */
     uint32_t scale;
     int32_t base;
