@@ -26,7 +26,6 @@ static inline uint32_t in_codes(const struct texel_light *l, uint32_t t)
     return rb | code_times(pixel_green(t), l->green) << 8;
 }
 
-#if SMEAR_WITH_LINEAR
 static SMEAR_RARE uint32_t find_linear(struct texel_light *l, uint32_t t)
 {
     uint32_t pixel = in_linear_light(l, t);
@@ -34,13 +33,15 @@ static SMEAR_RARE uint32_t find_linear(struct texel_light *l, uint32_t t)
         pixel = pixel_mix_part(pixel, l->fog, l->fog_part, true);
     return remember(l, t, pixel);
 }
-#endif
 
-/* As pixel_mix does it. */
-static inline uint32_t in_fog(const struct texel_light *l, uint32_t pixel)
+/* Codes in fog, as by pixel_mix. */
+static SMEAR_RARE uint32_t find_composed(struct texel_light *l, uint32_t t)
 {
-    return (((pixel & 0xff00ffu) * l->clear + l->fog_pair) >> 8 & 0xff00ffu)
-         | ((pixel_green(pixel) * l->clear + l->fog_green) & 0xff00u);
+    if (SMEAR_WITH_LINEAR && l->linear)
+        return find_linear(l, t);
+    const uint32_t pixel = in_codes(l, t);
+    return remember(l, t, (((pixel & 0xff00ffu) * l->clear + l->fog_pair) >> 8 & 0xff00ffu)
+                        | ((pixel_green(pixel) * l->clear + l->fog_green) & 0xff00u));
 }
 
 uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index)
@@ -50,12 +51,9 @@ uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index)
     l->near = 0;
     if (t == l->texel)
         return l->pixel;
-#if SMEAR_WITH_LINEAR
-    if (l->linear)
-        return find_linear(l, t);
-#endif
-    const uint32_t pixel = in_codes(l, t);
-    return remember(l, t, SMEAR_WITH_FOG && l->fog_part != 0 ? in_fog(l, pixel) : pixel);
+    if ((SMEAR_WITH_LINEAR || SMEAR_WITH_FOG) && l->composed)
+        return find_composed(l, t);
+    return remember(l, t, in_codes(l, t));
 }
 
 #if TEXEL_TABLES

@@ -44,6 +44,7 @@ struct texel_light {
     int format;
     bool narrow;                        /* pixels are RGB565 */
     bool linear;
+    bool composed;                      /* linear, or in fog: not what most texels become */
     const struct texel_table *table;    /* or null */
     uint32_t fog;                       /* 0x00RRGGBB, of which pixels have so much of 65536 */
     int32_t fog_part;
@@ -64,7 +65,7 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->palette = palette;
     l->format = format;
     l->narrow = narrow;
-    l->linear = SMEAR_WITH_LINEAR && linear;
+    l->linear = l->composed = SMEAR_WITH_LINEAR && linear;
     l->table = NULL;
     l->fog_part = 0;
     l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
@@ -83,6 +84,7 @@ static inline void texel_light_fog(struct texel_light *l, int32_t part)
     l->clear = 256u - a;
     l->fog_pair = (l->fog & 0xff00ffu) * a + 0x800080u;
     l->fog_green = pixel_green(l->fog) * a + 0x80u;
+    l->composed = l->linear || seen != 0;
     l->index = l->texel = ~0u;
     l->near = 0;
 }

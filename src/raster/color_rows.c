@@ -68,13 +68,11 @@ static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint
         shade_run(pixels, depth, n, z, dz, k, false, true);
 }
 
-/* n pixels from index `at` on, of one colour: rows of level ground in fog are. */
-static void draw_flat(const struct setup *s, uint32_t z, uint32_t dz, int32_t at, int32_t n, const struct shade *k)
+/* n pixels from index `at` on, of a colour as the target has it. */
+static void draw_flat(const struct setup *s, uint32_t z, uint32_t dz, int32_t at, int32_t n, uint32_t color)
 {
     const struct smear_raster_target *t = s->target;
-    const bool narrow = target_is_direct(t);
-    const uint32_t color = shade_pixel(k->c[0], k->c[1], k->c[2], frame_is_linear(s->frame), narrow);
-    if (narrow)
+    if (target_is_direct(t))
         flat_run(t->direct + at, t->depth + at, n, z, dz, color, true);
     else
         flat_run(t->color + at, t->depth + at, n, z, dz, color, false);
@@ -87,7 +85,8 @@ static void draw(const struct setup *s, const struct row_run *p, int32_t at, int
     const struct smear_raster_target *t = s->target;
     const uint32_t z = p->z + p->dz * (uint32_t)a;
     if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE && (k->d[0] | k->d[1] | k->d[2]) == 0) {
-        draw_flat(s, z, p->dz, at + a, b - a, k);
+        draw_flat(s, z, p->dz, at + a, b - a,
+                  shade_pixel(k->c[0], k->c[1], k->c[2], frame_is_linear(s->frame), target_is_direct(t)));
         return;
     }
     if (!target_is_direct(t) && !frame_is_linear(s->frame))
@@ -158,14 +157,12 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
     p->a += hidden_run(s->target->depth + (at + p->a), p->b - p->a, p->z + p->dz * (uint32_t)p->a, p->dz);
     if (p->a == p->b)
         return;
-    if (SMEAR_WITH_FOG && fog_row_is_even(s, side->left, side->right)) {
-        k = (struct shade){ { 0, 0, 0 }, { 0, 0, 0 } };
-        smear_fog_channels((int32_t *)k.c, s, (side->left + side->right) >> 1, y);
-        draw(s, p, at, p->a, p->b, &k);
-        return;
-    }
     if (s->perspective_color || fog_of(s) != FOG_NONE) {
-        draw_blocks(s, p, at, y, side->left, side->right);
+        if (SMEAR_WITH_FOG && fog_row_is_even(s, side->left, side->right))
+            draw_flat(s, p->z + p->dz * (uint32_t)p->a, p->dz, at + p->a, p->b - p->a,
+                      target_pixel(s->target, smear_fog_row_color(s, side->left, side->right, y)));
+        else
+            draw_blocks(s, p, at, y, side->left, side->right);
         return;
     }
     for (int i = 0; i < 3; i++) {

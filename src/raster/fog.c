@@ -114,7 +114,10 @@ int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, i
     if (low >= fog->near_units)
         return 0;
     const int32_t most = smear_fog_part(fog, low), least = smear_fog_part(fog, high);
-    return most != least && codes_between(frame, color, most, least) > FOG_STEP ? -1 : (most + least) >> 1;
+    if (codes_between(frame, NULL, most, least) > FOG_STEP
+        && (color == NULL || codes_between(frame, color, most, least) > FOG_STEP))
+        return -1;
+    return (most + least) >> 1;
 }
 
 /* The triangle's colour, where it has one. */
@@ -221,6 +224,11 @@ void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t 
     channels_at(c, s, x, y);
     for (int i = 0; i < 3; i++)
         c[i] = fog_channel(s->frame, c[i], i, part);
+}
+
+uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right, int32_t y)
+{
+    return fog_pixel(s->frame, s->color, part_at(s, (left + right) >> 1, y));
 }
 
 void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear)

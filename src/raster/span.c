@@ -27,8 +27,7 @@ void smear_span_flat(const struct setup *s, const struct span *p)
 void smear_span_level(const struct setup *s, const struct span *p)
 {
     const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
-    const int32_t part = smear_fog_part(frame_fog(s->frame), plane_at(&s->depth, (left + right) >> 1, p->y));
-    const uint32_t color = target_pixel(s->target, fog_pixel(s->frame, s->color, part));
+    const uint32_t color = target_pixel(s->target, smear_fog_row_color(s, left, right, p->y));
     if (target_is_direct(s->target))
         flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, true);
     else
@@ -110,12 +109,18 @@ static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct s
                                            uint32_t d[4])
 {
     const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
-    const bool even = fog_row_is_even(s, left, right);
     int32_t a[3], b[3], step[3] = { 0, 0, 0 };
-    smear_fog_channels(a, s, even ? (left + right) >> 1 : k->start, p->y);
-    if (!even)
-        smear_fog_channels(b, s, k->end, p->y);
-    if (!even && k->end > k->start)
+    if (fog_row_is_even(s, left, right)) {
+        const uint32_t color = smear_fog_row_color(s, left, right, p->y);
+        for (int i = 0; i < 3; i++) {
+            c[i] = (uint32_t)channel_of_code(color >> (16 - 8 * i) & 255u, frame_is_linear(s->frame));
+            d[i] = 0;
+        }
+        return;
+    }
+    smear_fog_channels(a, s, k->start, p->y);
+    smear_fog_channels(b, s, k->end, p->y);
+    if (k->end > k->start)
         smear_fog_steps(step, a, b, k->end - k->start, frame_is_linear(s->frame));
     for (int i = 0; i < 3; i++) {
         c[i] = (uint32_t)(a[i] + step[i] * (k->x - k->start));
