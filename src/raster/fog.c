@@ -93,20 +93,23 @@ int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units)
 
 /* ------------------------------------------------------------------ a triangle */
 
-/* By how many codes a channel of the colour, or of black or white where that is null, changes between two parts of fog. */
+/* A code in the numbers of codes below. */
+enum { CODE = 16 };
+
+/* By how much a channel of the colour, or of black or white where that is null, changes between two parts of fog. */
 static uint32_t codes_between(const struct smear_raster_frame *frame, const uint32_t *color, int32_t part, int32_t other)
 {
     const struct smear_fog_levels *fog = frame_fog(frame);
     if (!frame_is_linear(frame))
-        return ((uint32_t)(part - other) * (color != NULL ? contrast(*color, fog->color) : fog->contrast) + 32768u) >> 16;
+        return ((uint32_t)(part - other) * (color != NULL ? contrast(*color, fog->color) : fog->contrast) + 4095u) >> 12;
     if (color != NULL)
-        return contrast(fog_pixel(frame, *color, part), fog_pixel(frame, *color, other));
-    return max_u32(contrast(fog_pixel(frame, 0, part), fog_pixel(frame, 0, other)),
-                   contrast(fog_pixel(frame, 0xffffffu, part), fog_pixel(frame, 0xffffffu, other)));
+        return CODE * contrast(fog_pixel(frame, *color, part), fog_pixel(frame, *color, other));
+    return CODE * max_u32(contrast(fog_pixel(frame, 0, part), fog_pixel(frame, 0, other)),
+                          contrast(fog_pixel(frame, 0xffffffu, part), fog_pixel(frame, 0xffffffu, other)));
 }
 
 /* Codes by which one part of fog may be off at a triangle's nearest and farthest vertex together. */
-enum { FOG_STEP = 4 };
+enum { FOG_STEP = 4 * CODE };
 
 int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color)
 {
@@ -151,34 +154,39 @@ void smear_fog_triangle(struct setup *s)
 
 /* Blocks within which fog changes by more than so many codes are halved: where fog begins, a block errs by up to a quarter
  * of that. */
-enum { FOG_BLOCK = 8 };
+enum { FOG_BLOCK = 8 * CODE };
 
 /* Codes by which fog may change along a row that has one colour. */
-enum { FOG_ROW = 2 };
+enum { FOG_ROW = 2 * CODE };
+
+/* The most pixels of a row that may have one part of fog, which changes by `codes` in 16, or FOG_LEVEL for rows of any length. */
+static int32_t even_pixels(const struct setup *s, uint32_t codes, uint32_t most)
+{
+    const int32_t left = max_i32(s->bounds.x0 >> 8, 0), right = min_i32(s->bounds.x1 >> 8, s->frame->width - 1);
+    const int32_t even = codes == 0 ? INT32_MAX : (int32_t)(16 * most / codes);
+    return right - left < even ? FOG_LEVEL : min_i32(even, FOG_LEVEL - 1);
+}
 
 void smear_fog_blocks(struct setup *s)
 {
     const struct smear_fog_levels *fog = frame_fog(s->frame);
     const int32_t low = lowest(s), high = highest(s), most = smear_fog_part(fog, low), least = smear_fog_part(fog, high);
     const uint32_t over_16 = min_u32(magnitude_i32(s->depth.dx), 1u << 26) * 16u;
-    uint32_t codes = codes_between(s->frame, one_color(s), most, least);
-    if (over_16 < (uint32_t)(high - low)) {     /* the part and its base change by as much of them as 1 / q */
-        const uint32_t sum = (uint32_t)most + (fog->flat_depth ? 0u : (uint32_t)fog->base);
-        const uint32_t change = smear_times_over(over_16, sum, (uint32_t)low);
-        if (change < (uint32_t)(most - least))
-            codes = codes * (change >> 4) / ((uint32_t)(most - least + 15) >> 4);
-    }
+    /* the part and its base change by as much of them as 1 / q */
+    const uint32_t sum = (uint32_t)most + (fog->flat_depth ? 0u : (uint32_t)fog->base);
+    const uint32_t change = min_u32(smear_times_over(over_16, sum, (uint32_t)max_i32(low, 1)), 16u << 16);
+    const uint32_t all = codes_between(s->frame, one_color(s), most, least);
+    const uint32_t steep = all * (change >> 4) / ((uint32_t)(most - least + 15) >> 4), codes = min_u32(all, steep);
     if (segment_textured(s->segment) || !draw_is_opaque(s->draw)) {
         /* one part for a block, which errs by up to half */
-        const int block = codes == 0 ? FOG_LEVEL : codes <= FOG_STEP / 4 ? BLOCK_LONGEST : codes <= FOG_STEP ? 16
-                        : codes <= 2 * FOG_STEP ? 8 : 4;
-        const int32_t left = max_i32(s->bounds.x0 >> 8, 0), right = min_i32(s->bounds.x1 >> 8, s->frame->width - 1);
-        s->fog = (uint16_t)(FOG_VARIES + (right - left < block ? FOG_LEVEL : block));
+        const int32_t even = even_pixels(s, steep, FOG_STEP);
+        const int32_t block = even >= BLOCK_LONGEST ? BLOCK_LONGEST : even >= BLOCK_LONG ? BLOCK_LONG : even >= 16 ? 16 : even >= 8 ? 8 : 4;
+        s->fog = (uint16_t)(FOG_VARIES + (even == FOG_LEVEL ? FOG_LEVEL : block));
         s->color_block = (uint8_t)min_i32(s->color_block, block);
         return;
     }
     if (!segment_gouraud(s->segment))
-        s->fog = (uint16_t)(FOG_VARIES + (codes == 0 ? FOG_LEVEL : 16 * FOG_ROW / min_u32(codes, 16 * FOG_ROW)));
+        s->fog = (uint16_t)(FOG_VARIES + even_pixels(s, steep, FOG_ROW));
     if (codes <= FOG_BLOCK / 4 && !s->perspective_color)
         s->color_block = BLOCK_LONGEST;
     else if (codes > FOG_BLOCK)

@@ -428,6 +428,32 @@ SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pai
 }
 #endif
 
+/* A row, in pieces of one light. p: its first run, where that is not all of it; else null. */
+SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, int32_t row, struct texel_run *run,
+                             struct row_run *p, int log2_width, int log2_height, enum texel_kind kind)
+{
+    const struct span_side *side = &r->side[row];
+    struct texel_light *const light = run->light;
+    for (int32_t rest = side->right - side->left;;) {
+        const int32_t n = light_is_in_fog(light, s) ? part_in_fog(light, s, side, rest, r->y + row) : rest;
+        if (p != NULL) {
+            struct texel_run part = *run;       /* that one stays in registers */
+            if (!draw_row_runs(s, r, row, &part, p, side->right - rest, side->right - rest + n))
+                return;
+            *run = part;
+        } else if (n < TEXELS_LEAST) {
+            texel_pixel(run->color, run->depth, run->z, run->texels, light, texel_run_uv(run), log2_width, log2_height, kind);
+        } else {
+            texels_draw(run, n, log2_width, log2_height, kind);
+        }
+        rest -= n;
+        if (light == NULL || rest == 0)
+            return;
+        if (p == NULL)
+            texel_run_skip(run, (uint32_t)n);
+    }
+}
+
 /* texcoord_curved, whose values go on from row to row. */
 SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, struct texel_light *light,
                               int log2_width, int log2_height, enum texel_kind kind)
@@ -471,26 +497,7 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                 run.dz = p.dz;
                 run.z = p.z + p.dz * (uint32_t)left;
             }
-            const bool cut = !whole && (p.a != left || p.b != left + n);
-            for (int32_t rest = n;;) {
-                const int32_t count = light_is_in_fog(light, s) ? part_in_fog(light, s, side, rest, r->y + row) : rest;
-                if (cut) {
-                    struct texel_run part = run;    /* that one stays in registers */
-                    if (!draw_row_runs(s, r, row, &part, &p, left + n - rest, left + n - rest + count))
-                        break;
-                    run = part;
-                } else if (count < TEXELS_LEAST) {
-                    texel_pixel(run.color, run.depth, run.z, run.texels, light, texel_run_uv(&run), log2_width,
-                                log2_height, kind);
-                } else {
-                    texels_draw(&run, count, log2_width, log2_height, kind);
-                }
-                rest -= count;
-                if (light == NULL || rest == 0)
-                    break;
-                if (!cut)
-                    texel_run_skip(&run, (uint32_t)count);
-            }
+            draw_curve(s, r, row, &run, !whole && (p.a != left || p.b != left + n) ? &p : NULL, log2_width, log2_height, kind);
         }
         depth += stride;
         z += dz_down;
