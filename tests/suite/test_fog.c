@@ -352,6 +352,60 @@ static void test_tiny_triangles_with_texels_have_their_fog(void)
     free(picture);
 }
 
+/* Walls along the view, of few columns each, within which fog changes much: of one colour, with colours at the vertices, with a
+ * texture, with one that is cut out. */
+static void test_walls_that_recede_have_their_fog(void)
+{
+    enum { WALLS = 8, SHIFT = 8 };
+    static struct seen seen;
+    static int16_t place[WALLS * 12], uv[WALLS * 8];
+    static uint16_t index[WALLS * 6];
+    static uint8_t color[WALLS * 16];
+    static const uint32_t black[4] = { 0xff000000u, 0xff000000u, 0xff000000u, 0xff000000u };
+    static const smear_texture texture = { .texels = black, .width = 2, .height = 2 };
+    for (int i = 0; i < WALLS * 4; i++) {
+        const int wall = i / 4, corner = i % 4;
+        place[3 * i] = (int16_t)((wall * 2 - WALLS + 1) * 60);
+        place[3 * i + 1] = (int16_t)(corner < 2 ? -150 : 150);
+        place[3 * i + 2] = (int16_t)(-1200 + 60 * wall - (corner == 0 || corner == 3 ? 0 : 60));
+        color[4 * i + corner % 3] = 20;
+        color[4 * i + 3] = 255;
+    }
+    for (int i = 0; i < WALLS * 6; i++)
+        index[i] = (uint16_t)(i / 6 * 4 + (int[]){ 0, 1, 2, 0, 2, 3 }[i % 6]);
+    const smear_camera camera = camera_at(0, 0, 0, 0);
+    const smear_fog fog = fog_between(fog_near, fog_far);
+    for (int k = 0; k < 8; k++) {
+        const smear_mesh mesh = { .position = place, .index = index, .uv = k / 2 >= 2 ? uv : NULL, .color = k / 2 == 1 ? color : NULL,
+                                  .vertex_count = WALLS * 4, .triangle_count = WALLS * 2, .shift = SHIFT };
+        const uint8_t shade = k / 2 == 1 ? 255 : 0;
+        const smear_material material = { .texture = k / 2 >= 2 ? &texture : NULL, .color = { shade, shade, shade, 255 }, .double_sided = 1,
+                                          .unlit = 1, .alpha = k / 2 == 3 ? SMEAR_CUTOUT : SMEAR_OPAQUE };
+        const smear_draw draw = { .mesh = &mesh, .material = &material };
+        for (int in_fog = 0; in_fog < 2; in_fog++) {
+            struct rig r;
+            const smear_desc desc = desc_of(SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_RECONSTRUCT));
+            const smear_frame frame = { .camera = &camera, .method = in_fog ? SMEAR_NONE : SMEAR_RECONSTRUCT, .clear = FOG,
+                                        .fog = in_fog ? &fog : NULL,
+                                        .light_space = (uint8_t)(k % 2 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED) };
+            if (rig_begin(&r, &desc, true) && CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK)) {
+                if (in_fog) {
+                    double rms;
+                    int beyond;
+                    compare((const uint32_t *)(const void *)r.picture, &seen, k % 2 != 0, &rms, &beyond);
+                    CHECK(rms < 1.0);
+                    CHECK(beyond <= (k < 4 ? 0 : 20));      /* rows of up to four texels have one part */
+                } else {
+                    memcpy(seen.color, r.color, sizeof seen.color);
+                    memcpy(seen.depth, r.depth, sizeof seen.depth);
+                    seen.camera = camera;
+                }
+            }
+            rig_end(&r);
+        }
+    }
+}
+
 /* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
 static void test_what_is_kept_is_drawn_again_in_other_fog(void)
 {
@@ -414,6 +468,7 @@ void suite_fog(void)
     RUN(test_workers_and_parts_draw_the_same_fog);
     RUN(test_bands_cut_no_fog);
     RUN(test_tiny_triangles_with_texels_have_their_fog);
+    RUN(test_walls_that_recede_have_their_fog);
     RUN(test_what_is_kept_is_drawn_again_in_other_fog);
     RUN(test_the_text_of_bad_fog_names_the_field);
 }
