@@ -52,12 +52,12 @@ uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right,
 void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear);
 
 /* Whether a triangle that is textured or not opaque has one part of fog in each row. */
-static inline bool fog_is_by_rows(const struct setup *s) { return s->fog == FOG_VARIES + FOG_LEVEL; }
+static inline bool fog_is_by_rows(const struct setup *s) { return s->fog - FOG_VARIES == FOG_LEVEL; }
 
 /* Whether an opaque triangle without a texture has one colour in a row of the frame. */
 static inline bool fog_row_is_even(const struct setup *s, int32_t left, int32_t right)
 {
-    return fog_varies(s) && (right - left <= s->fog - FOG_VARIES || s->fog == FOG_VARIES + FOG_LEVEL);
+    return fog_varies(s) && (right - left <= s->fog - FOG_VARIES || s->fog - FOG_VARIES == FOG_LEVEL);
 }
 
 /* The part of fog of pixels that begin at `start` and end n later, of a row from left to right of the frame, of a triangle
