@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 200, NAMES_MAX = 8000, NAME_BYTES = 80 };
+enum { FILES_MAX = 300, NAMES_MAX = 8000, NAME_BYTES = 80 };
 
 struct file {
     const char *path;
