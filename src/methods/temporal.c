@@ -125,7 +125,7 @@ static void finished_target(const struct smear_tile_run *t, struct smear_raster_
     out->color_rows = (struct smear_plane_rows){ t->pitch, 0, out->y1 - out->y0, out->x0 };
 }
 
-static void hand_on(const struct finish *f, const struct smear_tile_run *t)
+static SMEAR_NOINLINE void hand_on(const struct finish *f, const struct smear_tile_run *t)
 {
     struct smear_raster_target out;
     finished_target(t, &out);
@@ -208,7 +208,7 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     return next;
 }
 
-static void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
+static SMEAR_NOINLINE void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
