@@ -150,7 +150,7 @@ static void print_shot(const char *name, const struct shot *s, uint32_t pixels)
 
 /* Means over every stepth frame of the loop, from the middle of the first step on. Where the display keeps what it
  * is sent, frames before those are drawn, too, and not counted. */
-static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step)
+static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step, const smear_fog *fog)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
@@ -166,6 +166,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     platform_clock_start();
     int result = start(screen, &desc);
     player.blur = way;
+    player.fog = fog;
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
         const bool counts = i % step == step / 2;
@@ -247,12 +248,11 @@ static int cost_of(const struct demo_screen *screen, const char *name, uint32_t 
     smear_fog fog;
     if (between != NULL && !read_fog(&fog, between))
         return failed("fog lies between two distances in metres, as 10-60", 0);
-    player.fog = between != NULL ? &fog : NULL;
     const struct demo_blur *way = name != NULL ? demo_blur_find(name) : NULL;
     if (name != NULL && way == NULL)
         return failed("no such way to blur", 0);
     return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0)
-                                              : cost(screen, way, step);
+                                              : cost(screen, way, step, between != NULL ? &fog : NULL);
 }
 
 static int memory(void)

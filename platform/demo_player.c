@@ -119,6 +119,7 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
     player->props = find_props(screen->level);
     player->shutter_degrees = 180;
     player->blur = NULL;
+    player->fog = NULL;
     if (player->props == NULL)
         return SMEAR_ERR_ARG;
     return smear_init(&player->ctx, desc, memory, bytes);
