@@ -4,6 +4,7 @@
 #define SMEAR_VERTEX_H
 
 #include "base/fixmath.h"
+#include "base/jobs.h"
 #include "geometry/bins.h"
 #include "geometry/light.h"
 #include "geometry/transform.h"
@@ -48,10 +49,11 @@ enum { TILE_DAMAGED_NOW = 0x80 };       /* a moving triangle is seen in it */
 /* Cores that assemble parts of the draws may mark a tile at once: they all write the same. */
 static inline void tile_mark(uint8_t *tile)
 {
-#if SMEAR_GNU
+#if SMEAR_CLAIMS
     __atomic_store_n(tile, (uint8_t)(__atomic_load_n(tile, __ATOMIC_RELAXED) | TILE_DAMAGED_NOW), __ATOMIC_RELAXED);
 #else
-    *tile |= TILE_DAMAGED_NOW;
+    volatile uint8_t *const mark = tile;
+    *mark = (uint8_t)(*mark | TILE_DAMAGED_NOW);
 #endif
 }
 

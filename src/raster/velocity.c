@@ -139,7 +139,7 @@ static void shorten(int32_t v[2], int bits)
 }
 
 /* Displacement between the poses at a pixel, q8 px. */
-static void displacement_at(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
+static void displacement_between(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
 {
     if (s->velocity_affine) {
         out[0] = (plane_at(&s->vx, x, y) + 512) >> 10;
@@ -233,13 +233,13 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
     static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
     int32_t x = p->a, at = p->at;
     int32_t here[2], next[2], stored[2], stored_next[2];
-    displacement_at(s, x, p->y, here);
+    displacement_between(s, x, p->y, here);
     stored_velocity(s, here, stored);
     while (x < p->b) {
         int32_t end = min_i32((x & ~7) + 8, p->right - 1), n = end - x, step[2] = { 0, 0 },
                 wide[2] = { 0, 0 };
         if (n > 0) {
-            displacement_at(s, end, p->y, next);
+            displacement_between(s, end, p->y, next);
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
                 int32_t change = stored_next[i] - stored[i];
