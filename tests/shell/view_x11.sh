@@ -175,6 +175,7 @@ claim "8 bits are too few" fails 1 x11 view --out x11 --frames 1
 : >cookies.server
 server locked Xvfb -screen 0 800x600x24 -auth "$base/cookies.server"
 kill "$server"
+wait "$server" 2>/dev/null          # the next one takes its number
 cookie=00112233445566778899aabbccddeeff
 xauth -f cookies.server -q add ":$number" . $cookie
 xauth -f cookies -q add ":$number" . $cookie
