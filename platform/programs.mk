@@ -76,6 +76,10 @@ $(BUILD)/target_bench$(EXE): $(BENCH_OBJ) $(LIB) $(SCRIPTS)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(BENCH_OBJ) $(LIB) $(LDLIBS)
 
+$(BUILD)/overlay_cost$(EXE): $(PROGRAM_OBJ) $(BUILD)/tests/target/overlay_cost.o $(LIB) $(SCRIPTS)
+	$(call say,LD)
+	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(filter %.o,$^) $(LIB) $(LDLIBS)
+
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
 ## golden frames with each switch of smear_config.h off
@@ -300,7 +304,7 @@ stack-test:
 	     $$2 in most { print $$2, $$1, "and", own, "of", most[$$2]; checked++; over += $$1 + own > most[$$2] } \
 	     END { exit over || checked != int(n / 2) }' $(BUILD)/stack.txt
 
-.PHONY: target-test target-bench target-accept $(SMALL_LAYOUTS:%=target-test-%)
+.PHONY: target-test target-bench overlay-cost target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
 ## unit tests and golden frames on TARGET
 target-test: $(TARGET_TESTS:%=$(BUILD)/target_%$(EXE)) $(SMALL_LAYOUTS:%=target-test-%) $(RUN_NEEDS)
@@ -314,6 +318,10 @@ $(SMALL_LAYOUTS:%=target-test-%): target-test-%:
 ## what frames cost on TARGET
 target-bench: $(BUILD)/target_bench$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $(BUILD)/target_bench$(EXE)
+
+## what a line of text, and points, take of a frame on TARGET
+overlay-cost: $(BUILD)/overlay_cost$(EXE) $(RUN_NEEDS)
+	$(RUN_BENCH) $<
 
 ## take today's golden frames as right (look at the pictures first)
 target-accept: $(TAPES)/target_tapes
