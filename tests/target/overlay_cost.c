@@ -94,7 +94,7 @@ static uint32_t cost(const struct way *w, const smear_overlay *overlay)
     smear_transform pose = SMEAR_IDENTITY;
     pose.origin[2] = -20 * ONE;
     for (int k = 0; k < 9; k += 4)
-        pose.basis[k] = 1 << 20;
+        pose.basis[k] = 2 << 20;
     const smear_draw draw = { .id = 1, .mesh = &square, .material = &unlit, .now = &pose };
     uint32_t count = 0;
     int result = smear_init(&context, &desc, arena, room);
