@@ -438,7 +438,7 @@ static void assemble_job(void *argument, int job, int worker)
         if (first < end)
             p->done = assemble_range(all, p, i, first, end, notes && is_static ? seen : NULL);
         at += count;
-        seen += seen != NULL && is_static;
+        seen = seen != NULL && is_static ? seen + 1 : seen;
     }
 }
 
@@ -479,7 +479,7 @@ static bool run_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
     all->kind = kind;
     for (uint32_t i = 0; i < c->draw_count; i++) {
         total += part_triangles(all, i, seen);
-        seen += seen != NULL && draw_is_static(c, i);
+        seen = seen != NULL && draw_is_static(c, i) ? seen + 1 : seen;
     }
     for (uint32_t k = 0; k < n; k++) {
         all->part[k].first = part_share(total, k, n);

@@ -26,6 +26,9 @@ static inline bool static_is_cached(const struct smear_damage *d)
     return SMEAR_WITH_DAMAGE && d != NULL && d->caches && d->is_same;
 }
 
+/* Whether the window must stay as it is: the next frame may want what is static of it. */
+static inline bool static_is_kept(const struct smear_damage *d) { return SMEAR_WITH_DAMAGE && d != NULL && d->caches; }
+
 /* Whether only damaged tiles are drawn and sent. */
 static inline bool damage_has_tiles(const struct smear_damage *d)
 {

@@ -146,7 +146,7 @@ static int finish_static(const struct finish *f, int first, int end, int worker)
     while (next < end && is_static(&f->self->moving.travel[next]))
         next++;
     const int32_t x0 = tile_left(rows, first), x1 = tile_right(rows, next - 1);
-    if (!static_is_cached(f->self->damage) || !rows_list_has_points(rows, x0, x1)) {
+    if (!static_is_kept(f->self->damage) || !rows_list_has_points(rows, x0, x1)) {
         smear_band_convert_rows(&f->row, &f->background, x0, x1);
         return next;
     }
@@ -381,7 +381,7 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
     finish.row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
     const int strips = finish.strips = (int)((rows->window.width + self->strip - 1) / self->strip);
-    if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_cached(self->damage) && rows_have_points(rows)))
+    if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_kept(self->damage) && rows_have_points(rows)))
         finish_static(&finish, run->first, run->end, 0);
     else if (rows->refill == NULL)
         smear_jobs_run(&rows->jobs, finish_job, &finish, strips + begin_next(&finish, end));
