@@ -32,9 +32,12 @@ static int failed(const char *what, int result)
 {
     platform_print("demo: ");
     platform_print(what);
-    platform_print(" (");
-    platform_print(smear_error_text(result));
-    platform_print(")\n");
+    if (result != SMEAR_OK) {
+        platform_print(" (");
+        platform_print(smear_error_text(result));
+        platform_print(")");
+    }
+    platform_print("\n");
     return 1;
 }
 

@@ -79,62 +79,32 @@ static void note(uint32_t address, bool stores, int width, uint32_t words, int c
         }
 }
 
-static uint32_t load_32(struct ARMCore *cpu, uint32_t address, int *wait)
-{
-    int took = 0;
-    const uint32_t value = plain.load32(cpu, address, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, false, 2, 1, took);
-    return value;
-}
-
-static uint32_t load_16(struct ARMCore *cpu, uint32_t address, int *wait)
-{
-    int took = 0;
-    const uint32_t value = plain.load16(cpu, address, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, false, 1, 1, took);
-    return value;
-}
-
-static uint32_t load_8(struct ARMCore *cpu, uint32_t address, int *wait)
-{
-    int took = 0;
-    const uint32_t value = plain.load8(cpu, address, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, false, 0, 1, took);
-    return value;
-}
-
-static void store_32(struct ARMCore *cpu, uint32_t address, int32_t value, int *wait)
-{
-    int took = 0;
-    plain.store32(cpu, address, value, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, true, 2, 1, took);
-}
-
-static void store_16(struct ARMCore *cpu, uint32_t address, int16_t value, int *wait)
-{
-    int took = 0;
-    plain.store16(cpu, address, value, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, true, 1, 1, took);
-}
-
-static void store_8(struct ARMCore *cpu, uint32_t address, int8_t value, int *wait)
-{
-    int took = 0;
-    plain.store8(cpu, address, value, &took);
-    if (wait != NULL)
-        *wait += took;
-    note(address, true, 0, 1, took);
-}
+/* Loads and stores of so many bits, noted as WIDTH: log2 of their bytes. The core's clock may be null. */
+#define LOAD(BITS, WIDTH) \
+    static uint32_t load_##BITS(struct ARMCore *cpu, uint32_t address, int *wait) \
+    { \
+        int took = 0; \
+        const uint32_t value = plain.load##BITS(cpu, address, &took); \
+        if (wait != NULL) \
+            *wait += took; \
+        note(address, false, WIDTH, 1, took); \
+        return value; \
+    }
+#define STORE(BITS, WIDTH) \
+    static void store_##BITS(struct ARMCore *cpu, uint32_t address, int##BITS##_t value, int *wait) \
+    { \
+        int took = 0; \
+        plain.store##BITS(cpu, address, value, &took); \
+        if (wait != NULL) \
+            *wait += took; \
+        note(address, true, WIDTH, 1, took); \
+    }
+LOAD(32, 2)
+LOAD(16, 1)
+LOAD(8, 0)
+STORE(32, 2)
+STORE(16, 1)
+STORE(8, 0)
 
 static void note_words(uint32_t address, int mask, enum LSMDirection direction, bool stores, int took)
 {

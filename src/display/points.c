@@ -112,50 +112,38 @@ static SMEAR_NOINLINE uint32_t between_ends(uint32_t chord, int32_t near, int32_
     return (chord & 0xffff) * (uint32_t)max_i32(to - from, 0) >> 16;
 }
 
-/* Finds weights of the next rows' pixels that a long streak is seen in. Returns the number of runs.
- *
- * All of the light that a dot has on a chord is there between the ends, and near an end the part that depends on how many
- * halves of the chord the end is away. */
-static SMEAR_NOINLINE int32_t weigh_long(struct brush *b)
+/* What weights of a row depend on: as in struct brush. */
+struct stroke {
+    int32_t along, step, length, reach, radius;
+    uint32_t gain;
+};
+
+/* Finds weights of n pixels of a row of a long streak, from (u, d) on: all of the light that a dot has on a chord is there
+ * between the ends, and near an end the part that depends on how many halves of the chord the end is away. Returns where
+ * they end. */
+SMEAR_INLINE uint16_t *weigh_row_long(const struct stroke *k, uint16_t *weight, int32_t n, int32_t u, int32_t d)
 {
-    const int32_t along = b->along, step = b->step, length = b->length, reach = b->reach, columns = b->columns;
-    const int32_t row_along = b->row_along, row_step = b->row_step;
-    const uint32_t gain = b->gain;
-    const int32_t radius = b->radius;
-    struct run *run = b->run;
-    uint16_t *weight = b->weight;
-    int32_t row_u = b->u, row_d = b->d, rows = b->rows;
-    do {
-        const int32_t n = skip_to_streak(columns, row_d, reach, step), x = columns - n;
-        int32_t u = row_u + x * along, d = row_d - x * step;
-        const uint16_t *const first = weight, *const end = weight + n;
-        while (weight != end) {
-            const int32_t across = abs_i32(d), away = abs_i32(u), near = length - away;
-            if (across >= reach)
-                break;
-            const uint32_t chord = smear_streak_across[across >> (SMEAR_POINT_RADIUS - 7)];
-            uint32_t light = chord & 0xffff;
-            if (near < radius) {
-                const uint32_t k = (uint32_t)(((near >> 4) * (int32_t)(chord >> 16) >> 10) + 128);
-                if (length < radius)
-                    light = between_ends(chord, near, length + away);
-                else if (k <= 255)
-                    light = light * smear_streak_end[k] >> 16;
-                else if ((int32_t)k < 0)
-                    light = 0;
-            }
-            *weight++ = (uint16_t)min_u32(light * gain >> 16, 32768);
-            u += along;
-            d -= step;
+    const uint16_t *const end = weight + n;
+    while (weight != end) {
+        const int32_t across = abs_i32(d), away = abs_i32(u), near = k->length - away;
+        if (across >= k->reach)
+            break;
+        const uint32_t chord = smear_streak_across[across >> (SMEAR_POINT_RADIUS - 7)];
+        uint32_t light = chord & 0xffff;
+        if (near < k->radius) {
+            const uint32_t part = (uint32_t)(((near >> 4) * (int32_t)(chord >> 16) >> 10) + 128);
+            if (k->length < k->radius)
+                light = between_ends(chord, near, k->length + away);
+            else if (part <= 255)
+                light = light * smear_streak_end[part] >> 16;
+            else if ((int32_t)part < 0)
+                light = 0;
         }
-        *run++ = (struct run){ (int16_t)x, (int16_t)(weight - first) };
-        row_u += row_along;
-        row_d += row_step;
-    } while (--rows > 0 && has_room(b, run, weight));
-    b->u = row_u;
-    b->d = row_d;
-    b->rows = rows;
-    return (int32_t)(run - b->run);
+        *weight++ = (uint16_t)min_u32(light * k->gain >> 16, 32768);
+        u += k->along;
+        d -= k->step;
+    }
+    return weight;
 }
 
 /* Returns the light of a dot at v along a chord, q30. */
@@ -165,27 +153,35 @@ static inline uint32_t dot_light(int32_t v, int32_t c2)
     return (uint32_t)q * (uint32_t)q;
 }
 
-/* Does what weigh_long does for a short one, over which two places tell the mean (Gauss), and better than a difference. */
-static SMEAR_NOINLINE int32_t weigh_short(struct brush *b)
+/* The same of a short one, over which two places tell the mean (Gauss), and better than a difference. */
+SMEAR_INLINE uint16_t *weigh_row_short(const struct stroke *k, uint16_t *weight, int32_t n, int32_t u, int32_t d)
 {
-    const int32_t along = b->along, step = b->step, length = b->length, columns = b->columns;
+    const uint16_t *const end = weight + n;
+    while (weight != end) {
+        const int32_t square = RADIUS * RADIUS - 1 - d * d, c2 = square >> 11;
+        if (square < 0)
+            break;
+        *weight++ = (uint16_t)(((dot_light(u - k->length, c2) + dot_light(u + k->length, c2)) >> 16) * k->gain >> 16);
+        u += k->along;
+        d -= k->step;
+    }
+    return weight;
+}
+
+/* Finds weights of the next rows' pixels that a streak is seen in. Returns the number of runs. */
+SMEAR_INLINE int32_t weigh(struct brush *b, bool is_long)
+{
+    const struct stroke k = { b->along, b->step, b->length, is_long ? b->reach : RADIUS, b->radius, b->gain };
+    const int32_t columns = b->columns;
     const int32_t row_along = b->row_along, row_step = b->row_step;
-    const uint32_t gain = b->gain;
     struct run *run = b->run;
     uint16_t *weight = b->weight;
     int32_t row_u = b->u, row_d = b->d, rows = b->rows;
     do {
-        const int32_t n = skip_to_streak(columns, row_d, RADIUS, step), x = columns - n;
-        int32_t u = row_u + x * along, d = row_d - x * step;
-        const uint16_t *const first = weight, *const end = weight + n;
-        while (weight != end) {
-            const int32_t square = RADIUS * RADIUS - 1 - d * d, c2 = square >> 11;
-            if (square < 0)
-                break;
-            *weight++ = (uint16_t)(((dot_light(u - length, c2) + dot_light(u + length, c2)) >> 16) * gain >> 16);
-            u += along;
-            d -= step;
-        }
+        const int32_t n = skip_to_streak(columns, row_d, k.reach, k.step), x = columns - n;
+        const int32_t u = row_u + x * k.along, d = row_d - x * k.step;
+        uint16_t *const first = weight;
+        weight = is_long ? weigh_row_long(&k, first, n, u, d) : weigh_row_short(&k, first, n, u, d);
         *run++ = (struct run){ (int16_t)x, (int16_t)(weight - first) };
         row_u += row_along;
         row_d += row_step;
@@ -195,6 +191,10 @@ static SMEAR_NOINLINE int32_t weigh_short(struct brush *b)
     b->rows = rows;
     return (int32_t)(run - b->run);
 }
+
+static SMEAR_NOINLINE int32_t weigh_long(struct brush *b) { return weigh(b, true); }
+
+static SMEAR_NOINLINE int32_t weigh_short(struct brush *b) { return weigh(b, false); }
 
 static inline uint32_t lit_linear(uint32_t code, uint32_t light, uint32_t weight, bool blends)
 {
