@@ -472,6 +472,14 @@ for threads in 2 3 8; do
     claim "draw the same" same core.ppm core1.ppm
     claim "to the last bit" equals "$(stat_of core.json crc32)" "$(stat_of core1.json crc32)"
 done
+kept="builtin:demo/race --size 96x64 --frames 0-7 --keep-display"
+crcs_of() { grep -o '"crc32":"[0-9a-f]*' "$1"; }
+claim "a display that keeps tiles" render $kept --stats kept1.json
+claim "gets eight frames" equals "$(crcs_of kept1.json | wc -l)" 8
+for threads in 2 3 8; do
+    claim "$threads cores, each assembling a part" render $kept --threads $threads --stats kept.json
+    claim "show the same" equals "$(crcs_of kept.json)" "$(crcs_of kept1.json)"
+done
 claim "several cores and sharp frames" render $race --threads 2 --method accumulate -o a2.ppm
 claim "draw" render $race --method accumulate -o a1.ppm
 claim "the same" same a1.ppm a2.ppm
