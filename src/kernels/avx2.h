@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* avx2.h - eight words or sixteen halves at once on x86 processors that have AVX2 and BMI2, which a program finds out
+ * where it runs: everybody's build draws by them, and still starts on a processor without.
+ *
+ * A variant NAME_avx2 is a function of its own, marked SMEAR_AVX2_FUNCTION: the compiler takes these instructions in it and
+ * in what it inlines there, but inlines it nowhere else. So it stands for enough work to be called for: a
+ * triangle's rows, not one pixel. NAME asks smear_has_avx2() first. Helpers of such functions are `static inline` and so
+ * marked, too. -DSMEAR_AVX2=0 leaves them all out. */
+#ifndef SMEAR_AVX2_H
+#define SMEAR_AVX2_H
+
+#include "kernels/vector.h"
+
+#ifndef SMEAR_AVX2
+#if SMEAR_VECTORS && defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
+#define SMEAR_AVX2 1
+#else
+#define SMEAR_AVX2 0
+#endif
+#endif
+
+#if SMEAR_AVX2
+#include <immintrin.h>
+
+#define SMEAR_AVX2_FUNCTION __attribute__((target("avx2,bmi,bmi2,lzcnt")))
+
+/* Whether this processor has them; some instructions, no call. */
+static inline bool smear_has_avx2(void)
+{
+#if defined(__AVX2__) && defined(__BMI2__)
+    return true;
+#else
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
+#endif
+}
+#else
+static inline bool smear_has_avx2(void) { return false; }
+#endif
+
+#endif
