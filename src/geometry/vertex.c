@@ -51,7 +51,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
     if (s == NULL)
         return NULL;
     const smear_mesh *mesh = d->mesh;
-    bool textured = SMEAR_WITH_TEXTURE && d->material->texture != NULL && mesh->uv != NULL;
+    const bool textured = assembly_is_textured(d);
     bool by_vertices = SMEAR_WITH_GOURAUD
                     && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
     bool per_vertex = by_vertices && !assembly_is_flat(d);

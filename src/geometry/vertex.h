@@ -177,6 +177,11 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
 
 static inline bool assembly_is_flat(const struct smear_assembly *d) { return SMEAR_FIND_FLAT && d->flat; }
 
+static inline bool assembly_is_textured(const struct smear_assembly *d)
+{
+    return SMEAR_WITH_TEXTURE && d->material->texture != NULL && d->mesh->uv != NULL;
+}
+
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
                                        uint32_t index)
 {
@@ -244,12 +249,13 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
  * come out of modelling programs. */
 bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit);
 
-/* Finds out whether the draw's triangles have one colour each. In linear light, colours that are interpolated may round
- * to other codes. */
+/* Finds out whether the draw's triangles have one colour each. Fog and textures see that in linear light: they would mix the
+ * colour's code, where colours of vertices are light of 16 bits. */
 static inline void assembly_find_flat(struct smear_assembly *d)
 {
     if (SMEAR_FIND_FLAT)
-        d->flat = d->material->alpha == SMEAR_OPAQUE && !shading_is_linear(&d->shading)
+        d->flat = d->material->alpha == SMEAR_OPAQUE
+               && (!shading_is_linear(&d->shading) || (!d->fixed && !assembly_is_textured(d)))
                && smear_vertex_is_flat(d->mesh, d->shading.lit);
 }
 
