@@ -183,3 +183,95 @@ void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, c
     smear_gap_means_two_passes(p, at, end - at, taps, cover);
 }
 #endif
+
+/* ------------------------------------------------------------------ eight pixels at once */
+
+#if SMEAR_AVX2
+static inline SMEAR_AVX2_FUNCTION lanes8 weighted8(lanes8 sum, uint32_t weight)
+{
+    return lanes8_mul16(sum, lanes8_all(weight * 0x10001u));
+}
+
+static inline SMEAR_AVX2_FUNCTION lanes8 gap_mean8(const uint32_t *color, const struct gap_sums8 *sum, const struct packed_mean *m)
+{
+    const lanes8 half = lanes8_all(m->halves), factor = lanes8_all(m->factor * 0x10001u);
+    const lanes8 background = lanes8_load(color), rest = lanes8_all(m->n) - (sum->gn >> 16);
+    const lanes8 rb = sum->rb + half + lanes8_mul16(background & 0xff00ffu, rest | rest << 16);
+    const lanes8 g = (sum->gn & 0xffffu) + (half & 0xffffu) + lanes8_mul16(background >> 8 & 0xffu, rest);
+    return (lanes8_mulh16(rb, factor) >> m->shift & 0xff00ffu) | lanes8_mulh16(g, factor) >> m->shift << 8;
+}
+
+static inline SMEAR_AVX2_FUNCTION struct gap_sums8 gap_uncovered8(const struct gap_planes *p, int32_t at,
+                                                                  const struct gap_taps *taps)
+{
+    const uint32_t *rb = p->sums.rb + at, *gn = p->sums.gn + at;
+    const int32_t *offset = taps->at.offset;
+    lanes8 a = lanes8_load(rb), b = lanes8_load(gn);
+    for (int32_t i = 1; i < taps->at.pairs; i++, offset++) {
+        a += lanes8_load(rb + *offset) + lanes8_load(rb - *offset);
+        b += lanes8_load(gn + *offset) + lanes8_load(gn - *offset);
+    }
+    a <<= taps->unit_log2;
+    b <<= taps->unit_log2;
+    if (taps->at.pairs > 0) {
+        a += weighted8(lanes8_load(rb + *offset) + lanes8_load(rb - *offset), taps->last);
+        b += weighted8(lanes8_load(gn + *offset) + lanes8_load(gn - *offset), taps->last);
+    }
+    return (struct gap_sums8){ a, b };
+}
+
+static SMEAR_NOINLINE SMEAR_AVX2_FUNCTION void gap_covered8(struct gap_sums8 *out, const struct gap_planes *p, int32_t at,
+                                                            const struct gap_taps *taps)
+{
+    struct gap_pixels8 c = gap_pixels8_at(p, at, 1);
+    uint32_t all = 1u << taps->unit_log2;
+    lanes8 rb = weighted8(c.own.rb, all), gn = weighted8(c.own.gn, all);
+    for (int32_t i = 0; i < taps->at.pairs; i++) {
+        const uint32_t weight = weight_of(taps, i);
+        const struct gap_sums8 before = gap_tap8(&c, p, at - taps->at.offset[i]),
+                               after = gap_tap8(&c, p, at + taps->at.offset[i]);
+        rb += weighted8(before.rb + after.rb, weight);
+        gn += weighted8(before.gn + after.gn, weight);
+        all += 2 * weight;
+    }
+    out->rb = lanes8_choose(c.hides, weighted8(c.own.rb, all), rb);
+    out->gn = lanes8_choose(c.hides, weighted8(c.own.gn, all), gn);
+}
+
+/* Puts the means of eight pixels, or of those that the mask has. */
+static inline SMEAR_AVX2_FUNCTION void gap_means8(const struct gap_planes *p, int32_t at, const struct gap_taps *taps,
+                                                  enum gap_cover cover, const lanes8 *mask)
+{
+    struct gap_sums8 sum = gap_uncovered8(p, at, taps), found;
+    if (cover != COVER_NONE) {
+        if (!lanes8_any(sum.gn >> 16))
+            return;
+        if (gap_may_hide8(p, at, &taps->at, sum.gn >> 16, taps->mean->n, cover)) {
+            gap_covered8(&found, p, at, taps);
+            sum = gap_choose8(sum, taps->mean->n, found);
+        }
+    }
+    sum.rb = gap_mean8(p->color + at, &sum, taps->mean);
+    if (mask == NULL)
+        lanes8_store(p->color + at, sum.rb);
+    else
+        lanes8_store_some(p->color + at, sum.rb, *mask);
+}
+
+/* Half the instructions of smear_gap_means_vector. The last round finds some pixels again and leaves them. */
+SMEAR_AVX2_FUNCTION void smear_gap_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+                                              enum gap_cover cover)
+{
+    const int32_t end = at + n;
+    if (n < 8) {
+        smear_gap_means_vector(p, at, n, taps, cover);
+        return;
+    }
+    for (; at + 8 <= end; at += 8)
+        gap_means8(p, at, taps, cover, NULL);
+    if (at < end) {
+        const lanes8 left = (lanes8)((lanes8i)lanes8_numbers() >= at - (end - 8));
+        gap_means8(p, end - 8, taps, cover, &left);
+    }
+}
+#endif

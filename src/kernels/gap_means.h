@@ -23,10 +23,20 @@ void smear_gap_means_two_passes(const struct gap_planes *p, int32_t at, int32_t 
 void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                             enum gap_cover cover);
 #endif
+#if SMEAR_AVX2
+void smear_gap_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+                          enum gap_cover cover);
+#endif
 
 static inline void smear_gap_means(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                                    enum gap_cover cover)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        smear_gap_means_avx2(p, at, n, taps, cover);
+        return;
+    }
+#endif
 #if SMEAR_VECTORS
     smear_gap_means_vector(p, at, n, taps, cover);
 #else

@@ -134,6 +134,92 @@ void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct 
 }
 #endif
 
+#if SMEAR_AVX2
+static inline SMEAR_AVX2_FUNCTION lanes8 lanes8_all16(uint32_t a) { return lanes8_all(a * 0x10001u); }
+
+/* twice_light8 and added_light8 of sixteen codes. */
+static inline SMEAR_AVX2_FUNCTION lanes8 twice_light16(lanes8 code)
+{
+    const lanes8 square = lanes8_mul16(code, code), far = code << 8;
+    const lanes8 high = lanes8_mulh16(square, lanes8_mulh16(far, lanes8_all16(2501)) + lanes8_all16(5742)) + lanes8_all16(23);
+    const lanes8 low = lanes8_mulh16(far, lanes8_mulh16(square, lanes8_all16(21035)) + lanes8_all16(607));
+    return lanes8_min16(low, high);
+}
+
+/* An instant, ready for lanes. */
+struct instant_lanes {
+    lanes8 threshold, white;
+    __m128i down, up;
+};
+
+static inline SMEAR_AVX2_FUNCTION lanes8 added_light16(lanes8 code, const struct instant_lanes *t)
+{
+    return (lanes8)_mm256_sll_epi16(_mm256_srl_epi16((__m256i)(twice_light16(code) + t->threshold), t->down), t->up);
+}
+
+/* Adds eight pixels of which red and blue are in `rb`, green and white in `gn`. */
+static inline SMEAR_AVX2_FUNCTION void sums_add8(const struct packed_sums *sums, int32_t at, lanes8 rb, lanes8 gn)
+{
+    lanes8_store(sums->rb + at, lanes8_load(sums->rb + at) + rb);
+    lanes8_store(sums->gn + at, lanes8_load(sums->gn + at) + gn);
+}
+
+/* Takes 16 pixels, whose greens share lanes; what looks like the background is black that adds no white. */
+static inline SMEAR_AVX2_FUNCTION void light_add16(uint32_t *color, const uint32_t *background, const struct packed_sums *sums,
+                                                   int32_t at, const struct instant_lanes *t, lanes8 none)
+{
+    const lanes8 behind_a = lanes8_load(background + at), behind_b = lanes8_load(background + at + 8);
+    lanes8 a = lanes8_load(color + at), b = lanes8_load(color + at + 8);
+    const lanes8 alike_a = (lanes8)(a == behind_a) & none, alike_b = (lanes8)(b == behind_b) & none;
+    if (lanes8_all_set(alike_a & alike_b))
+        return;
+    a &= ~alike_a;
+    b &= ~alike_b;
+    const lanes8 green = added_light16((a >> 8 & 0xffu) | (b << 8 & 0xff0000u), t);
+    lanes8_store(color + at, behind_a);
+    lanes8_store(color + at + 8, behind_b);
+    sums_add8(sums, at, added_light16(a & 0xff00ffu, t), (green & 0xffffu) | (t->white & ~alike_a));
+    sums_add8(sums, at + 8, added_light16(b & 0xff00ffu, t), green >> 16 | (t->white & ~alike_b));
+}
+
+static inline SMEAR_AVX2_FUNCTION void light_add8(uint32_t *color, const uint32_t *background, const struct packed_sums *sums,
+                                                  int32_t at, const struct instant_lanes *t, lanes8 none)
+{
+    const lanes8 behind = lanes8_load(background + at);
+    lanes8 a = lanes8_load(color + at);
+    const lanes8 alike = (lanes8)(a == behind) & none;
+    if (lanes8_all_set(alike))
+        return;
+    a &= ~alike;
+    lanes8_store(color + at, behind);
+    sums_add8(sums, at, added_light16(a & 0xff00ffu, t), added_light16(a >> 8 & 0xffu, t) | (t->white & ~alike));
+}
+
+/* Half the instructions of smear_light_add_vector. */
+SMEAR_AVX2_FUNCTION void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
+                                              const struct light_instant *instant, bool all)
+{
+    const struct instant_lanes t = { lanes8_all16(2 * instant->threshold), lanes8_all(instant->white << 16),
+                                     _mm_cvtsi32_si128(instant->down + 1), _mm_cvtsi32_si128(instant->up) };
+    const lanes8 none = lanes8_all(all ? 0 : UINT32_MAX);
+    int32_t i = 0;
+    if (!instant->linear) {
+        smear_light_add_reference(color, background, sums, n, instant, all);
+        return;
+    }
+    for (; i + 16 <= n; i += 16)
+        light_add16(color, background, &sums, i, &t, none);
+    if (i + 8 <= n) {
+        light_add8(color, background, &sums, i, &t, none);
+        i += 8;
+    }
+    if (i < n && n >= 8 && !all)        /* some again: they look like the background by now */
+        light_add8(color, background, &sums, n - 8, &t, none);
+    else if (i < n)
+        smear_light_add_reference(color + i, background + i, packed_sums_from(sums, i), n - i, instant, all);
+}
+#endif
+
 /* ------------------------------------------------------------------ means */
 
 /* Returns both halves of a word times a weight in q16. */
@@ -318,5 +404,106 @@ void smear_light_means_vector(const struct gap_planes *p, int32_t at, int32_t n,
         means_linear(p, at, n, taps, mean, cover);
     else
         smear_light_means_reference(p, at, n, taps, mean, cover);
+}
+#endif
+
+#if SMEAR_AVX2
+static inline SMEAR_AVX2_FUNCTION lanes8 background_light16(lanes8 code)
+{
+    return (twice_light16(code) & 0xfffefffeu) << 3;
+}
+
+/* Returns the means of eight pixels. */
+static inline SMEAR_AVX2_FUNCTION lanes8 light_mean8(const uint32_t *color, const struct gap_sums8 *sum,
+                                                     const struct light_mean *m)
+{
+    const lanes8 rest = lanes8_all(m->full) - (sum->gn >> 16);
+    lanes8 rb = sum->rb + lanes8_all16(m->half), g = (sum->gn & 0xffffu) + m->half;
+    if (lanes8_any(rest)) {
+        const lanes8 background = lanes8_load(color);
+        rb += lanes8_mulh16(background_light16(background & 0xff00ffu), rest | rest << 16);
+        g += lanes8_mulh16(background_light16(background >> 8 & 0xffu), rest);
+    }
+    rb = lanes8_mulh16(rb, lanes8_all16(m->factor));
+    g = lanes8_mulh16(g, lanes8_all(m->factor));
+    return lanes8_encode(rb >> 16) << 16 | lanes8_encode(g) << 8 | lanes8_encode(rb & 0xffffu);
+}
+
+static inline SMEAR_AVX2_FUNCTION struct gap_sums8 light_uncovered8(const struct gap_planes *p, int32_t at,
+                                                                    const struct gap_pairs *taps, const struct light_mean *m)
+{
+    const uint32_t *rb = p->sums.rb + at, *gn = p->sums.gn + at;
+    struct gap_sums8 all = { lanes8_load(rb), lanes8_load(gn) };
+    if (taps->pairs == 0)
+        return all;
+    const lanes8 own = lanes8_all16(m->own);
+    lanes8 weight = lanes8_all16(m->pair);
+    all.rb = lanes8_mulh16(all.rb, own);
+    all.gn = lanes8_mulh16(all.gn, own);
+    for (int32_t i = 0; i < taps->pairs; i++) {
+        const int32_t offset = taps->offset[i];
+        if (i + 1 == taps->pairs)
+            weight = lanes8_all16(m->last);
+        all.rb += lanes8_mulh16(lanes8_mean16(lanes8_load(rb - offset), lanes8_load(rb + offset)), weight);
+        all.gn += lanes8_mulh16(lanes8_mean16(lanes8_load(gn - offset), lanes8_load(gn + offset)), weight);
+    }
+    return all;
+}
+
+static SMEAR_NOINLINE SMEAR_AVX2_FUNCTION void light_covered8(struct gap_sums8 *out, const struct gap_planes *p, int32_t at,
+                                                              const struct gap_pairs *taps, const struct light_mean *m)
+{
+    struct gap_pixels8 c = gap_pixels8_at(p, at, taps->instant);
+    *out = c.own;
+    if (taps->pairs == 0)
+        return;
+    const lanes8 own = lanes8_all16(m->own);
+    struct gap_sums8 all = { lanes8_mulh16(c.own.rb, own), lanes8_mulh16(c.own.gn, own) }, still = all;
+    for (int32_t i = 0; i < taps->pairs; i++) {
+        const lanes8 weight = lanes8_all16(i + 1 == taps->pairs ? m->last : m->pair);
+        const struct gap_sums8 a = gap_tap8(&c, p, at - taps->offset[i]), b = gap_tap8(&c, p, at + taps->offset[i]);
+        all.rb += lanes8_mulh16(lanes8_mean16(a.rb, b.rb), weight);
+        all.gn += lanes8_mulh16(lanes8_mean16(a.gn, b.gn), weight);
+        still.rb += lanes8_mulh16(c.own.rb, weight);
+        still.gn += lanes8_mulh16(c.own.gn, weight);
+    }
+    out->rb = lanes8_choose(c.hides, still.rb, all.rb);
+    out->gn = lanes8_choose(c.hides, still.gn, all.gn);
+}
+
+/* Puts the means of eight pixels, or of those that the mask has. */
+static inline SMEAR_AVX2_FUNCTION void light_means8(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps,
+                                                    const struct light_mean *m, enum gap_cover cover, const lanes8 *mask)
+{
+    struct gap_sums8 sum = light_uncovered8(p, at, taps, m), found;
+    if (!lanes8_any(sum.gn >> 16))
+        return;
+    if (cover != COVER_NONE && gap_may_hide8(p, at, taps, sum.gn >> 16, m->full, cover)) {
+        light_covered8(&found, p, at, taps, m);
+        sum = gap_choose8(sum, m->full, found);
+    }
+    sum.rb = light_mean8(p->color + at, &sum, m);
+    if (mask == NULL)
+        lanes8_store(p->color + at, sum.rb);
+    else
+        lanes8_store_some(p->color + at, sum.rb, *mask);
+}
+
+/* Half the instructions of smear_light_means_vector. The last round finds some pixels again and leaves them. */
+SMEAR_AVX2_FUNCTION void smear_light_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
+                                                const struct light_mean *mean, enum gap_cover cover)
+{
+    if (!mean->linear || n < 8) {
+        smear_light_means_vector(p, at, n, taps, mean, cover);
+        return;
+    }
+    const struct light_mean m = *mean;
+    const int32_t end = at + n;
+    for (; at + 8 <= end; at += 8)
+        light_means8(p, at, taps, &m, cover, NULL);
+    if (at < end) {
+        const lanes8 left = (lanes8)((lanes8i)lanes8_numbers() >= at - (end - 8));
+        light_means8(p, end - 8, taps, &m, cover, &left);
+    }
 }
 #endif

@@ -49,10 +49,20 @@ void smear_light_add_reference(uint32_t *color, const uint32_t *background, stru
 void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                             const struct light_instant *instant, bool all);
 #endif
+#if SMEAR_AVX2
+void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
+                          const struct light_instant *instant, bool all);
+#endif
 
 static inline void smear_light_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                                    const struct light_instant *instant, bool all)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        smear_light_add_avx2(color, background, sums, n, instant, all);
+        return;
+    }
+#endif
 #if SMEAR_VECTORS
     smear_light_add_vector(color, background, sums, n, instant, all);
 #else
@@ -80,10 +90,20 @@ void smear_light_means_reference(const struct gap_planes *p, int32_t at, int32_t
 void smear_light_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                               const struct light_mean *mean, enum gap_cover cover);
 #endif
+#if SMEAR_AVX2
+void smear_light_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
+                            const struct light_mean *mean, enum gap_cover cover);
+#endif
 
 static inline void smear_light_means(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                                      const struct light_mean *mean, enum gap_cover cover)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        smear_light_means_avx2(p, at, n, taps, mean, cover);
+        return;
+    }
+#endif
 #if SMEAR_VECTORS
     smear_light_means_vector(p, at, n, taps, mean, cover);
 #else

@@ -3,6 +3,7 @@
 #include "kernels/packed_sums.h"
 
 #include "base/fixmath.h"
+#include "kernels/lanes8.h"
 
 /* ------------------------------------------------------------------ sums */
 
@@ -52,6 +53,34 @@ static void add_vector(uint32_t *color, const uint32_t *background, uint32_t *rb
         }
     }
 }
+
+#if SMEAR_AVX2
+static inline SMEAR_AVX2_FUNCTION void packed_add8(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn,
+                                                   lanes8 every)
+{
+    const lanes8 behind = lanes8_load(background);
+    lanes8 c = lanes8_load(color);
+    const lanes8 counts = ~(lanes8)(c == behind) | every;
+    lanes8_store(color, behind);
+    c &= counts;
+    lanes8_store(rb, lanes8_load(rb) + (c & 0xff00ffu));
+    lanes8_store(gn, lanes8_load(gn) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
+}
+
+/* Half the instructions of add_vector. */
+static SMEAR_AVX2_FUNCTION void packed_add_avx2(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn,
+                                                int32_t n, bool all)
+{
+    const lanes8 every = lanes8_all(0u - all);
+    int32_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        packed_add8(color + i, background + i, rb + i, gn + i, every);
+    if (i < n && n >= 8 && !all)
+        packed_add8(color + n - 8, background + n - 8, rb + n - 8, gn + n - 8, every);
+    else if (i < n)
+        add_vector(color + i, background + i, rb + i, gn + i, n - i, all);
+}
+#endif
 
 #elif PACKED_ASM_ARMV6M
 /* 17 instructions a pixel; compilers, which keep half of what the loop needs on the stack, take 24. */
@@ -118,6 +147,12 @@ static void add_lazy(uint32_t *color, const uint32_t *background, struct packed_
 
 void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        packed_add_avx2(color, background, sums.rb, sums.gn, n, all);
+        return;
+    }
+#endif
 #if SMEAR_VECTORS
     add_vector(color, background, sums.rb, sums.gn, n, all);
 #else

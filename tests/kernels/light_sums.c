@@ -62,6 +62,13 @@ static void add_vector(struct kernel_call *c)
 }
 #endif
 
+#if SMEAR_AVX2
+static void add_avx2(struct kernel_call *c)
+{
+    add(c, smear_has_avx2() ? smear_light_add_avx2 : smear_light_add_reference);
+}
+#endif
+
 /* ------------------------------------------------------------------ means */
 
 static int32_t plane_pixels(const struct kernel_call *c) { return c->n + 2 * REACH; }
@@ -141,6 +148,13 @@ static void means_reference(struct kernel_call *c)
     means(c, smear_light_means_reference, COVER_ALL);
 }
 
+#if SMEAR_VECTORS
+static void means_vector(struct kernel_call *c)
+{
+    means(c, smear_light_means_vector, (enum gap_cover)c->word[COVER]);
+}
+#endif
+
 static void means_best(struct kernel_call *c)
 {
     means(c, smear_light_means, (enum gap_cover)c->word[COVER]);
@@ -148,18 +162,25 @@ static void means_best(struct kernel_call *c)
 
 #if SMEAR_VECTORS
 #define VECTOR { "vector", add_vector },
+#define MEANS_VECTOR { "vector", means_vector },
 #else
 #define VECTOR
+#define MEANS_VECTOR
+#endif
+#if SMEAR_AVX2
+#define AVX2 { "avx2", add_avx2 },
+#else
+#define AVX2
 #endif
 
 extern const struct kernel kernels_light_sums[];
 const struct kernel kernels_light_sums[] = {
     { .name = "light_add", .least = 1, .most = 33, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
-      .timed = 64, .form = { { "reference", add_reference }, VECTOR } },
+      .timed = 64, .form = { { "reference", add_reference }, VECTOR AVX2 } },
     { .name = "light_means", .most = 20, .size = { 4, 2, 8 }, .align = { 4, 2, 4 }, .prepare = prepare_means, .timed = 32,
-      .form = { { "reference", means_reference }, { "best", means_best } } },
+      .form = { { "reference", means_reference }, MEANS_VECTOR { "best", means_best } } },
     { .name = "light_means (nothing hides)", .most = 20, .size = { 4, 2, 8 }, .align = { 4, 2, 4 },
       .prepare = prepare_uncovered, .timed = 32,
-      .form = { { "reference", means_reference }, { "best", means_best } } },
+      .form = { { "reference", means_reference }, MEANS_VECTOR { "best", means_best } } },
     { .name = NULL }
 };

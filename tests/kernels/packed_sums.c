@@ -99,7 +99,7 @@ const struct kernel kernels_packed_sums[] = {
     { .name = "packed_add", .least = 1, .most = 35, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
       .timed = 128, .form = { { "reference", add_reference },
 #if SMEAR_VECTORS
-                              { "vector", add_best },
+                              { "best", add_best },
 #elif PACKED_ASM_ARMV6M
                               { "armv6m", add_best },
 #else
