@@ -6,66 +6,26 @@
 
 #include "kernels/flat_run.h"
 #include "kernels/hidden_run.h"
+#include "kernels/shade_run.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS && (SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG)
 
-/* Red, green and blue, q16 (codes, or linear light >> 8), and their steps. */
-struct shade {
-    uint32_t c[3], d[3];
-};
-
-SMEAR_INLINE uint32_t shade_pixel(uint32_t r, uint32_t g, uint32_t b, bool linear, bool narrow)
-{
-    const uint32_t p = linear ? pixel_make(0, smear_srgb_encode[r >> 12 & 4095u], smear_srgb_encode[g >> 12 & 4095u],
-                                           smear_srgb_encode[b >> 12 & 4095u])
-                              : (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
-    return narrow ? rgb565_nearest(p) : p;
-}
-
-/* n > 0 pixels, depth codes from z on in 16.16. */
-SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const struct shade *k,
-                            bool linear, bool narrow)
-{
-    uint32_t r = k->c[0], g = k->c[1], b = k->c[2];
-    const uint32_t dr = k->d[0], dg = k->d[1], db = k->d[2];
-    uint32_t *wide = (uint32_t *)pixels;
-    uint16_t *thin = (uint16_t *)pixels;
-    const uint16_t *const end = depth + n;
-    do {
-        const uint32_t code = z >> 16;
-        if (code > *depth) {
-            SMEAR_KEEP_BRANCH();
-            *depth = (uint16_t)code;
-            if (narrow)
-                *thin = (uint16_t)shade_pixel(r, g, b, linear, true);
-            else
-                *wide = shade_pixel(r, g, b, linear, false);
-        }
-        z += dz;
-        r += dr;
-        g += dg;
-        b += db;
-        wide++;
-        thin++;
-    } while (++depth != end);
-}
-
 static SMEAR_NOINLINE void shade_codes(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
                                        const struct shade *k)
 {
-    shade_run(pixels, depth, n, z, dz, k, false, false);
+    shade_run_reference(pixels, depth, n, z, dz, k, false, false);
 }
 
 static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint16_t *depth, int32_t n, uint32_t z,
                                        uint32_t dz, const struct shade *k)
 {
     if (!target_is_direct(s->target))
-        shade_run(pixels, depth, n, z, dz, k, true, false);
+        shade_run_reference(pixels, depth, n, z, dz, k, true, false);
     else if (frame_is_linear(s->frame))
-        shade_run(pixels, depth, n, z, dz, k, true, true);
+        shade_run_reference(pixels, depth, n, z, dz, k, true, true);
     else
-        shade_run(pixels, depth, n, z, dz, k, false, true);
+        shade_run_reference(pixels, depth, n, z, dz, k, false, true);
 }
 
 /* n pixels from index `at` on, of a colour as the target has it. */
@@ -89,6 +49,12 @@ static void draw(const struct setup *s, const struct row_run *p, int32_t at, int
                   shade_pixel(k->c[0], k->c[1], k->c[2], frame_is_linear(s->frame), target_is_direct(t)));
         return;
     }
+#if SMEAR_AVX2
+    if (!target_is_direct(t) && b - a >= 4 && smear_has_avx2()) {
+        smear_shade_run_avx2(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k, frame_is_linear(s->frame));
+        return;
+    }
+#endif
     if (!target_is_direct(t) && !frame_is_linear(s->frame))
         shade_codes(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k);
     else
