@@ -13,6 +13,9 @@ enum texel_kind {
     TEXELS_LIT_NARROW       /* to RGB565 */
 };
 
+/* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
+enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
+
 SMEAR_INLINE bool texels_are_lit(enum texel_kind kind) { return kind >= TEXELS_LIT; }
 
 SMEAR_INLINE bool texels_are_narrow(enum texel_kind kind)

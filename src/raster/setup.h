@@ -45,9 +45,6 @@ enum texture_mode {
     TEXTURE_DIVIDED         /* the quotients of planes, by reciprocal */
 };
 
-/* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
-enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
-
 /* Coordinates are counted in turns (a turn is the texture's width or height; in 32 bits what wraps is what
  * repeats) or, where textures do not repeat by their bits, in texels q16. Where they are no polynomials they
  * are exact at the ends of blocks of pixels, and run along a chord or a parabola between. */

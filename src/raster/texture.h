@@ -51,11 +51,6 @@ struct smear_texture_run {
     uint64_t at, step, curvature;
 };
 
-/* Turns of v have 24 bits; what u carries and borrows stays in the others, so that within a block of 17
- * pixels it makes no difference whether u and v are stepped together or each alone. */
-static inline uint32_t turns_start(uint32_t v) { return (v & ~255u) | 128u; }
-static inline uint32_t turns_step(uint32_t dv) { return dv & ~255u; }
-
 /* With turns: the texel at (u, v). */
 static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, uint32_t v)
 {

@@ -603,6 +603,11 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
 #endif
         return is_curved ? curves_lit : rows_lit;
     }
+#if SMEAR_LANE_ROWS
+    smear_rows_fn *lanes = smear_lane_rows_choose(s);
+    if (lanes != NULL)
+        return lanes;
+#endif
 #if SMEAR_DIRECT
     if (narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* lane_rows.c - copied texels in rows of a triangle, by vectors of eight and sixteen pixels. */
+#include "raster/texture_rows.h"
+
+#include "kernels/texel_rows.h"
+
+#if SMEAR_LANE_ROWS
+
+static void texel_rows_start(struct texel_rows *t, const struct setup *s, const struct span_rows *r)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct smear_sampler *m = &s->draw->sampler;
+    t->texels = m->texels;
+    t->log2_width = m->log2_width;
+    t->log2_height = m->log2_height;
+    t->narrow = target_is_direct(target);
+    t->color = t->narrow ? (void *)(target->direct + r->at) : target->color + r->at;
+    t->depth = target->depth + r->at;
+    t->stride = target->window_rows.stride;
+    t->x0 = target->x0;
+    t->x1 = target->x1;
+}
+
+typedef void draw_spans(const struct texel_rows *t, const struct texel_spans *spans, const void *coordinates);
+
+static inline void add_span(struct texel_spans *spans, const struct span_rows *r, int32_t row, const struct row_run *p)
+{
+    const int32_t i = spans->count++;
+    spans->row[i] = row;
+    spans->left[i] = r->side[row].left;
+    spans->right[i] = r->side[row].right;
+    spans->a[i] = p->a;
+    spans->b[i] = p->b;
+    spans->z[i] = p->z;
+    spans->dz[i] = p->dz;
+}
+
+/* Draws all rows, in one go as a rule. */
+SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, const void *coordinates, draw_spans *draw)
+{
+    struct texel_rows t;
+    struct texel_spans spans;
+    struct row_run p;
+    spans.count = 0;
+    texel_rows_start(&t, s, r);
+    if (rows_are_whole(s, r)) {
+        const uint32_t down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+        p.z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+        p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+        for (int32_t row = 0; row < r->count; row++, p.z += down) {
+            p.a = r->side[row].left;
+            p.b = r->side[row].right;
+            if (p.a < p.b)
+                add_span(&spans, r, row, &p);
+        }
+    } else {
+        for (int32_t row = 0; row < r->count; row++) {
+            if (r->side[row].left >= r->side[row].right)
+                continue;
+            for (p.b = r->side[row].left; smear_row_run_next(&p, s, r, row, p.b);) {
+                if (spans.count == TEXEL_SPANS) {
+                    draw(&t, &spans, coordinates);
+                    spans.count = 0;
+                }
+                add_span(&spans, r, row, &p);
+            }
+        }
+    }
+    draw(&t, &spans, coordinates);
+}
+
+static struct texel_plane plane_from(const struct plane *p, int32_t y)
+{
+    return (struct texel_plane){ plane_at(p, 0, y), p->dx, p->dy };
+}
+
+static void draw_places(const struct texel_rows *t, const struct texel_spans *spans, const void *coordinates)
+{
+    smear_texel_rows_places_avx2(t, spans, (const struct texel_planes *)coordinates);
+}
+
+static void draw_curves(const struct texel_rows *t, const struct texel_spans *spans, const void *coordinates)
+{
+    smear_texel_rows_curves_avx2(t, spans, (const struct texel_curves *)coordinates);
+}
+
+static void lane_places(const struct setup *s, const struct span_rows *r)
+{
+    const struct texture_setup *t = &s->texture;
+    const struct texel_planes p = { plane_from(&t->q, r->y), plane_from(&t->uv[0], r->y), plane_from(&t->uv[1], r->y),
+                                    t->slope, t->block, t->up, t->mode == TEXTURE_DIVIDED, t->parabolic };
+    draw_rows(s, r, &p, draw_places);
+}
+
+static struct texel_curve curve_from(const struct curve *c)
+{
+    return (struct texel_curve){ (uint32_t)c->at, (uint32_t)c->dx, (uint32_t)c->dy,
+                                 (uint32_t)c->dxx, (uint32_t)c->dxy, (uint32_t)c->dyy };
+}
+
+static void lane_curves(const struct setup *s, const struct span_rows *r)
+{
+    const struct texture_setup *t = &s->texture;
+    const struct texel_curves p = { t->x0, t->y0 - r->y, curve_from(&t->curve[0]), curve_from(&t->curve[1]) };
+    draw_rows(s, r, &p, draw_curves);
+}
+
+smear_rows_fn *smear_lane_rows_choose(const struct setup *s)
+{
+    if (s->target->x1 - s->target->x0 < TEXEL_ROWS_LEAST || !smear_has_avx2())
+        return NULL;
+    return s->texture.mode == TEXTURE_CURVED ? lane_curves : lane_places;
+}
+#endif

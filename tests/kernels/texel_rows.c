@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* texel_rows.c - how check_kernels calls kernels/texel_rows.h: three spans, one over the other, of rows that reach beyond
+ * the columns which may be written; textures of 16 x 8 texels. */
+#include "kernels/texel_rows.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, TEXELS = 1 << (LOG2_WIDTH + LOG2_HEIGHT), SPANS = 11, FIRST = 100 };
+enum { Q, DQ, U, V, DU, DV, SLOPE, Z, DZ, SHAPE, SEED };        /* words */
+enum { COLOR, DEPTH, TEXTURE };                                 /* planes */
+
+extern const struct kernel kernels_texel_rows[];
+
+#if SMEAR_AVX2
+/* Planes as triangles have them, mostly. */
+static void prepare(struct kernel_call *c)
+{
+    c->word[SEED] = kernel_random();
+    c->bytes[TEXTURE] = TEXELS * 4;
+    if (kernel_random() % 4u == 0)
+        return;
+    c->word[Q] = c->word[Q] >> 1 | 1u << 24;
+    c->word[DQ] = (uint32_t)((int32_t)c->word[DQ] >> 12);
+    c->word[DU] = (uint32_t)((int32_t)c->word[DU] >> 10);
+    c->word[DV] = (uint32_t)((int32_t)c->word[DV] >> 10);
+    c->word[SLOPE] = c->word[DQ] << 7;
+}
+
+/* Spans of n columns, of which some are drawn; numbers from a seed, so that every form has the same. */
+static void spans_make(struct texel_spans *s, const struct kernel_call *c)
+{
+    uint32_t seed = c->word[SEED];
+    s->count = SPANS;
+    for (int i = 0; i < SPANS; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        const int32_t left = FIRST - 40 + (int32_t)(seed >> 8) % (40 + c->n), most = FIRST + c->n;
+        const int32_t wide = 1 + (int32_t)(seed >> 16) % ((seed & 1u) != 0 ? 12 : 100), right = left + wide;
+        const int32_t first = max_i32(left, FIRST), end = min_i32(right, most);
+        s->row[i] = i;
+        s->left[i] = left;
+        s->right[i] = first < end ? right : FIRST + c->n;
+        s->a[i] = first < end ? first + (int32_t)(seed >> 4 & 15u) % (end - first) : max_i32(left, FIRST);
+        s->b[i] = min_i32(s->right[i], most);
+        s->z[i] = c->word[Z] + seed;
+        s->dz[i] = c->word[DZ];
+    }
+}
+
+/* Rows all lie in the same memory. */
+static void rows_make(struct texel_rows *t, const struct kernel_call *c, bool narrow)
+{
+    *t = (struct texel_rows){
+        .texels = c->plane[TEXTURE], .log2_width = LOG2_WIDTH, .log2_height = LOG2_HEIGHT, .x0 = FIRST, .x1 = FIRST + c->n,
+        .depth = (uint16_t *)c->plane[DEPTH] - FIRST, .narrow = narrow,
+        .color = narrow ? (void *)((uint16_t *)c->plane[COLOR] - FIRST) : (uint32_t *)c->plane[COLOR] - FIRST
+    };
+}
+
+static void call_places(struct kernel_call *c, bool narrow,
+                        void draw(const struct texel_rows *, const struct texel_spans *, const struct texel_planes *))
+{
+    static const int32_t blocks[8] = { 1, 4, 8, 16, 16, 16, 32, 64 };
+    const uint32_t shape = c->word[SHAPE];
+    const bool divided = (shape & 7u) != 0;
+    const struct texel_planes p = {
+        { (int32_t)c->word[Q], (int32_t)c->word[DQ], 5 }, { (int32_t)c->word[U], (int32_t)c->word[DU], -77777 },
+        { (int32_t)c->word[V], (int32_t)c->word[DV], 1234567 }, (int32_t)c->word[SLOPE], blocks[shape >> 3 & 7u],
+        (int)(shape >> 6 & 7u), divided, divided && (shape >> 9 & 1u) != 0
+    };
+    struct texel_rows t;
+    struct texel_spans s;
+    rows_make(&t, c, narrow);
+    spans_make(&s, c);
+    draw(&t, &s, &p);
+}
+
+static void call_curves(struct kernel_call *c, bool narrow,
+                        void draw(const struct texel_rows *, const struct texel_spans *, const struct texel_curves *))
+{
+    const struct texel_curves p = {
+        (int32_t)(c->word[SHAPE] & 255u), 3,
+        { c->word[U], c->word[DU], c->word[Q], c->word[DQ], c->word[SLOPE], c->word[SEED] },
+        { c->word[V] | 8u, c->word[DV] & ~15u, c->word[U] & ~15u, c->word[SEED] & ~15u, c->word[DU] & ~15u, c->word[Q] & ~15u }
+    };
+    struct texel_rows t;
+    struct texel_spans s;
+    rows_make(&t, c, narrow);
+    spans_make(&s, c);
+    draw(&t, &s, &p);
+}
+
+#define CALLS(FORM, PLACES, CURVES) \
+    static void wide_places_##FORM(struct kernel_call *c) { call_places(c, false, PLACES); } \
+    static void narrow_places_##FORM(struct kernel_call *c) { call_places(c, true, PLACES); } \
+    static void wide_curves_##FORM(struct kernel_call *c) { call_curves(c, false, CURVES); } \
+    static void narrow_curves_##FORM(struct kernel_call *c) { call_curves(c, true, CURVES); }
+
+/* On processors that lack them both are the reference. */
+static void places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p)
+{
+    (smear_has_avx2() ? smear_texel_rows_places_avx2 : smear_texel_rows_places_reference)(t, s, p);
+}
+
+static void curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p)
+{
+    (smear_has_avx2() ? smear_texel_rows_curves_avx2 : smear_texel_rows_curves_reference)(t, s, p);
+}
+
+CALLS(reference, smear_texel_rows_places_reference, smear_texel_rows_curves_reference)
+CALLS(avx2, places, curves)
+
+#define KERNEL(NAME, CALL, SIZE) \
+    { .name = NAME, .least = TEXEL_ROWS_LEAST, .most = 67, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
+      .form = { { "reference", CALL##_reference }, { "avx2", CALL##_avx2 } } }
+#else
+#define KERNEL(NAME, CALL, SIZE) { .name = NULL }
+#endif
+
+const struct kernel kernels_texel_rows[] = {
+    KERNEL("texel_rows_places", wide_places, 4),
+    KERNEL("texel_rows_places (narrow)", narrow_places, 2),
+    KERNEL("texel_rows_curves", wide_curves, 4),
+    KERNEL("texel_rows_curves (narrow)", narrow_curves, 2),
+    { .name = NULL }
+};
