@@ -6,9 +6,8 @@
  * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
-#include "geometry/batch.h"
+#include "geometry/assemble_eights.h"
 #include "geometry/tiny.h"
-#include "kernels/triangles.h"
 
 static void forget_all(struct smear_assembler *a)
 {
@@ -109,13 +108,6 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t inde
         smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, known, screen, &b->a->viewport);
     }
     return word;
-}
-
-/* Whether the triangle's vertices are stored once for all faces around them. */
-static inline bool batch_shares(const struct batch *b, bool back)
-{
-    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
-    return b->shares && (!back || !segment_by_vertices(b->segment));
 }
 
 /* Returns the first word of the vertex's record, which it stores where that has not been done. */
@@ -344,107 +336,6 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
 /* ------------------------------------------------------------------ triangles by fours */
 
 #if SMEAR_PLACES
-/* Vertices [first, end) of the mesh on the screen, by their index. They lie in the pool between its vertices and its
- * triangles, which must not grow beyond `bottom` and `top`. */
-struct places {
-    struct smear_place *place;
-    uint32_t *stored;               /* as in struct smear_cached_vertex */
-    uint32_t first, end;
-    uint32_t bottom, top;           /* pool words */
-    struct triangles_setup setup;
-};
-
-/* A place that no vertex has stands for those before the near plane, and one for those behind the far plane: triangles
- * of which all are there have no area, and the edges of others are too long. */
-enum { PLACE_NEAR = -(1 << 29), PLACE_FAR = 1 << 29 };
-
-enum {
-    PLACE_WORDS = sizeof(struct smear_place) / 4 + 1,
-    PLACES_BLOCK = 64,              /* triangles whose vertices are in `places` or not */
-    PLACES_MARGIN = 512             /* words that a group of triangles, or a clipped one, may take at either side */
-};
-
-static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
-{
-    const struct smear_assembly *d = b->d;
-    struct smear_homogeneous h;
-    const int code = placement_project(&p->screen, &h, &d->at, index, &b->a->viewport);
-    if ((code & (OUT_NEAR | OUT_FAR)) != 0)
-        p->screen.x = p->screen.y = (code & OUT_NEAR) != 0 ? PLACE_NEAR : PLACE_FAR;
-    p->first = place_first(p->screen.x, p->screen.y);
-}
-
-static SMEAR_NOINLINE void find_places(const struct batch *b, const struct places *r)
-{
-    const struct smear_placement *at = &b->d->at;
-    const struct smear_projection *p = &at->now;
-    const struct smear_depths *depths = &p->depths;
-    const struct place_setup setup = {
-        p->m, depths->near_distance, depths->far_distance, depths->depth_mantissa, depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
-        b->a->viewport.width << 7, b->a->viewport.height << 7
-    };
-    const bool by_fours = !is_orthographic(p) && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
-    struct place_rows rows;
-    uint32_t i = r->first;
-    if (by_fours)
-        place_rows_make(&rows, &setup);
-    while (i < r->end) {
-        const uint32_t end = min_u32(i + 4, r->end);
-        if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * i, &rows)) {
-            i = end;
-            continue;
-        }
-        for (; i < end; i++)
-            find_place(r->place + i, b, i);
-    }
-    __builtin_memset(r->stored + r->first, 0, (r->end - r->first) * sizeof *r->stored);
-}
-
-/* Returns the words that places of vertices take, and what most triangles of a mesh add to the pool: backs are not
- * seen. */
-static inline uint32_t words_of(uint32_t vertices, uint32_t triangles, uint32_t stride)
-{
-    return vertices * PLACE_WORDS + (min_u32(vertices, 3 * triangles) * stride + triangles * 4) / 4 * 3 + 2 * PLACES_MARGIN;
-}
-
-/* Takes as many triangles of [first, end) as name vertices that there is room for, and finds these. Returns the end of
- * them; `first` where there is no room, or an index that the mesh does not have. */
-static uint32_t open_places(struct places *r, const struct batch *b, uint32_t first, uint32_t end)
-{
-    const smear_mesh *mesh = b->d->mesh;
-    const struct smear_bins *g = b->a->bins;
-    const uint32_t stride = b->segment->stride, begin = g->vertex_words;
-    const uint32_t free = g->pool_words - begin - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-    struct index_range all = { UINT16_MAX, 0 };
-    uint32_t last = first;
-    while (last < end) {
-        const uint32_t next = min_u32(last + PLACES_BLOCK, end);
-        const struct index_range range = indices_range(mesh->index + 3 * last, (int32_t)(3 * (next - last)));
-        const struct index_range more = { min_u32(all.least, range.least), max_u32(all.most, range.most) };
-        if (more.most >= mesh->vertex_count || words_of(more.most - more.least + 1, next - first, stride) > free)
-            break;
-        all = more;
-        last = next;
-    }
-    if (last == first)
-        return first;
-    r->first = all.least;
-    r->end = all.most + 1;
-    const uint32_t words = (r->end - r->first) * PLACE_WORDS, rest = free - words;
-    r->bottom = begin + (uint32_t)((uint64_t)rest * stride / (stride + 8u));
-    r->top = r->bottom + words;
-    r->place = (struct smear_place *)(void *)(g->pool + r->bottom) - r->first;
-    r->stored = g->pool + r->bottom + words / PLACE_WORDS * (PLACE_WORDS - 1) - r->first;
-    find_places(b, r);
-    return last;
-}
-
-static inline bool places_have_room(const struct places *r, const struct smear_bins *g)
-{
-    return g->vertex_words + PLACES_MARGIN <= r->bottom
-        && r->top + PLACES_MARGIN <= g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-}
-
 /* Triangle k of four. */
 struct seen {
     const struct places *places;
@@ -587,16 +478,23 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
     return added;
 }
 
-/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none. */
-static inline bool segment_has_room(struct batch *b)
+#if SMEAR_AVX2
+uint32_t smear_assemble_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle, bool back)
 {
-    if (b->a->bins->vertex_words + 12u * b->segment->stride - b->segment->base <= 65536u)
-        return true;
-    struct smear_segment *s = smear_vertex_segment(b->a, b->d);
-    if (s != NULL)
-        b->segment = s;
-    return s != NULL;
+    return store_vertex(b, index, screen, NULL, triangle, back);
 }
+
+uint32_t smear_assemble_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    return shade_face(b, triangle, back);
+}
+
+bool smear_assemble_far(struct batch *b, const struct places *r, const uint32_t index[3], uint32_t triangle)
+{
+    const struct seen t = { r, NULL, 0, { index[0], index[1], index[2] }, triangle, false };
+    return add_far(b, &t);
+}
+#endif
 
 /* Adds those of four triangles that may be seen. Returns false where there is no room. */
 static inline bool add_four(struct batch *b, const struct places *r, const struct smear_triangles *four,
@@ -627,6 +525,15 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
     struct smear_triangles four;
+#if SMEAR_AVX2
+    if (smear_has_avx2() && end - first >= 8) {
+        const uint32_t reached = smear_assemble_eights(b, r, first, end);
+        if (reached == UINT32_MAX)
+            return reached;
+        index += 3 * (reached - first);
+        first = reached;
+    }
+#endif
     for (uint32_t i = first; i < end; i += 4, index += 12) {
         uint16_t rest[12];
         const uint16_t *these = index;
@@ -656,7 +563,7 @@ static bool assemble_places(struct batch *b)
     struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided, bins_margin(g),
                                    b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
     for (uint32_t i = b->d->first; i < end;) {
-        const uint32_t last = open_places(&r, b, i, end);
+        const uint32_t last = smear_places_open(&r, b, i, end);
         uint32_t reached = last != i ? add_by_fours(b, &r, i, last) : i;
         if (reached == UINT32_MAX)
             return false;

@@ -49,6 +49,13 @@ struct batch {
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
 };
 
+/* Whether the triangle's vertices are stored once for all faces around them. */
+static inline bool batch_shares(const struct batch *b, bool back)
+{
+    /* Seen from behind, normals flip: such a vertex is not the one its front faces share. */
+    return b->shares && (!back || !segment_by_vertices(b->segment));
+}
+
 /* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
 void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
                               const struct smear_homogeneous *h, const struct smear_homogeneous *now,
