@@ -22,7 +22,7 @@
 #if SMEAR_AVX2
 #include <immintrin.h>
 
-#define SMEAR_AVX2_FUNCTION __attribute__((target("avx2,bmi,bmi2,lzcnt")))
+#define SMEAR_AVX2_FUNCTION __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt")))
 
 /* Whether this processor has them; some instructions, no call. */
 static inline bool smear_has_avx2(void)

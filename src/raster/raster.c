@@ -4,6 +4,7 @@
 #include "raster/raster.h"
 
 #include "raster/cover_texels.h"
+#include "raster/eights.h"
 #include "raster/fog.h"
 #include "raster/span.h"
 
@@ -241,8 +242,98 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
     }
 }
 
+#if SMEAR_AVX2
+/* Copies up to eight triangles of one segment, from `head` on, but for points. Returns how many. */
+static inline int take_eight(const struct smear_bins *bins, uint32_t head, uint16_t vertex[8][4], uint32_t color[8])
+{
+    const uint16_t segment = bins_triangle(bins, head)->segment;
+    int n = 0;
+    do {
+        const struct smear_triangle *t = bins_triangle(bins, head);
+        head = t->next;
+        if (t->segment == SMEAR_POINT)
+            continue;
+        if (t->segment != segment)
+            break;
+        __builtin_memcpy(vertex[n], t->vertex, 4 * sizeof(uint16_t));
+        color[n++] = t->color;
+    } while (n < 8 && head != SMEAR_NO_TRIANGLE);
+    for (int k = n; k < 8; k++) {
+        __builtin_memcpy(vertex[k], vertex[0], sizeof vertex[0]);
+        color[k] = color[0];
+    }
+    return n;
+}
+
+/* Draws up to eight triangles of one segment, the first of which is `head`, and points among them. Returns what follows. */
+static uint32_t draw_eight(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
+                           const struct eight_look *look, bool *moved)
+{
+    struct eight_pixels pixels;
+    uint16_t vertex[8][4];
+    uint32_t color[8];
+    const int n = take_eight(frame->bins, head, vertex, color);
+    smear_eight_avx2(&pixels, look, (const uint16_t(*)[4])vertex, color);
+    int32_t start = 0;
+    for (int k = 0; k < n;) {
+        const uint32_t number = head;
+        const struct smear_triangle *t = bins_triangle(frame->bins, number);
+        head = t->next;
+        if (t->segment == SMEAR_POINT) {
+            draw_point(frame, target, t, *moved);
+            continue;
+        }
+        if ((pixels.taken >> k & 1u) != 0) {
+            eights_put(target, look, &pixels, start, pixels.end[k]);
+        } else {
+            const int32_t *v[3];
+            for (int i = 0; i < 3; i++)
+                v[i] = look->vertex + t->vertex[i];
+            draw_triangle(frame, target, &frame->bins->segment[t->segment], t->color, number, v, NULL, moved);
+        }
+        start = pixels.end[k++];
+    }
+    return head;
+}
+
+static void draw_eights(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    bool moved = target->over, suits = false;
+    uint32_t segment = SMEAR_POINT;
+    struct eight_look look;
+    while (head != SMEAR_NO_TRIANGLE) {
+        const uint32_t number = head;
+        const struct smear_triangle *t = bins_triangle(frame->bins, number);
+        if (t->segment == SMEAR_POINT) {
+            draw_point(frame, target, t, moved);
+            head = t->next;
+            continue;
+        }
+        if (t->segment != segment) {
+            segment = t->segment;
+            suits = eights_look(&look, frame, target, &frame->bins->segment[segment]);
+        }
+        if (suits) {
+            head = draw_eight(frame, target, head, &look, &moved);
+            continue;
+        }
+        const int32_t *v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = bins_vertex(frame->bins, &frame->bins->segment[segment], t->vertex[i]);
+        draw_triangle(frame, target, &frame->bins->segment[segment], t->color, number, v, NULL, &moved);
+        head = t->next;
+    }
+}
+#endif
+
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
+#if SMEAR_AVX2
+    if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && eights_suit(target)) {
+        draw_eights(frame, target, head);
+        return;
+    }
+#endif
     if (HAS_LOOP_FOR_FOG && frame_has_fog(frame))
         draw_list(frame, target, head, true);
     else

@@ -1,0 +1,538 @@
+/* SPDX-License-Identifier: MIT */
+/* eight.c - the pixels of eight tiny triangles by AVX2, made as eight.h says. A triangle costs a fourth of what it does alone. */
+#include "kernels/eight.h"
+
+#if SMEAR_AVX2
+
+#include "base/fixmath.h"
+#include "base/pixel.h"
+
+#define EIGHT_INLINE static inline __attribute__((always_inline)) SMEAR_AVX2_FUNCTION
+
+/* An element for each triangle. Pairs of halves have the first in the lower one. */
+struct eight {
+    int32_t corner[8];                  /* pairs: the first pixel of the box, x y */
+    int32_t row[8];                     /* pairs: minus the width of the box, 1 */
+    int32_t per_width[8];               /* pairs: 2^11 / width, rounded up, twice */
+    int32_t pixels[8];                  /* of the box */
+    int32_t centre[8];                  /* pairs: from v[0] to the centre of pixel (0, 0), modulo 2^16 */
+    int32_t normal1[8], normal2[8];     /* pairs: how edge functions grow */
+    int32_t bias1[8], bias2[8], sum[8]; /* of the edge functions; and what all three add up to */
+    int32_t area[8], zeros[8];
+    int32_t recip[8];                  /* pairs: tiny_scale.recip, twice */
+    int32_t q[8], q_high[8], q_low[8]; /* depth: of v[0], and pairs of how it changes, parts of 15 or 16 bits each */
+    int32_t seed[8], seed_q[8], zeros_q[8];
+    int32_t e[8], to_u[8], to_v[8]; /* pairs */
+    int32_t u[8], v[8];
+    int32_t light[3][8], to_light[3][8]; /* r g b; pairs */
+    int32_t color[8];
+};
+
+EIGHT_INLINE __m256i v8_all(int32_t a) { return _mm256_set1_epi32(a); }
+EIGHT_INLINE __m256i v8_load(const int32_t *p) { return _mm256_loadu_si256((const __m256i *)(const void *)p); }
+EIGHT_INLINE void v8_store(int32_t *p, __m256i a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
+EIGHT_INLINE __m256i v8_add(__m256i a, __m256i b) { return _mm256_add_epi32(a, b); }
+EIGHT_INLINE __m256i v8_sub(__m256i a, __m256i b) { return _mm256_sub_epi32(a, b); }
+EIGHT_INLINE __m256i v8_pair(__m256i low, __m256i high) { return _mm256_blend_epi16(low, _mm256_slli_epi32(high, 16), 0xaa); }
+EIGHT_INLINE __m256i v8_dot(__m256i a, __m256i b) { return _mm256_madd_epi16(a, b); }
+/* The element of each pixel's triangle. */
+EIGHT_INLINE __m256i v8_of(const int32_t *p, __m256i triangle) { return _mm256_permutevar8x32_epi32(v8_load(p), triangle); }
+/* All ones where a is not less than b, as numbers without a sign. */
+EIGHT_INLINE __m256i v8_at_least(__m256i a, __m256i b) { return _mm256_cmpeq_epi32(_mm256_max_epu32(a, b), a); }
+EIGHT_INLINE __m256i v8_fits_half(__m256i a) { return _mm256_cmpeq_epi32(_mm256_srai_epi32(_mm256_slli_epi32(a, 16), 16), a); }
+
+EIGHT_INLINE __m256i v8_mulh(__m256i a, __m256i b)
+{
+    const __m256i even = _mm256_mul_epi32(a, b), odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32));
+    return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
+}
+
+/* ------------------------------------------------------------------ triangles */
+
+/* Four words of a vertex of each triangle. */
+struct eight_corner {
+    __m256i word[4];
+};
+
+EIGHT_INLINE __m256i eight_two_records(const int32_t *a, const int32_t *b)
+{
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128((const __m128i *)(const void *)a)),
+                                   _mm_loadu_si128((const __m128i *)(const void *)b), 1);
+}
+
+EIGHT_INLINE struct eight_corner eight_corner_load(const int32_t *record, const uint16_t vertex[8][4], int i)
+{
+    const __m256i a = eight_two_records(record + vertex[0][i], record + vertex[4][i]);
+    const __m256i b = eight_two_records(record + vertex[1][i], record + vertex[5][i]);
+    const __m256i c = eight_two_records(record + vertex[2][i], record + vertex[6][i]);
+    const __m256i d = eight_two_records(record + vertex[3][i], record + vertex[7][i]);
+    const __m256i ab = _mm256_unpacklo_epi32(a, b), cd = _mm256_unpacklo_epi32(c, d);
+    const __m256i ab2 = _mm256_unpackhi_epi32(a, b), cd2 = _mm256_unpackhi_epi32(c, d);
+    return (struct eight_corner){ { _mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd), _mm256_unpacklo_epi64(ab2, cd2),
+                                    _mm256_unpackhi_epi64(ab2, cd2) } };
+}
+
+EIGHT_INLINE __m256i v8_least(__m256i a, __m256i b, __m256i c) { return _mm256_min_epi32(a, _mm256_min_epi32(b, c)); }
+EIGHT_INLINE __m256i v8_most(__m256i a, __m256i b, __m256i c) { return _mm256_max_epi32(a, _mm256_max_epi32(b, c)); }
+EIGHT_INLINE __m256i v8_first_pixel(__m256i a) { return _mm256_srai_epi32(v8_add(a, v8_all(127)), 8); }
+
+/* -1 where centres on the edge do not count, else 0: tiny_bias. */
+EIGHT_INLINE __m256i v8_bias(__m256i dx, __m256i dy)
+{
+    return _mm256_xor_si256(_mm256_srai_epi32(v8_sub(_mm256_slli_epi32(dy, 16), dx), 31), v8_all(-1));
+}
+
+static const uint16_t eight_per_width[17] = {
+    2048, 2048, 1024, 683, 512, 410, 342, 293, 256, 228, 205, 187, 171, 158, 147, 137, 128
+};
+
+/* Finds boxes and edges. Returns which are tiny. */
+EIGHT_INLINE __m256i eight_make_edges(struct eight *s, const struct eight_look *l, const struct eight_corner c[3])
+{
+    const __m256i x = c[0].word[0], y = c[0].word[1];
+    const __m256i left = v8_first_pixel(v8_least(x, c[1].word[0], c[2].word[0])),
+                  right = v8_first_pixel(v8_most(x, c[1].word[0], c[2].word[0]));
+    const __m256i top = v8_first_pixel(v8_least(y, c[1].word[1], c[2].word[1])),
+                  bottom = v8_first_pixel(v8_most(y, c[1].word[1], c[2].word[1]));
+    const __m256i width = v8_sub(right, left), height = v8_sub(bottom, top);
+    const __m256i large = _mm256_or_si256(_mm256_cmpgt_epi32(_mm256_max_epi32(width, height), v8_all(l->most)),
+                                          _mm256_cmpgt_epi32(_mm256_mullo_epi32(width, height), v8_all(EIGHT_BOX)));
+    const __m256i cut_left = _mm256_max_epi32(left, v8_all(l->x0)), cut_top = _mm256_max_epi32(top, v8_all(l->y0)),
+                  zero = v8_all(0);
+    const __m256i cut_width = _mm256_max_epi32(v8_sub(_mm256_min_epi32(right, v8_all(l->x1)), cut_left), zero);
+    const __m256i cut_height = _mm256_max_epi32(v8_sub(_mm256_min_epi32(bottom, v8_all(l->y1)), cut_top), zero);
+    const __m256i x1 = v8_sub(c[1].word[0], x), y1 = v8_sub(c[1].word[1], y), x2 = v8_sub(c[2].word[0], x),
+                  y2 = v8_sub(c[2].word[1], y);
+    const __m256i normal1 = v8_pair(y2, v8_sub(zero, x2)), normal2 = v8_pair(v8_sub(zero, y1), x1),
+                  area = v8_dot(normal1, v8_pair(x1, y1));
+    const __m256i bias1 = v8_bias(v8_sub(zero, x2), v8_sub(zero, y2)), bias2 = v8_bias(x1, y1),
+                  bias0 = v8_bias(v8_sub(x2, x1), v8_sub(y2, y1));
+    v8_store(s->pixels, _mm256_andnot_si256(large, _mm256_mullo_epi32(cut_width, cut_height)));
+    v8_store(s->corner, v8_pair(cut_left, cut_top));
+    v8_store(s->row, v8_pair(v8_sub(zero, cut_width), v8_all(1)));
+    v8_store(s->per_width, cut_width);
+    v8_store(s->centre, v8_pair(v8_sub(v8_all(128), x), v8_sub(v8_all(128), y)));
+    v8_store(s->normal1, normal1);
+    v8_store(s->normal2, normal2);
+    v8_store(s->bias1, bias1);
+    v8_store(s->bias2, bias2);
+    v8_store(s->sum, v8_add(v8_add(area, bias0), v8_add(bias1, bias2)));
+    v8_store(s->area, area);
+    return _mm256_andnot_si256(large, v8_all(-1));
+}
+
+/* 2^61 / m, as recip_norm has it, from its seed. */
+EIGHT_INLINE __m256i eight_recip_from(__m256i m, __m256i seed)
+{
+    const __m256i error = v8_sub(v8_all(INT32_MIN), _mm256_mullo_epi32(_mm256_srli_epi32(m, 11), seed));
+    return v8_add(_mm256_slli_epi32(seed, 19), _mm256_srai_epi32(_mm256_mullo_epi32(seed, _mm256_srai_epi32(error, 4)), 8));
+}
+
+EIGHT_INLINE __m256i eight_recip_of(const int32_t *value, int32_t *zeros, int32_t *seed)
+{
+    for (int k = 0; k < 8; k++) {
+        const uint32_t a = (uint32_t)value[k], up = _lzcnt_u32(a);
+        zeros[k] = (int32_t)up;
+        seed[k] = smear_recip_seed[(a << (up & 31u)) >> 22 & 511u];
+    }
+    return eight_recip_from(_mm256_sllv_epi32(v8_load(value), v8_load(zeros)), v8_load(seed));
+}
+
+EIGHT_INLINE void eight_make_scale(struct eight *s)
+{
+    const __m256i recip = v8_sub(_mm256_srli_epi32(eight_recip_of(s->area, s->zeros, s->seed), 14), v8_all(1));
+    v8_store(s->recip, v8_pair(recip, recip));
+}
+
+/* Range of what goes from 0 to a and to b. */
+EIGHT_INLINE __m256i v8_range(__m256i a, __m256i b) { return v8_sub(v8_most(a, b, v8_all(0)), v8_least(a, b, v8_all(0))); }
+
+/* Makes depths of which weights q15 are taken, and coordinates. Returns where this will do. */
+EIGHT_INLINE __m256i eight_make_texture(struct eight *s, const struct eight_look *l, const struct eight_corner c[3],
+                                        __m256i *change)
+{
+    const __m256i q = c[0].word[2], to1 = v8_sub(c[1].word[2], q), to2 = v8_sub(c[2].word[2], q);
+    const __m256i high1 = _mm256_srai_epi32(to1, 15), high2 = _mm256_srai_epi32(to2, 15);
+    __m256i good = _mm256_and_si256(v8_fits_half(high1), v8_fits_half(high2));
+    v8_store(s->q, q);
+    v8_store(s->q_high, v8_pair(high1, high2));
+    const __m256i low = v8_all(0x7fff);
+    v8_store(s->q_low, _mm256_slli_epi16(v8_pair(_mm256_and_si256(to1, low), _mm256_and_si256(to2, low)), 1));
+
+    __m256i u[3], v[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = _mm256_srai_epi32(_mm256_slli_epi32(c[i].word[3], 16), 16);
+        v[i] = _mm256_srai_epi32(c[i].word[3], 16);
+    }
+    const __m256i to_u1 = v8_sub(u[1], u[0]), to_u2 = v8_sub(u[2], u[0]), to_v1 = v8_sub(v[1], v[0]), to_v2 = v8_sub(v[2], v[0]);
+    good = _mm256_and_si256(good, _mm256_and_si256(_mm256_and_si256(v8_fits_half(to_u1), v8_fits_half(to_u2)),
+                                                   _mm256_and_si256(v8_fits_half(to_v1), v8_fits_half(to_v2))));
+    v8_store(s->u, _mm256_slli_epi32(u[0], 15));
+    v8_store(s->v, _mm256_slli_epi32(v[0], 15));
+    v8_store(s->to_u, v8_pair(to_u1, to_u2));
+    v8_store(s->to_v, v8_pair(to_v1, to_v2));
+    *change = v8_all(0);
+    if (!l->perspective) {
+        v8_store(s->e, v8_all(0));
+        return good;
+    }
+    const __m256i eighth = _mm256_srli_epi32(q, 3), twice = v8_add(eighth, eighth);
+    good =
+        _mm256_and_si256(good, _mm256_and_si256(v8_at_least(twice, v8_add(to1, eighth)), v8_at_least(twice, v8_add(to2, eighth))));
+    const __m256i recip = eight_recip_of(s->q, s->zeros_q, s->seed_q), up = v8_sub(v8_load(s->zeros_q), v8_all(1));
+    const __m256i e1 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to1, up), recip), 13);
+    const __m256i e2 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to2, up), recip), 13);
+    v8_store(s->e, v8_pair(e1, e2));
+    const __m256i curve = v8_range(e1, e2), square = _mm256_srli_epi32(_mm256_mullo_epi32(curve, curve), 15),
+                  limit = v8_all(1 << 12);
+    const __m256i travel = _mm256_max_epu32(_mm256_mullo_epi32(v8_range(to_u1, to_u2), v8_all((int32_t)l->width)),
+                                            _mm256_mullo_epi32(v8_range(to_v1, to_v2), v8_all((int32_t)l->height)));
+    const __m256i passed = v8_add(_mm256_srl_epi32(travel, _mm_cvtsi32_si128(l->uv_shift)), v8_all(1));
+    const __m256i near = _mm256_or_si256(v8_at_least(limit, _mm256_mullo_epi32(square, v8_all((int32_t)l->span))),
+                                         v8_at_least(limit, _mm256_mullo_epi32(square, passed)));
+    *change = curve;
+    return _mm256_and_si256(good, near);
+}
+
+/* Makes depths of which weights q16 are taken. Returns where colours may be mixed. */
+EIGHT_INLINE __m256i eight_make_depth(struct eight *s, const struct eight_look *l, const struct eight_corner c[3])
+{
+    const __m256i q = c[0].word[2], to1 = v8_sub(c[1].word[2], q), to2 = v8_sub(c[2].word[2], q);
+    const __m256i high1 = _mm256_srai_epi32(to1, 16), high2 = _mm256_srai_epi32(to2, 16);
+    /* Weights are taken less a half. */
+    v8_store(s->q, v8_add(q, _mm256_slli_epi32(v8_add(high1, high2), 15)));
+    v8_store(s->q_high, v8_pair(high1, high2));
+    v8_store(s->q_low, v8_pair(to1, to2));
+    if (!l->even)
+        return v8_all(-1);
+    const __m256i low = v8_least(q, c[1].word[2], c[2].word[2]), high = v8_most(q, c[1].word[2], c[2].word[2]);
+    return _mm256_xor_si256(_mm256_cmpgt_epi32(v8_sub(high, low), _mm256_srai_epi32(low, 5)), v8_all(-1));
+}
+
+/* Makes three channels of the vertices. Returns where this will do; `change`: that of 1/w, q15, of lit texels, or 0. */
+EIGHT_INLINE __m256i eight_make_channels(struct eight *s, const struct eight_look *l, const uint16_t vertex[8][4], __m256i change)
+{
+    __m256i channel[3][3], good = v8_all(-1);
+    for (int i = 0; i < 3; i++) {
+        const struct eight_corner c = eight_corner_load(l->vertex + l->color, vertex, i);
+        channel[i][0] = _mm256_and_si256(c.word[0], v8_all(0xffff));
+        channel[i][1] = _mm256_srli_epi32(c.word[0], 16);
+        channel[i][2] = _mm256_and_si256(c.word[1], v8_all(0xffff));
+    }
+    for (int i = 0; i < 3; i++) {
+        const __m256i to1 = v8_sub(channel[1][i], channel[0][i]), to2 = v8_sub(channel[2][i], channel[0][i]);
+        const __m256i bent = _mm256_mullo_epi32(_mm256_srli_epi32(v8_range(to1, to2), 8), change);
+        good = _mm256_and_si256(good, _mm256_and_si256(v8_fits_half(to1), v8_fits_half(to2)));
+        good = _mm256_and_si256(good, v8_at_least(v8_all(2 << 15), bent));
+        v8_store(s->light[i], channel[0][i]);
+        v8_store(s->to_light[i], v8_pair(to1, to2));
+    }
+    return good;
+}
+
+/* Makes channels of one light for each triangle. */
+EIGHT_INLINE void eight_make_even_light(struct eight *s, const struct eight_look *l, const uint32_t color[8])
+{
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 8; k++) {
+            const uint32_t code = l->white ? 255u : color[k] >> (16 - 8 * i) & 255u;
+            s->light[i][k] = (int32_t)(l->linear ? smear_srgb_decode[code] : code << 8);
+            s->to_light[i][k] = 0;
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ covered centres */
+
+/* Pixels that are lined up: triangle and place, x y. */
+struct eight_places {
+    int32_t triangle[8 * EIGHT_BOX + 8], place[8 * EIGHT_BOX + 8];
+};
+
+/* Moves the words of a mask to the front. */
+static const uint32_t eight_to_front[16][4] = {
+#define W0 0x03020100u
+#define W1 0x07060504u
+#define W2 0x0b0a0908u
+#define W3 0x0f0e0d0cu
+    { W0, W0, W0, W0 }, { W0, W0, W0, W0 }, { W1, W0, W0, W0 }, { W0, W1, W0, W0 }, { W2, W0, W0, W0 }, { W0, W2, W0, W0 },
+    { W1, W2, W0, W0 }, { W0, W1, W2, W0 }, { W3, W0, W0, W0 }, { W0, W3, W0, W0 }, { W1, W3, W0, W0 }, { W0, W1, W3, W0 },
+    { W2, W3, W0, W0 }, { W0, W2, W3, W0 }, { W1, W2, W3, W0 }, { W0, W1, W2, W3 }
+#undef W0
+#undef W1
+#undef W2
+#undef W3
+};
+
+EIGHT_INLINE int32_t eight_line_up_four(struct eight_places *out, int32_t n, __m128i place, uint32_t mask, __m128i triangle)
+{
+    const __m128i order = _mm_loadu_si128((const __m128i *)(const void *)eight_to_front[mask]);
+    _mm_storeu_si128((__m128i *)(void *)(out->place + n), _mm_shuffle_epi8(place, order));
+    _mm_storeu_si128((__m128i *)(void *)(out->triangle + n), triangle);
+    return n + __builtin_popcount(mask);
+}
+
+/* Appends the covered centres of triangle k. */
+EIGHT_INLINE int32_t eight_line_up(struct eight_places *out, int32_t n, const struct eight *s, int k)
+{
+    const __m256i pairs = _mm256_setr_epi32(0, 0x10001, 0x20002, 0x30003, 0x40004, 0x50005, 0x60006, 0x70007);
+    const __m256i by_width = v8_all(s->per_width[k]), row = v8_all(s->row[k]), corner = v8_all(s->corner[k]),
+                  centre = v8_all(s->centre[k]);
+    const __m256i normal1 = v8_all(s->normal1[k]), normal2 = v8_all(s->normal2[k]);
+    const __m256i bias1 = v8_all(s->bias1[k]), bias2 = v8_all(s->bias2[k]), sum = v8_all(s->sum[k]);
+    const __m128i triangle = _mm_set1_epi32(k);
+    const int32_t pixels = s->pixels[k];
+    for (int32_t i = 0; i < pixels; i += 8) {
+        const __m256i number = v8_add(pairs, v8_all(i * 0x10001));
+        const __m256i y = _mm256_srli_epi16(_mm256_mullo_epi16(number, by_width), 11);
+        const __m256i x = v8_add(corner, _mm256_and_si256(number, v8_all(0xffff)));
+        const __m256i place = _mm256_add_epi16(x, _mm256_mullo_epi16(y, row));
+        const __m256i at = _mm256_add_epi16(_mm256_slli_epi16(place, 8), centre);
+        const __m256i e1 = v8_add(v8_dot(at, normal1), bias1), e2 = v8_add(v8_dot(at, normal2), bias2),
+                      e0 = v8_sub(v8_sub(sum, e1), e2);
+        const __m256i any = _mm256_or_si256(e0, _mm256_or_si256(e1, e2));
+        const uint32_t mask = _bzhi_u32(~(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(any)), (uint32_t)(pixels - i)) & 255u;
+        n = eight_line_up_four(out, n, _mm256_castsi256_si128(place), mask & 15u, triangle);
+        if (mask > 15u)
+            n = eight_line_up_four(out, n, _mm256_extracti128_si256(place, 1), mask >> 4, triangle);
+    }
+    return n;
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+/* Weights: q15 if `fifteen`, else q16. */
+EIGHT_INLINE __m256i eight_weights_at(const struct eight *s, __m256i triangle, __m256i place, bool fifteen)
+{
+    const __m256i at = _mm256_add_epi16(_mm256_slli_epi16(place, 8), v8_of(s->centre, triangle));
+    const __m256i e1 = v8_add(v8_dot(at, v8_of(s->normal1, triangle)), v8_of(s->bias1, triangle));
+    const __m256i e2 = v8_add(v8_dot(at, v8_of(s->normal2, triangle)), v8_of(s->bias2, triangle));
+    const __m256i up = v8_of(s->zeros, triangle), recip = v8_of(s->recip, triangle);
+    const __m256i e = _mm256_blend_epi16(_mm256_srli_epi32(_mm256_sllv_epi32(e1, up), 16), _mm256_sllv_epi32(e2, up), 0xaa);
+    const __m256i high = _mm256_mulhi_epu16(e, recip);
+    if (fifteen)
+        return high;
+    return _mm256_add_epi16(_mm256_add_epi16(high, high), _mm256_srli_epi16(_mm256_mullo_epi16(e, recip), 15));
+}
+
+/* The nearest depth code of units q11: tiny_code. */
+EIGHT_INLINE __m256i eight_code_of(__m256i units)
+{
+    const __m256i far = _mm256_srli_epi32(v8_add(units, v8_all(0x400)), 11);
+    const __m256i near = _mm256_srli_epi32(v8_add(units, v8_all((int32_t)(((32768u - 2048u) << 15) + 0x4000u))), 15);
+    return _mm256_blendv_epi8(near, far, _mm256_cmpgt_epi32(v8_all(32768 << 11), units));
+}
+
+EIGHT_INLINE __m256i eight_code_at(const struct eight *s, __m256i triangle, __m256i weight, bool fifteen)
+{
+    const __m256i part = _mm256_mulhi_epu16(weight, v8_of(s->q_low, triangle));
+    const __m256i high = v8_of(s->q_high, triangle), q = v8_of(s->q, triangle);
+    if (fifteen)
+        return eight_code_of(v8_add(v8_add(q, v8_dot(weight, high)), v8_dot(part, v8_all(0x10001))));
+    const __m256i low = v8_add(_mm256_and_si256(part, v8_all(0xffff)), _mm256_srli_epi32(part, 16));
+    return eight_code_of(v8_add(v8_add(q, v8_dot(_mm256_xor_si256(weight, v8_all((int32_t)0x80008000u)), high)), low));
+}
+
+/* Numbers of texels, at weights q15. */
+EIGHT_INLINE __m256i eight_index_at(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight)
+{
+    __m256i p = weight;
+    if (l->perspective) {
+        const __m256i to_e = v8_of(s->e, triangle), e = _mm256_srai_epi32(v8_dot(weight, to_e), 15);
+        const __m256i beyond = _mm256_sub_epi16(to_e, v8_pair(e, e));
+        p = _mm256_add_epi16(weight, _mm256_mulhi_epi16(weight, _mm256_add_epi16(beyond, beyond)));
+    }
+    const __m256i u = v8_add(v8_of(s->u, triangle), v8_dot(p, v8_of(s->to_u, triangle)));
+    const __m256i v = v8_add(v8_of(s->v, triangle), v8_dot(p, v8_of(s->to_v, triangle)));
+    return _mm256_or_si256(_mm256_and_si256(_mm256_sra_epi32(v, _mm_cvtsi32_si128(l->from_v)), v8_all((int32_t)l->mask_v)),
+                           _mm256_and_si256(_mm256_sra_epi32(u, _mm_cvtsi32_si128(l->from_u)), v8_all((int32_t)l->mask_u)));
+}
+
+/* Pixels as red and blue (pairs, blue first) and green. */
+struct eight_looks {
+    __m256i rb, g;
+};
+
+EIGHT_INLINE __m256i v8_pack(struct eight_looks p, bool narrow)
+{
+    if (!narrow)
+        return _mm256_or_si256(p.rb, _mm256_slli_epi32(p.g, 8));
+    /* rgb565_nearest */
+    const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, v8_all(0xf900f9)), v8_all(0x3f603f6)), 11);
+    const __m256i g = _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(p.g, v8_all(253)), v8_all(505)), 10);
+    return _mm256_or_si256(_mm256_or_si256(_mm256_srli_epi32(rb, 5), _mm256_slli_epi32(g, 5)), _mm256_and_si256(rb, v8_all(31)));
+}
+
+/* Channel i of colours mixed at weights q14, q14 of 16 bits. */
+EIGHT_INLINE __m256i v8_mixed(const struct eight *s, int i, __m256i triangle, __m256i weight)
+{
+    return v8_add(_mm256_slli_epi32(v8_of(s->light[i], triangle), 14), v8_dot(v8_of(s->to_light[i], triangle), weight));
+}
+
+EIGHT_INLINE __m256i v8_encoded(__m256i light)
+{
+    uint32_t index[8];
+    _mm256_storeu_si256((__m256i *)(void *)index, light);
+    for (int i = 0; i < 8; i++)
+        index[i] = smear_srgb_encode[index[i] & 4095u];
+    return _mm256_loadu_si256((const __m256i *)(const void *)index);
+}
+
+EIGHT_INLINE struct eight_looks v8_shaded(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight)
+{
+    const __m256i w = _mm256_srli_epi16(weight, 2), r = v8_mixed(s, 0, triangle, w), g = v8_mixed(s, 1, triangle, w);
+    const __m256i b = v8_mixed(s, 2, triangle, w);
+    if (l->linear)
+        return (struct eight_looks){ v8_pair(v8_encoded(_mm256_srli_epi32(b, 18)), v8_encoded(_mm256_srli_epi32(r, 18))),
+                                     v8_encoded(_mm256_srli_epi32(g, 18)) };
+    const __m256i half = v8_all(1 << 21);
+    return (struct eight_looks){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
+                                 _mm256_srli_epi32(v8_add(g, half), 22) };
+}
+
+/* Texels of numbers in memory, which become the texels themselves. */
+EIGHT_INLINE void v8_fetch(uint32_t texel[8], const struct eight_look *l)
+{
+    if (l->format == SMEAR_TEXEL_565) {
+        for (int i = 0; i < 8; i++)
+            texel[i] = ((const uint16_t *)l->texels)[texel[i]];
+    } else if (l->format == SMEAR_TEXEL_8888) {
+        for (int i = 0; i < 8; i++)
+            texel[i] = ((const uint32_t *)l->texels)[texel[i]];
+    } else {
+        for (int i = 0; i < 8; i++)
+            texel[i] = l->palette[((const uint8_t *)l->texels)[texel[i]]];
+    }
+}
+
+EIGHT_INLINE struct eight_looks eight_texel_looks(__m256i t, const struct eight_look *l)
+{
+    if (l->format != SMEAR_TEXEL_565)
+        return (struct eight_looks){ _mm256_and_si256(t, v8_all(0xff00ff)),
+                                     _mm256_and_si256(_mm256_srli_epi32(t, 8), v8_all(255)) };
+    const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, v8_all(31)), _mm256_slli_epi32(_mm256_srli_epi32(t, 11), 16));
+    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), v8_all(63));
+    return (
+        struct eight_looks){ _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6),
+                             _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(g, v8_all(259)), v8_all(33)), 6) };
+}
+
+EIGHT_INLINE __m256i eight_light_at(const struct eight *s, int i, __m256i triangle, __m256i weight)
+{
+    return v8_add(v8_of(s->light[i], triangle), _mm256_srai_epi32(v8_dot(v8_of(s->to_light[i], triangle), weight), 15));
+}
+
+EIGHT_INLINE __m256i eight_code_of_light(__m256i light)
+{
+    return _mm256_srli_epi32(v8_add(_mm256_min_epu32(light, v8_all(0xff00)), v8_all(128)), 8);
+}
+
+/* code_times for halves. */
+EIGHT_INLINE __m256i v8_times(__m256i a, __m256i b)
+{
+    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), v8_all(0x800080));
+    return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
+}
+
+/* code_times_linear */
+EIGHT_INLINE __m256i v8_times_linear(__m256i code, __m256i light)
+{
+    uint32_t index[8];
+    _mm256_storeu_si256((__m256i *)(void *)index, code);
+    for (int i = 0; i < 8; i++)
+        index[i] = smear_srgb_decode[index[i]];
+    const __m256i there = _mm256_loadu_si256((const __m256i *)(const void *)index);
+    return v8_encoded(_mm256_srli_epi32(_mm256_mullo_epi32(there, v8_add(light, _mm256_srli_epi32(light, 15))), 20));
+}
+
+EIGHT_INLINE struct eight_looks v8_lit(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight,
+                                       __m256i texel)
+{
+    const struct eight_looks t = eight_texel_looks(texel, l);
+    const __m256i r = eight_light_at(s, 0, triangle, weight), g = eight_light_at(s, 1, triangle, weight),
+                  b = eight_light_at(s, 2, triangle, weight);
+    if (l->linear)
+        return (struct eight_looks){ v8_pair(v8_times_linear(_mm256_and_si256(t.rb, v8_all(255)), b),
+                                             v8_times_linear(_mm256_srli_epi32(t.rb, 16), r)),
+                                     v8_times_linear(t.g, g) };
+    return (struct eight_looks){ v8_times(t.rb, v8_pair(eight_code_of_light(b), eight_code_of_light(r))),
+                                 _mm256_and_si256(v8_times(t.g, eight_code_of_light(g)), v8_all(255)) };
+}
+
+EIGHT_INLINE void eight_draw_eight(struct eight_pixels *out, int32_t i, const struct eight *s, const struct eight_look *l,
+                                   const struct eight_places *p, enum eight_kind kind)
+{
+    const __m256i triangle = v8_load(p->triangle + i), place = v8_load(p->place + i);
+    const bool textured = kind == EIGHT_COPIED || kind == EIGHT_LIT;
+    const __m256i weight = eight_weights_at(s, triangle, place, textured);
+    v8_store(out->at + i, v8_add(v8_dot(place, v8_all(l->stride << 16 | 1)), v8_all(l->at)));
+    v8_store((int32_t *)out->code + i, eight_code_at(s, triangle, weight, textured));
+    __m256i pixel;
+    if (kind == EIGHT_FLAT) {
+        pixel = v8_of(s->color, triangle);
+    } else if (kind == EIGHT_SHADED) {
+        pixel = v8_pack(v8_shaded(s, l, triangle, weight), l->narrow);
+    } else {
+        pixel = eight_index_at(s, l, triangle, weight);
+        if (kind == EIGHT_LIT) {
+            uint32_t texel[8];
+            _mm256_storeu_si256((__m256i *)(void *)texel, pixel);
+            v8_fetch(texel, l);
+            pixel = v8_pack(v8_lit(s, l, triangle, weight, _mm256_loadu_si256((const __m256i *)(const void *)texel)), l->narrow);
+        }
+    }
+    v8_store((int32_t *)out->pixel + i, pixel);
+}
+
+EIGHT_INLINE void eight_of_kind(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4],
+                                const uint32_t color[8], enum eight_kind kind)
+{
+    struct eight s;
+    struct eight_places places;
+    const struct eight_corner c[3] = { eight_corner_load(l->vertex, vertex, 0), eight_corner_load(l->vertex, vertex, 1),
+                                       eight_corner_load(l->vertex, vertex, 2) };
+    __m256i good = eight_make_edges(&s, l, c), change = v8_all(0);
+    eight_make_scale(&s);
+    if (kind == EIGHT_COPIED || kind == EIGHT_LIT)
+        good = _mm256_and_si256(good, eight_make_texture(&s, l, c, &change));
+    else
+        good = _mm256_and_si256(good, eight_make_depth(&s, l, c));
+    if (kind == EIGHT_SHADED || (kind == EIGHT_LIT && l->color != 0))
+        good = _mm256_and_si256(good, eight_make_channels(&s, l, vertex, change));
+    else if (kind == EIGHT_LIT)
+        eight_make_even_light(&s, l, color);
+    if (kind == EIGHT_FLAT) {
+        const __m256i p = v8_load((const int32_t *)color);
+        v8_store(s.color, v8_pack((struct eight_looks){ _mm256_and_si256(p, v8_all(0xff00ff)),
+                                                        _mm256_and_si256(_mm256_srli_epi32(p, 8), v8_all(255)) },
+                                  l->narrow));
+    }
+    out->taken = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(good));
+    int32_t n = 0;
+    for (int k = 0; k < 8; k++) {
+        if ((out->taken >> k & 1u) != 0) {
+            s.per_width[k] = eight_per_width[s.per_width[k]] * 0x10001;
+            n = eight_line_up(&places, n, &s, k);
+        }
+        out->end[k] = n;
+    }
+    v8_store(places.triangle + n, v8_all(0));
+    v8_store(places.place + n, v8_all(0));
+    for (int32_t i = 0; i < n; i += 8)
+        eight_draw_eight(out, i, &s, l, &places, kind);
+}
+
+SMEAR_AVX2_FUNCTION void smear_eight_avx2(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4],
+                                          const uint32_t color[8])
+{
+    if (l->kind == EIGHT_FLAT)
+        eight_of_kind(out, l, vertex, color, EIGHT_FLAT);
+    else if (l->kind == EIGHT_SHADED)
+        eight_of_kind(out, l, vertex, color, EIGHT_SHADED);
+    else if (l->kind == EIGHT_COPIED)
+        eight_of_kind(out, l, vertex, color, EIGHT_COPIED);
+    else
+        eight_of_kind(out, l, vertex, color, EIGHT_LIT);
+}
+
+#endif

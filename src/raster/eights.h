@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+/* eights.h - tiny triangles of a list, eight at once (kernels/eight.h): which have what they need in common, and their pixels. */
+#ifndef SMEAR_EIGHTS_H
+#define SMEAR_EIGHTS_H
+
+#include "kernels/eight.h"
+#include "raster/cover_tiny.h"
+
+#if SMEAR_AVX2
+
+/* Whether a target's lists may be drawn so: pixels say nothing but colour and depth, and lie in rows that do not go round. */
+static inline bool eights_suit(const struct smear_raster_target *t)
+{
+    const struct smear_plane_rows *rows = &t->window_rows;
+    return !target_has_velocity(t) && rows->ring_row + (t->y1 - t->y0) <= rows->ring && rows->stride < 1 << 15
+        && smear_has_avx2();
+}
+
+/* False where the texture's bits are not told by shifts of mesh units. */
+static inline bool eights_texture(struct eight_look *l, const struct smear_sampler *m)
+{
+    if (!m->turns || m->levels != 0)
+        return false;
+    l->texels = m->texels;
+    l->palette = m->palette;
+    l->format = m->format;
+    l->from_u = 15 + m->uv_shift - m->log2_width;
+    l->from_v = l->from_u - m->log2_height;
+    l->mask_u = (1u << m->log2_width) - 1u;
+    l->mask_v = ((1u << m->log2_height) - 1u) << m->log2_width;
+    l->width = (uint32_t)m->width;
+    l->height = (uint32_t)m->height;
+    l->span = ((uint32_t)max_i32(m->width, m->height) << 16 >> m->uv_shift) + 1u;
+    l->uv_shift = m->uv_shift;
+    return l->from_v >= 0;
+}
+
+/* Tells what triangles of a segment have in common. False where they are drawn one by one. */
+static SMEAR_NOINLINE bool eights_look(struct eight_look *l, const struct smear_raster_frame *frame,
+                                       const struct smear_raster_target *t, const struct smear_segment *segment)
+{
+    const struct smear_raster_draw *draw = &frame->draw[segment->draw];
+    const struct smear_plane_rows *rows = &t->window_rows;
+    if (!draw_is_opaque(draw) || segment_moves(segment) != 0)
+        return false;
+    l->vertex = bins_vertex(frame->bins, segment, 0);
+    l->color = segment_gouraud(segment) ? segment->color : 0;
+    l->perspective = !segment_flat_depth(segment);
+    l->even = l->perspective && segment_by_vertices(segment);
+    l->linear = frame_is_linear(frame);
+    l->narrow = target_is_direct(t);
+    l->x0 = t->x0;
+    l->y0 = t->y0;
+    l->x1 = t->x1;
+    l->y1 = t->y1;
+    l->at = target_row(rows, t, t->y0) - t->y0 * rows->stride;
+    l->stride = rows->stride;
+    l->most = SMALL_PX;
+    l->kind = segment_gouraud(segment) ? EIGHT_SHADED : EIGHT_FLAT;
+    if (!segment_textured(segment))
+        return true;
+    l->most = SMALL_TEXTURED_PX;
+    l->white = segment->shade == SHADE_NONE;
+    l->linear = l->linear && !l->white;
+    l->kind = EIGHT_LIT;
+    if (l->white && draw->sampler.format == (l->narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
+        l->kind = EIGHT_COPIED;
+    return eights_texture(l, &draw->sampler);
+}
+
+/* Draws pixels [i, end) that are nearer than what is there. */
+static inline void eights_put(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
+                              int32_t i, int32_t end)
+{
+    uint16_t *const depth = t->depth, *const direct = t->direct;
+    for (; i < end; i++) {
+        const int32_t at = p->at[i];
+        const uint32_t code = p->code[i], pixel = p->pixel[i];
+        if (code <= depth[at])
+            continue;
+        depth[at] = (uint16_t)code;
+        if (l->kind == EIGHT_COPIED && l->narrow)
+            direct[at] = ((const uint16_t *)l->texels)[pixel];
+        else if (l->kind == EIGHT_COPIED)
+            t->color[at] = ((const uint32_t *)l->texels)[pixel] & 0xffffffu;
+        else if (l->narrow)
+            direct[at] = (uint16_t)pixel;
+        else
+            t->color[at] = pixel;
+    }
+}
+
+#endif
+#endif
