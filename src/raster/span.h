@@ -3,6 +3,7 @@
 #ifndef SMEAR_SPAN_H
 #define SMEAR_SPAN_H
 
+#include "kernels/avx2.h"
 #include "raster/setup.h"
 
 /* Longest span: a frame's width, and what blurred layers have beyond it on both sides (layer.h). */
@@ -39,6 +40,16 @@ static inline int32_t pixels_to_break(int32_t units, int32_t dx, int32_t n)
 /* Writes velocities where the span will pass the depth test; comes before the colours, which write depth.
  * With a mask it comes after them and goes by the mask. */
 void smear_span_velocity(const struct setup *s, const struct span *p);
+
+#if SMEAR_AVX2
+/* The same for spans of moving triangles, eight pixels at once, where smear_span_velocity_fits8(): blocks of eight columns
+ * lie within the target's, no mask, nothing is inspected. */
+bool smear_span_velocity_fits8(const struct setup *s, const struct span *p);
+void smear_span_velocity_avx2(const struct setup *s, const struct span *p);
+
+/* What is stored of pixel (x, y)'s velocity, q16 px, without rounding. */
+void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2]);
+#endif
 
 /* One pixel without a motion of its own: its velocity is zero or, where the
  * camera's is still to be told from depth, unknown. */

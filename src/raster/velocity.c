@@ -218,6 +218,25 @@ static inline bool is_drawn(const struct span *p, int32_t i, uint32_t z, const u
     return p->mask != NULL ? p->mask[i >> 5] >> (i & 31) & 1u : z >> 16 > depth[i];
 }
 
+/* Marks the tiles: their maximum must be looked for. Jobs never share a tile of a window; rows of layers, whose jobs
+ * may, have no marks. */
+static inline void mark_tiles(const struct smear_raster_target *t, const struct span *p)
+{
+    if (t->moving == NULL)
+        return;
+    for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
+        t->moving[tile] = 1;
+}
+
+#if SMEAR_AVX2
+void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
+{
+    int32_t displacement[2];
+    displacement_between(s, x, y, displacement);
+    stored_velocity(s, displacement, out);
+}
+#endif
+
 void smear_span_velocity(const struct setup *s, const struct span *p)
 {
     const struct smear_raster_target *t = s->target;
@@ -229,6 +248,13 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
                 smear_velocity_still(t, p->at + i, s->velocity_unknown);
         return;
     }
+    mark_tiles(t, p);
+#if SMEAR_AVX2
+    if (smear_span_velocity_fits8(s, p)) {
+        smear_span_velocity_avx2(s, p);
+        return;
+    }
+#endif
     /* Exact at multiples of 8 and at the span's ends; linear between. */
     static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
     int32_t x = p->a, at = p->at;
@@ -270,11 +296,4 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             stored[i] = stored_next[i];
         }
     }
-    /* Marks the tiles: their maximum must be looked for. Jobs never share a tile of a window; rows of layers, whose jobs
-     * may, have no marks. */
-    if (t->moving == NULL)
-        return;
-    for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
-        t->moving[tile] = 1;
 }
-
