@@ -135,7 +135,7 @@ W8_FUNCTION smear_w8u w8u_recip_norm(smear_w8u m)
 {
     const smear_w8u r = w8u_of_halves(smear_recip_seed, m >> 22 & 511u);
     const smear_w8i error = (smear_w8i)(w8u_all(0x80000000u) - (m >> 11) * r);
-    return (r << 19) + (smear_w8u)((smear_w8i)r * (error >> 4) >> 8);
+    return (r << 19) + (smear_w8u)((smear_w8i)(r * (smear_w8u)(error >> 4)) >> 8);
 }
 
 /* Returns sqrt_q3(x) for x < 2^20. */
