@@ -388,6 +388,7 @@ struct assembly_parts {
     struct smear_context *c;
     const struct smear_instant *instant;
     enum draws kind;
+    struct smear_parts_cut cut;
     struct smear_part part[SMEAR_WORKERS_MAX];
 };
 
@@ -469,21 +470,29 @@ static bool has_parts(struct smear_context *c)
     return c->parts_wait == 0 || c->parts_wait-- == 0;
 }
 
+/* Finds which triangles of draws of a kind each part takes. */
+static void cut_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
+{
+    const struct smear_context *c = all->c;
+    all->kind = kind;
+    all->cut = (struct smear_parts_cut){ .parts = n };
+    for (int cuts = 0; cuts < 2; cuts++) {
+        const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
+        for (uint32_t i = 0; i < c->draw_count; i++) {
+            smear_parts_cut(&all->cut, i, part_triangles(all, i, seen), cuts);
+            seen = seen != NULL && draw_is_static(c, i) ? seen + 1 : seen;
+        }
+    }
+}
+
 /* Assembles draws of a kind into parts that have been made. False where one finds no room. */
 static bool run_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
 {
-    const struct smear_context *c = all->c;
-    const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
-    uint32_t total = 0;
     bool done = true;
-    all->kind = kind;
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        total += part_triangles(all, i, seen);
-        seen = seen != NULL && draw_is_static(c, i) ? seen + 1 : seen;
-    }
+    cut_parts(all, kind, n);
     for (uint32_t k = 0; k < n; k++) {
-        all->part[k].first = part_share(total, k, n);
-        all->part[k].end = part_share(total, k + 1, n);
+        all->part[k].first = all->cut.first[k];
+        all->part[k].end = all->cut.first[k + 1];
     }
     smear_jobs_run(&all->c->rows.jobs, assemble_job, all, (int)n);
     for (uint32_t k = 0; k < n; k++)
@@ -523,16 +532,14 @@ static bool assemble_within(struct smear_context *c, const struct smear_instant 
 {
     struct smear_bins *g = &c->rows.bins;
     struct assembly_parts *all = (struct assembly_parts *)(void *)g->pool;
-    const uint32_t n = (uint32_t)c->rows.jobs.workers, total = c->stats.triangles_in, spare = g->segment_limit - c->draw_count;
+    const uint32_t n = (uint32_t)c->rows.jobs.workers, spare = g->segment_limit - c->draw_count;
     all->c = c;
     all->instant = instant;
     for (uint32_t i = 0; i < g->segment_limit; i++)
         g->segment[i] = (struct smear_segment){ 0 };
-    for (uint32_t k = 0, draws = 0, at = 0; k < n; k++) {
-        while (draws < c->draw_count && at < part_share(total, k, n))
-            at += c->submitted[draws++].draw.mesh->triangle_count;
-        smear_part_in_pool(all->part, &c->assembler, k, n, PARTS_WORDS, draws + spare * k / n);
-    }
+    cut_parts(all, DRAWS_ALL, n);
+    for (uint32_t k = 0; k < n; k++)
+        smear_part_in_pool(all->part, &c->assembler, k, n, PARTS_WORDS, all->cut.draws[k] + spare * k / n);
     if (!run_parts(all, DRAWS_ALL, n))
         return false;
     note_fill(&c->stats.fill.geometry, 4 * smear_parts_join_pool(&c->assembler, all->part, n), 4 * g->pool_words);
@@ -600,19 +607,12 @@ static bool assemble_all(struct smear_context *c, int first, int end, const stru
     return assemble_rows(c, first, end, instant);
 }
 
-/* What the pool has left, between vertices and triangles, keeps setups from tile row to tile row, or the memory in which a
- * temporal method works where the frame has another. */
+/* Setups are kept from tile row to tile row; also where a temporal method works, if the frame has another. */
 static void make_cache(struct smear_context *c)
 {
-    struct smear_rows *rows = &c->rows;
-    const struct smear_bins *g = &rows->bins;
-    uint32_t first = (g->vertex_words + 1u) & ~1u;
-    uint32_t end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-    size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
     const size_t work = SMEAR_WITH_SUBFRAMES && c->temporal.work != NULL && !smear_method_is_temporal(c->frame.method)
-                      ? (size_t)c->temporal.work_bytes * (size_t)rows->jobs.workers : 0;
-    rows->cache = smear_raster_cache_make(bytes < work ? c->temporal.work : (void *)(g->pool + first), bytes < work ? work : bytes,
-                                          rows->jobs.workers, g);
+                      ? (size_t)c->temporal.work_bytes * (size_t)c->rows.jobs.workers : 0;
+    smear_row_make_cache(&c->rows, c->temporal.work, work);
 }
 
 /* Notes how full the lists of a part of the frame are. */

@@ -30,7 +30,7 @@ class Bus {
         this.misses = [0, 0];
         this.waits = [0, 0];
         this.miss = MISS;
-        this.lost = 0;                          // to misses of code, by the instruction that runs
+        this.lost = 0;                          // to misses of code, of either core, by the instruction that runs
         this.last = new Float64Array(16).fill(-1);      // of bank b by core c: [2 b + c]
     }
 
@@ -63,6 +63,8 @@ class Bus {
         if (this.contended) {
             if (cycles < this.free) {
                 this.waits[index] += this.free - cycles;
+                if (is_code === 1)
+                    this.lost += this.free - cycles;
                 cycles = this.free;
             }
             if (this.last[12 + 1 - index] === cycles) {

@@ -52,7 +52,7 @@ pico-hot: build/demo/props.c
 	echo '/* nothing */' > $(BUILD)/hot/hot.ld
 	PICO_HOT=$(abspath $(BUILD)/hot) $(PROJECT) $(BUILD)/hot/build demo $(BOARD)
 	for kind in 0:0 1:16; do \
-	    $(RUN) --frames 5 --keys $$kind --profile $(BUILD)/hot/$$kind $(BUILD)/hot/build/demo.elf cores=1 show pico || exit 1; \
+	    $(RUN) --exact 1 --frames 5 --keys $$kind --profile $(BUILD)/hot/$$kind $(BUILD)/hot/build/demo.elf show $(DEMO_SCREEN) || exit 1; \
 	done
 	sh platform/pico/hot.sh $(BUILD)/hot/build/demo.elf $(HOT_BYTES) $(BUILD)/hot/0:0 $(BUILD)/hot/1:16 > $(BUILD)/hot/hot.ld
 	mv $(BUILD)/hot/hot.ld platform/pico/hot.ld

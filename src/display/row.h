@@ -65,6 +65,9 @@ struct smear_rows {
     uint32_t clear;             /* 0x00RRGGBB */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */
     uint32_t *scratch;          /* finished pixels of a tile or strip per worker */
+#if SMEAR_WITH_SUBFRAMES
+    uint8_t *scratch_end;       /* of that and all that temporal methods work in behind it, which other methods may use */
+#endif
     int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
     uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */
 };
@@ -72,6 +75,18 @@ struct smear_rows {
 static inline bool rows_have_overlay(const struct smear_rows *rows)
 {
     return SMEAR_WITH_OVERLAY && rows->overlay != NULL;
+}
+
+/* `bytes` from `last` on, or null where there are none, are the last of the scratch memory. */
+static inline void rows_set_scratch_end(struct smear_rows *rows, uint8_t *last, size_t bytes)
+{
+#if SMEAR_WITH_SUBFRAMES
+    rows->scratch_end = last != NULL ? last + bytes : NULL;
+#else
+    (void)rows;
+    (void)last;
+    (void)bytes;
+#endif
 }
 
 /* ------------------------------------------------------------------ time */
@@ -161,6 +176,9 @@ void smear_row_count(const struct smear_rows *rows, int kind, smear_method metho
 
 /* Fills the target's columns with the clear colour and depth 0, and with `velocity` bytes where it has velocities. */
 void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity);
+
+/* Makes a cache of setups of what the pool has left between vertices and triangles, or of other memory where that is more. */
+void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes);
 
 /* Moves a list of triangles on to the row. */
 static inline uint32_t row_advance(const struct smear_rows *rows, const uint32_t *last, uint32_t head, int row)

@@ -9,7 +9,8 @@
 
 enum {
     POOL_WORDS_LEAST = 1024,
-    PART_CACHE = 64                 /* vertices */
+    PART_CACHE = 64,                /* vertices */
+    PART_DRAW = 12                  /* triangles: what a draw takes on a Cortex-M0+ with a flash cache */
 };
 
 uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n)
@@ -18,6 +19,24 @@ uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n)
     for (uint32_t k = 0; k < n; k++)
         sum += part[k].beside;
     return sum;
+}
+
+void smear_parts_cut(struct smear_parts_cut *cut, uint32_t i, uint32_t triangles, bool cuts)
+{
+    const uint32_t weight = triangles != 0 ? triangles + PART_DRAW : 0;
+    if (!cuts) {
+        cut->total += weight;
+        return;
+    }
+    for (uint32_t at; cut->next < cut->parts && (at = part_share(cut->total, cut->next, cut->parts)) <= cut->weight + weight;
+         cut->next++) {
+        const uint32_t into = at > cut->weight + PART_DRAW ? at - cut->weight - PART_DRAW : 0;
+        cut->first[cut->next] = cut->triangles + min_u32(into, triangles);
+        cut->draws[cut->next] = i + (into != 0);
+    }
+    cut->weight += weight;
+    cut->triangles += triangles;
+    cut->first[cut->parts] = cut->triangles;
 }
 
 void smear_part_within(struct smear_part *p, const struct smear_assembler *a)

@@ -3,6 +3,7 @@
 #ifndef SMEAR_PARTS_H
 #define SMEAR_PARTS_H
 
+#include "base/jobs.h"
 #include "geometry/vertex.h"
 
 struct smear_part {
@@ -18,6 +19,17 @@ struct smear_part {
 
 /* Returns total k / n without a product of 64 bits; k <= n. */
 static inline uint32_t part_share(uint32_t total, uint32_t k, uint32_t n) { return total / n * k + total % n * k / n; }
+
+/* How what is submitted is cut into parts that take about as long: a draw as long as some triangles before its first one. */
+struct smear_parts_cut {
+    uint32_t parts, total;              /* weight of all draws */
+    uint32_t weight, triangles, next;   /* of the draws before, and the part that begins next */
+    uint32_t first[SMEAR_WORKERS_MAX + 1];       /* triangles, counted through all draws */
+    uint32_t draws[SMEAR_WORKERS_MAX];   /* draws that begin before that */
+};
+
+/* Takes in draw number i: for all draws without `cuts`, to find their weight, then with it. */
+void smear_parts_cut(struct smear_parts_cut *cut, uint32_t i, uint32_t triangles, bool cuts);
 
 /* Returns how many draws the parts left out as nothing of them is in view. */
 uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n);

@@ -2,6 +2,7 @@
 /* sharp.c - see sharp.h. */
 #include "methods/sharp.h"
 
+#include "methods/sharp_apart.h"
 #include "kernels/fill.h"
 #include "display/band.h"
 #include "display/pixel_format.h"
@@ -118,6 +119,8 @@ static bool is_covered(const struct smear_rows *rows, int row)
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
 {
     int result = SMEAR_OK;
+    if (smear_sharp_may_be_apart(rows, direct, first, end) && smear_sharp_rows_apart(rows, first, end, &result))
+        return result;
     for (int row = first; row < end && result == SMEAR_OK; row++) {
         if (SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row)) {
             result = draw_direct_row(rows, row);

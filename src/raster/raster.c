@@ -219,6 +219,24 @@ static inline void draw_point(const struct smear_raster_frame *frame,
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }
 
+/* Draws an entry of a list, triangle or point. */
+SMEAR_INLINE void draw_entry(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                             const struct smear_triangle *t, uint32_t number, bool *moved, bool in_fog)
+{
+    if (t->segment == SMEAR_POINT) {
+        draw_point(frame, target, t, *moved);
+        return;
+    }
+    const struct smear_segment *segment = &frame->bins->segment[t->segment];
+    const int32_t *v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
+    if (in_fog)
+        draw_in_fog(frame, target, segment, t->color, number, v, NULL, moved);
+    else
+        draw_triangle(frame, target, segment, t->color, number, v, NULL, moved);
+}
+
 SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
                             bool in_fog)
 {
@@ -227,18 +245,7 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
         head = t->next;
-        if (t->segment == SMEAR_POINT) {
-            draw_point(frame, target, t, moved);
-            continue;
-        }
-        const struct smear_segment *segment = &frame->bins->segment[t->segment];
-        const int32_t *v[3];
-        for (int i = 0; i < 3; i++)
-            v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
-        if (in_fog)
-            draw_in_fog(frame, target, segment, t->color, number, v, NULL, &moved);
-        else
-            draw_triangle(frame, target, segment, t->color, number, v, NULL, &moved);
+        draw_entry(frame, target, t, number, &moved, in_fog);
     }
 }
 
@@ -339,6 +346,17 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
     else
         draw_list(frame, target, head, false);
 }
+
+#if SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES
+void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                          const uint32_t *number, uint32_t count)
+{
+    const bool in_fog = HAS_LOOP_FOR_FOG && frame_has_fog(frame);
+    bool moved = target->over;
+    for (uint32_t i = 0; i < count; i++)
+        draw_entry(frame, target, bins_triangle(frame->bins, number[i]), number[i], &moved, in_fog);
+}
+#endif
 
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],

@@ -14,6 +14,10 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);
 
+/* Draws these triangles of a list, which other rows' lists may have meanwhile. */
+void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                          const uint32_t *number, uint32_t count);
+
 /* Draws one triangle whose vertices are given, and their box: records laid out as in the segment, clockwise
  * on the screen, of positive area and within the guard band. No velocities. */
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
