@@ -73,11 +73,19 @@ void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct 
 
 #define AVX2_INLINE SMEAR_AVX2_FUNCTION static inline __attribute__((always_inline))
 
+/* Loads a number from memory wherever it is used: compilers would make it anew, in two or three instructions. */
+AVX2_INLINE __m256i lanes_of(int32_t a)
+{
+    __m256i lanes = _mm256_set1_epi32(a);
+    __asm__("" : "+x"(lanes));
+    return lanes;
+}
+
 /* What all pixels of a triangle have in common. */
 struct texel_lanes {
     const void *texels;
     __m256i u_down, v_down, v_mask;     /* an index, or of narrow texels that of a pair: v >> down & mask | u >> down */
-    __m256i odd_down;                   /* u >> down & 16: of the texels of a pair, the second */
+    __m256i odd_down, half;             /* u >> down & 16: of the texels of a pair, the second */
     int32_t x_most, x_most8;            /* where the last sixteen columns begin, the last eight */
     void *color;
     uint16_t *depth;
@@ -105,6 +113,7 @@ AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t)
     k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + narrow);
     k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - narrow)));
     k->odd_down = _mm256_set1_epi32(28 - t->log2_width);
+    k->half = lanes_of(16);
     k->x_most = t->x1 - 16;
     k->x_most8 = t->x1 - 8;
     k->color = t->color;
@@ -160,7 +169,7 @@ AVX2_INLINE __m256i pairs_of(__m256i i)
     return _mm256_srli_epi32(_mm256_mullo_epi32(i, _mm256_sub_epi32(i, _mm256_set1_epi32(1))), 1);
 }
 
-/* Lanes `from` on, and those below `end`: all ones. */
+/* All ones in lanes below n, from lane_masks + 32 - n on, and in lanes from n on, from lane_masks + 16 - n on. */
 static const uint16_t lane_masks[48] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
@@ -168,17 +177,15 @@ static const uint16_t lane_masks[48] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
 };
 
-/* Sixteen narrow pixels from x on, of which [from, end) are drawn unless `whole`; pixel x is number i of its block. */
+/* Sixteen narrow pixels from x on, of which those of the mask are drawn if there is one; pixel x is number i of its block. */
 AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                         int32_t x, int32_t i, int32_t from, int32_t end, bool whole)
+                         int32_t x, int32_t i, const uint16_t *mask)
 {
     uint16_t *const depth = r->depth + x, *const color = (uint16_t *)r->color + x;
     const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
     __m256i code = _mm256_blend_epi16(_mm256_srli_epi32(_mm256_add_epi32(z, r->evens), 16), _mm256_add_epi32(z, r->odds), 0xaa);
-    if (!whole) {
-        code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)(lane_masks + 32 - end)));
-        code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)(lane_masks + 16 - from)));
-    }
+    if (mask != NULL)
+        code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)mask));
     const __m256i old = _mm256_loadu_si256((const __m256i_u *)depth), most = _mm256_max_epu16(code, old);
     const __m256i hidden = _mm256_cmpeq_epi16(most, old);
     if (_mm256_movemask_epi8(hidden) == -1)
@@ -192,11 +199,10 @@ AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r,
     const __m256i v = lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs);
     const __m256i u1 = _mm256_add_epi32(u, lanes_step(c->du[block], c->ddu[block], lane));
     const __m256i v1 = _mm256_add_epi32(v, lanes_step(c->dv[block], c->ddv[block], lane));
-    const __m256i half = _mm256_set1_epi32(16);
     const __m256i even = _mm256_srlv_epi32(lanes_gather(k, lanes_index(k, u, v)),
-                                           _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), half));
+                                           _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
     const __m256i odd = _mm256_sllv_epi32(lanes_gather(k, lanes_index(k, u1, v1)),
-                                          _mm256_andnot_si256(_mm256_srlv_epi32(u1, k->odd_down), half));
+                                          _mm256_andnot_si256(_mm256_srlv_epi32(u1, k->odd_down), k->half));
     const __m256i texels = _mm256_blend_epi16(even, odd, 0xaa);
     _mm256_storeu_si256((__m256i_u *)depth, most);
     _mm256_storeu_si256((__m256i_u *)color, _mm256_blendv_epi8(texels, _mm256_loadu_si256((const __m256i_u *)color), hidden));
@@ -215,7 +221,7 @@ AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, i
     __m256i texels = lanes_gather(k, lanes_index(k, u, v));
     if (narrow) {
         __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
-        texels = _mm256_srlv_epi32(texels, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), _mm256_set1_epi32(16)));
+        texels = _mm256_srlv_epi32(texels, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
         texels = _mm256_blend_epi16(texels, _mm256_setzero_si256(), 0xaa);
         _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(texels), _mm_loadu_si128(color), hidden));
     } else {
@@ -224,14 +230,13 @@ AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, i
     }
 }
 
-/* Tests eight depths from x on, of which [from, end) are drawn. Which are hidden; false if all. */
-AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, int32_t from, int32_t end, __m128i *hidden)
+/* Tests eight depths from x on, of which those of a mask are drawn. Which are hidden; false if all. */
+AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m128i *hidden)
 {
     __m128i_u *const depth = (__m128i_u *)(r->depth + x);
     const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
     __m128i code = lower_halves(_mm256_srli_epi32(_mm256_add_epi32(z, r->eight), 16));
-    code = _mm_and_si128(code, _mm_loadu_si128((const __m128i_u *)(lane_masks + 32 - end)));
-    code = _mm_and_si128(code, _mm_loadu_si128((const __m128i_u *)(lane_masks + 16 - from)));
+    code = _mm_and_si128(code, _mm_loadu_si128((const __m128i_u *)mask));
     const __m128i old = _mm_loadu_si128(depth), most = _mm_max_epu16(code, old);
     *hidden = _mm_cmpeq_epi16(most, old);
     if (_mm_movemask_epi8(*hidden) == 0xffff)
@@ -242,10 +247,10 @@ AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, int32_t from, int3
 
 /* Eight pixels, as draw_16. */
 AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                        int32_t x, int32_t i, int32_t from, int32_t end, bool narrow)
+                        int32_t x, int32_t i, const uint16_t *mask, bool narrow)
 {
     __m128i hidden;
-    if (!test_8(r, x, from, end, &hidden))
+    if (!test_8(r, x, mask, &hidden))
         return;
     __m256i lane = first_8(), pairs = _mm256_setr_epi32(0, 0, 1, 3, 6, 10, 15, 21);
     if (i != 0) {
@@ -256,22 +261,33 @@ AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, 
           lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs), hidden, narrow);
 }
 
+/* Where eight pixels begin among which are those from a on, up to b, and the mask of these. */
+AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int32_t b, const uint16_t **mask)
+{
+    if (a <= k->x_most8) {
+        *mask = lane_masks + 32 - min_i32(b - a, 8);
+        return a;
+    }
+    *mask = lane_masks + 16 - (a - (b - 8));
+    return b - 8;
+}
+
 /* Pixels [a, b) of a block that begins at `start`. */
 AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
                             int32_t start, int32_t a, int32_t b, bool narrow)
 {
     if (narrow) {
         for (; b - a >= 16; a += 16)
-            draw_16(k, r, c, block, a, a - start, 0, 16, true);
-        if (b - a > 8) {
-            const int32_t x = min_i32(a, k->x_most);
-            draw_16(k, r, c, block, x, x - start, a - x, b - x, false);
+            draw_16(k, r, c, block, a, a - start, NULL);
+        if (b - a > 8 && a <= k->x_most) {
+            draw_16(k, r, c, block, a, a - start, lane_masks + 32 - (b - a));
             return;
         }
     }
     for (; a < b; a += 8) {
-        const int32_t x = min_i32(a, k->x_most8);
-        draw_8(k, r, c, block, x, x - start, a - x, min_i32(b - x, 8), narrow);
+        const uint16_t *mask;
+        const int32_t x = eight_from(k, a, b, &mask);
+        draw_8(k, r, c, block, x, x - start, mask, narrow);
     }
 }
 
@@ -291,6 +307,7 @@ struct planes_lanes {
     __m256i slope;
     __m128i up;
     bool divided, parabolic;
+    __m256i least_q, first_up, exponent, seed, half, low, one, turns, center;       /* numbers of recip_norm and others */
 };
 
 AVX2_INLINE struct plane_lanes plane_start(const struct texel_plane *p)
@@ -307,6 +324,15 @@ AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_planes 
     k->up = _mm_cvtsi32_si128(p->up);
     k->divided = p->divided;
     k->parabolic = p->parabolic;
+    k->least_q = lanes_of(1 << 11);
+    k->exponent = lanes_of(158);
+    k->first_up = lanes_of(157);
+    k->seed = lanes_of(255);
+    k->half = lanes_of(16);
+    k->low = lanes_of(0xffff);
+    k->one = lanes_of(INT32_MIN);
+    k->turns = lanes_of(~255);
+    k->center = lanes_of(128);
 }
 
 AVX2_INLINE __m256i plane_lanes_at(const struct plane_lanes *p, __m256i x, __m256i row)
@@ -329,22 +355,21 @@ AVX2_INLINE __m256i part_lanes(__m256i a, __m256i part)
     return _mm256_blend_epi32(_mm256_srli_epi64(even, 16), _mm256_slli_epi64(odd, 16), 0xaa);
 }
 
-/* As count_leading_zeros: a float's exponent, of a number without what would round it up to a power of two. */
-AVX2_INLINE __m256i zeros_lanes(__m256i a)
+/* 158 less count_leading_zeros: a float's exponent, of a number without what would round it up to a power of two. */
+AVX2_INLINE __m256i exponent_lanes(__m256i a)
 {
     const __m256i cut = _mm256_andnot_si256(_mm256_srli_epi32(a, 8), a);
-    const __m256i exponent = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(cut)), 23);
-    return _mm256_sub_epi32(_mm256_set1_epi32(158), exponent);
+    return _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(cut)), 23);
 }
 
 /* As recip_norm. Seeds are gathered in pairs. */
-AVX2_INLINE __m256i recip_lanes(__m256i m)
+AVX2_INLINE __m256i recip_lanes(const struct planes_lanes *k, __m256i m)
 {
-    const __m256i index = _mm256_and_si256(_mm256_srli_epi32(m, 23), _mm256_set1_epi32(255));
-    const __m256i second = _mm256_and_si256(_mm256_srli_epi32(m, 18), _mm256_set1_epi32(16));
+    const __m256i index = _mm256_and_si256(_mm256_srli_epi32(m, 23), k->seed);
+    const __m256i second = _mm256_and_si256(_mm256_srli_epi32(m, 18), k->half);
     const __m256i pair = _mm256_i32gather_epi32((const int *)(const void *)smear_recip_seed, index, 4);
-    const __m256i r = _mm256_and_si256(_mm256_srlv_epi32(pair, second), _mm256_set1_epi32(0xffff));
-    const __m256i error = _mm256_sub_epi32(_mm256_set1_epi32(INT32_MIN), _mm256_mullo_epi32(_mm256_srli_epi32(m, 11), r));
+    const __m256i r = _mm256_and_si256(_mm256_srlv_epi32(pair, second), k->low);
+    const __m256i error = _mm256_sub_epi32(k->one, _mm256_mullo_epi32(_mm256_srli_epi32(m, 11), r));
     return _mm256_add_epi32(_mm256_slli_epi32(r, 19),
                             _mm256_srai_epi32(_mm256_mullo_epi32(r, _mm256_srai_epi32(error, 4)), 8));
 }
@@ -354,13 +379,13 @@ AVX2_INLINE struct place_lanes places_at(const struct planes_lanes *k, __m256i x
     struct place_lanes p = { plane_lanes_at(&k->u, x, row), plane_lanes_at(&k->v, x, row), _mm256_setzero_si256() };
     if (!k->divided)
         return p;
-    const __m256i d = _mm256_max_epi32(plane_lanes_at(&k->q, x, row), _mm256_set1_epi32(1 << 11));
-    const __m256i zeros = zeros_lanes(d), r = recip_lanes(_mm256_sllv_epi32(d, zeros));
-    const __m256i up = _mm256_sub_epi32(zeros, _mm256_set1_epi32(1));
+    const __m256i d = _mm256_max_epi32(plane_lanes_at(&k->q, x, row), k->least_q), exponent = exponent_lanes(d);
+    const __m256i r = recip_lanes(k, _mm256_sllv_epi32(d, _mm256_sub_epi32(k->exponent, exponent)));
+    const __m256i up = _mm256_sub_epi32(k->first_up, exponent);
     p.u = mulh_lanes(_mm256_sllv_epi32(_mm256_srai_epi32(p.u, 1), up), r);
     p.v = mulh_lanes(_mm256_sllv_epi32(_mm256_srai_epi32(p.v, 1), up), r);
     if (k->parabolic)
-        p.nearness = _mm256_srav_epi32(mulh_lanes(k->slope, r), _mm256_sub_epi32(_mm256_set1_epi32(20), zeros));
+        p.nearness = _mm256_srav_epi32(mulh_lanes(k->slope, r), _mm256_sub_epi32(exponent, _mm256_set1_epi32(138)));
     return p;
 }
 
@@ -397,14 +422,13 @@ AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k
 {
     const struct place_lanes from = { lanes_before(before.u, to.u), lanes_before(before.v, to.v),
                                       lanes_before(before.nearness, to.nearness) };
-    const __m256i number = _mm256_min_epi32(n, _mm256_add_epi32(_mm256_srli_epi32(n, 5), _mm256_set1_epi32(16)));
+    const __m256i number = _mm256_min_epi32(n, _mm256_add_epi32(_mm256_srli_epi32(n, 5), k->half));
     const __m256i part = _mm256_i32gather_epi32((const int *)lane_inverse, number, 4);
     const __m256i rate = _mm256_srai_epi32(_mm256_add_epi32(from.nearness, to.nearness), 1);
-    const __m256i all = _mm256_set1_epi32(-1), turns = _mm256_set1_epi32(~255);
-    between_lanes(k, from.u, to.u, n, part, rate, all, c->du, c->ddu);
-    between_lanes(k, from.v, to.v, n, part, rate, turns, c->dv, c->ddv);
+    between_lanes(k, from.u, to.u, n, part, rate, _mm256_set1_epi32(-1), c->du, c->ddu);
+    between_lanes(k, from.v, to.v, n, part, rate, k->turns, c->dv, c->ddv);
     store_lanes(c->u, _mm256_sll_epi32(from.u, k->up));
-    store_lanes(c->v, _mm256_or_si256(_mm256_and_si256(_mm256_sll_epi32(from.v, k->up), turns), _mm256_set1_epi32(128)));
+    store_lanes(c->v, _mm256_or_si256(_mm256_and_si256(_mm256_sll_epi32(from.v, k->up), k->turns), k->center));
 }
 
 /* A place for each pixel. */
@@ -412,9 +436,10 @@ AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lan
                                int32_t row, int32_t a, int32_t b, bool narrow)
 {
     for (; a < b; a += 8) {
-        const int32_t x = min_i32(a, k->x_most8);
+        const uint16_t *mask;
+        const int32_t x = eight_from(k, a, b, &mask);
         __m128i hidden;
-        if (!test_8(r, x, a - x, min_i32(b - x, 8), &hidden))
+        if (!test_8(r, x, mask, &hidden))
             continue;
         const struct place_lanes p = places_at(planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), _mm256_set1_epi32(row));
         put_8(k, r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, narrow);
@@ -468,9 +493,11 @@ AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_s
 {
     struct texel_lanes k;
     struct planes_lanes planes;
-    struct block_lanes c = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
+    struct block_lanes c;
     lanes_start(&k, t);
     planes_start(&planes, p);
+    store_lanes(c.ddu, _mm256_setzero_si256());
+    store_lanes(c.ddv, _mm256_setzero_si256());
     for (int32_t i = 0; i < s->count; i++) {
         struct row_lanes r;
         row_start(&r, &k, s, i, narrow);

@@ -23,16 +23,23 @@ static void texel_rows_start(struct texel_rows *t, const struct setup *s, const 
 
 typedef void draw_spans(const struct texel_rows *t, const struct texel_spans *spans, const void *coordinates);
 
-static inline void add_span(struct texel_spans *spans, const struct span_rows *r, int32_t row, const struct row_run *p)
+/* All rows where they are whole. */
+SMEAR_INLINE void whole_spans(struct texel_spans *spans, const struct setup *s, const struct span_rows *r)
 {
-    const int32_t i = spans->count++;
-    spans->row[i] = row;
-    spans->left[i] = r->side[row].left;
-    spans->right[i] = r->side[row].right;
-    spans->a[i] = p->a;
-    spans->b[i] = p->b;
-    spans->z[i] = p->z;
-    spans->dz[i] = p->dz;
+    const uint32_t down = (uint32_t)step_from_units(s->depth.dy, s->slope), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+    const int32_t rows = r->count;
+    int32_t i = 0;
+    for (int32_t row = 0; row < rows; row++, z += down) {
+        const int32_t left = r->side[row].left, right = r->side[row].right;
+        spans->row[i] = row;
+        spans->left[i] = spans->a[i] = left;
+        spans->right[i] = spans->b[i] = right;
+        spans->z[i] = z;
+        spans->dz[i] = dz;
+        i += left < right;
+    }
+    spans->count = i;
 }
 
 /* Draws all rows, in one go as a rule. */
@@ -41,29 +48,30 @@ SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, co
     struct texel_rows t;
     struct texel_spans spans;
     struct row_run p;
-    spans.count = 0;
     texel_rows_start(&t, s, r);
     if (rows_are_whole(s, r)) {
-        const uint32_t down = (uint32_t)step_from_units(s->depth.dy, s->slope);
-        p.z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
-        p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-        for (int32_t row = 0; row < r->count; row++, p.z += down) {
-            p.a = r->side[row].left;
-            p.b = r->side[row].right;
-            if (p.a < p.b)
-                add_span(&spans, r, row, &p);
-        }
-    } else {
-        for (int32_t row = 0; row < r->count; row++) {
-            if (r->side[row].left >= r->side[row].right)
-                continue;
-            for (p.b = r->side[row].left; smear_row_run_next(&p, s, r, row, p.b);) {
-                if (spans.count == TEXEL_SPANS) {
-                    draw(&t, &spans, coordinates);
-                    spans.count = 0;
-                }
-                add_span(&spans, r, row, &p);
+        whole_spans(&spans, s, r);
+        draw(&t, &spans, coordinates);
+        return;
+    }
+    spans.count = 0;
+    for (int32_t row = 0; row < r->count; row++) {
+        const int32_t left = r->side[row].left, right = r->side[row].right;
+        if (left >= right)
+            continue;
+        for (p.b = left; smear_row_run_next(&p, s, r, row, p.b);) {
+            if (spans.count == TEXEL_SPANS) {
+                draw(&t, &spans, coordinates);
+                spans.count = 0;
             }
+            const int32_t i = spans.count++;
+            spans.row[i] = row;
+            spans.left[i] = left;
+            spans.right[i] = right;
+            spans.a[i] = p.a;
+            spans.b[i] = p.b;
+            spans.z[i] = p.z;
+            spans.dz[i] = p.dz;
         }
     }
     draw(&t, &spans, coordinates);
