@@ -21,7 +21,8 @@ struct eights {
     const uint8_t *color;           /* and this or null; */
     bool simple;                    /* if there are no others */
     bool by_vertices;
-    bool plain;                     /* points have the colour of the triangle, which is known */
+    bool shares, shares_back;       /* batch_shares of front and back */
+    bool plain;                     /* points have the colour of the triangle, which is known, and need no vertices */
     bool shaded;                    /* triangles have a colour, which has to be found */
     struct points_setup points;
     /* Of the segment. */
@@ -123,34 +124,33 @@ static SMEAR_NOINLINE void color_point(const struct batch *b, struct smear_trian
         point->color = smear_assemble_face(b, triangle, back);
 }
 
-/* Adds triangle k, whose corners are the given ones, as it is: as one or two points if `points` has it, else to the list. */
-EIGHTS_INLINE void add_one(struct eights *s, const struct smear_points *points, uint32_t k, const uint32_t corner[3],
-                           uint32_t triangle, bool back, uint32_t row, uint32_t color)
+EIGHTS_INLINE struct smear_triangle *add_point(struct eights *s, const struct smear_points *points, int n, uint32_t k)
 {
-    const bool is_points = (points->first >> k & 1u) != 0;
+    return ends_add(s, s->opaque + points->row[n][k], _mm_loadu_si128((const __m128i *)(const void *)points->entry[n][k]));
+}
+
+/* Adds triangle k, whose corners are the given ones: as one or two points if `points` has it, else to the list. */
+EIGHTS_INLINE void add_one(struct eights *s, const struct smear_eight *eight, const struct smear_points *points, uint32_t k,
+                           const uint32_t corner[3], uint32_t triangle, uint32_t color)
+{
+    const bool is_points = (points->first >> k & 1u) != 0, back = (eight->back >> k & 1u) != 0;
     uint32_t word[3] = { 0, 0, 0 };
-    s->drawn++;
     if (!is_points || s->by_vertices) {
-        const bool shares = batch_shares(s->b, back);
+        const bool shares = back ? s->shares_back : s->shares;
         word[0] = stored_corner(s, corner[0], triangle, back, shares);
-        word[1] = stored_corner(s, corner[1], triangle, back, shares);
-        word[2] = stored_corner(s, corner[2], triangle, back, shares);
+        word[1] = stored_corner(s, corner[back ? 2 : 1], triangle, back, shares);
+        word[2] = stored_corner(s, corner[back ? 1 : 2], triangle, back, shares);
     }
     if (!is_points) {
+        const uint32_t row = (eight->low[k] >> 16) * s->points.row_recip >> 22;
         if (s->shaded)
             color = smear_assemble_face(s->b, triangle, back);
         ends_add(s, s->listed + row, _mm_setr_epi32((int32_t)((word[0] - s->base) | (word[1] - s->base) << 16),
                                                     (int32_t)((word[2] - s->base) | s->number << 16), 0, (int32_t)color));
         return;
     }
-    for (uint32_t n = 0; n <= (points->second >> k & 1u); n++) {
-        struct smear_triangle *point = ends_add(s, s->opaque + points->row[n][k],
-                                                _mm_loadu_si128((const __m128i *)(const void *)points->entry[n][k]));
-        if (!s->plain) {
-            const uint32_t of[3] = { word[0], word[1], word[2] };
-            color_point(s->b, point, of, triangle, back, points->w1[n][k], points->w2[n][k]);
-        }
-    }
+    for (int n = 0; n <= (int)(points->second >> k & 1u); n++)
+        color_point(s->b, add_point(s, points, n, k), word, triangle, back, points->w1[n][k], points->w2[n][k]);
 }
 
 /* Takes those that reach only into tiles that the display has already off `seen`. */
@@ -169,25 +169,30 @@ static uint32_t only_damaged(const struct batch *b, const struct smear_eight *ei
 EIGHTS_INLINE bool add_some(struct eights *s, const struct places *r, const struct smear_eight *eight, const struct smear_points *points,
                             const uint32_t color[8], const uint16_t *index, uint32_t triangle, uint32_t all)
 {
-    const int second = r->setup.second, third = r->setup.third;
     if (assembler_has_damage(s->b->a))
         all = only_damaged(s->b, eight, all & eight->seen) | (all & eight->far);
+    const uint32_t plain = s->plain ? points->first : 0;
     ends_load(s);
     for (; all != 0; all &= all - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(all);
-        const uint16_t *const i = index + 3 * k;
-        const bool back = (eight->back >> k & 1u) != 0;
-        if ((eight->far >> k & 1u) != 0) {
-            const uint32_t corner[3] = { i[0], i[second], i[third] };
-            ends_save(s);
-            if (!smear_assemble_far(s->b, r, corner, triangle + k))
-                return false;
-            ends_load(s);
+        s->drawn++;
+        if ((plain >> k & 1u) != 0) {
+            add_point(s, points, 0, k);
+            if ((points->second >> k & 1u) != 0)
+                add_point(s, points, 1, k);
             continue;
         }
-        const uint32_t corner[3] = { i[0], i[back ? third : second], i[back ? second : third] };
-        const uint32_t row = (eight->low[k] >> 16) * s->points.row_recip >> 22;
-        add_one(s, points, k, corner, triangle + k, back, row, color[k]);
+        const uint16_t *const i = index + 3 * k;
+        const uint32_t corner[3] = { i[0], i[r->setup.second], i[r->setup.third] };
+        if ((eight->far >> k & 1u) == 0) {
+            add_one(s, eight, points, k, corner, triangle + k, color[k]);
+            continue;
+        }
+        s->drawn--;
+        ends_save(s);
+        if (!smear_assemble_far(s->b, r, corner, triangle + k))
+            return false;
+        ends_load(s);
     }
     ends_save(s);
     return true;
@@ -212,7 +217,8 @@ static void eights_start(struct eights *s, struct batch *b, const struct places 
         .b = b, .place = r->place, .stored = r->stored, .opaque = g->opaque_last, .listed = row_list(g, b->d, 0),
         .uv = segment_textured(segment) ? b->d->mesh->uv : NULL, .color = SMEAR_WITH_GOURAUD ? b->vertex_color : NULL,
         .simple = segment_moves(segment) == 0 && (!colored || b->vertex_color != NULL), .by_vertices = by_vertices,
-        .plain = !colored && !shaded, .shaded = shaded,
+        .shares = batch_shares(b, false), .shares_back = batch_shares(b, true),
+        .plain = !colored && !by_vertices && !shaded, .shaded = shaded,
         .points = { g->row_recip, by_vertices && !segment_flat_depth(segment) },
         .stride = segment->stride, .uv_at = segment->uv, .color_at = segment->color,
         .top = bins_triangle(g, 0), .pool = g->pool
