@@ -129,26 +129,28 @@ EIGHTS_INLINE struct smear_triangle *add_point(struct eights *s, const struct sm
     return ends_add(s, s->opaque + points->row[n][k], _mm_loadu_si128((const __m128i *)(const void *)points->entry[n][k]));
 }
 
-/* Adds triangle k, whose corners are the given ones: as one or two points if `points` has it, else to the list. */
+/* Adds triangle k, whose indices are the given ones: as one or two points if `points` has it, else to the list. */
 EIGHTS_INLINE void add_one(struct eights *s, const struct smear_eight *eight, const struct smear_points *points, uint32_t k,
-                           const uint32_t corner[3], uint32_t triangle, uint32_t color)
+                           const uint16_t *corner, const struct triangles_setup *setup, uint32_t triangle, uint32_t color)
 {
     const bool is_points = (points->first >> k & 1u) != 0, back = (eight->back >> k & 1u) != 0;
-    uint32_t word[3] = { 0, 0, 0 };
+    uint32_t word0 = 0, word1 = 0, word2 = 0;
     if (!is_points || s->by_vertices) {
         const bool shares = back ? s->shares_back : s->shares;
-        word[0] = stored_corner(s, corner[0], triangle, back, shares);
-        word[1] = stored_corner(s, corner[back ? 2 : 1], triangle, back, shares);
-        word[2] = stored_corner(s, corner[back ? 1 : 2], triangle, back, shares);
+        const uint32_t second = corner[back ? setup->third : setup->second], third = corner[back ? setup->second : setup->third];
+        word0 = stored_corner(s, corner[0], triangle, back, shares);
+        word1 = stored_corner(s, second, triangle, back, shares);
+        word2 = stored_corner(s, third, triangle, back, shares);
     }
     if (!is_points) {
         const uint32_t row = (eight->low[k] >> 16) * s->points.row_recip >> 22;
         if (s->shaded)
             color = smear_assemble_face(s->b, triangle, back);
-        ends_add(s, s->listed + row, _mm_setr_epi32((int32_t)((word[0] - s->base) | (word[1] - s->base) << 16),
-                                                    (int32_t)((word[2] - s->base) | s->number << 16), 0, (int32_t)color));
+        ends_add(s, s->listed + row, _mm_setr_epi32((int32_t)((word0 - s->base) | (word1 - s->base) << 16),
+                                                    (int32_t)((word2 - s->base) | s->number << 16), 0, (int32_t)color));
         return;
     }
+    const uint32_t word[3] = { word0, word1, word2 };
     for (int n = 0; n <= (int)(points->second >> k & 1u); n++)
         color_point(s->b, add_point(s, points, n, k), word, triangle, back, points->w1[n][k], points->w2[n][k]);
 }
@@ -183,11 +185,11 @@ EIGHTS_INLINE bool add_some(struct eights *s, const struct places *r, const stru
             continue;
         }
         const uint16_t *const i = index + 3 * k;
-        const uint32_t corner[3] = { i[0], i[r->setup.second], i[r->setup.third] };
         if ((eight->far >> k & 1u) == 0) {
-            add_one(s, eight, points, k, corner, triangle + k, color[k]);
+            add_one(s, eight, points, k, i, &r->setup, triangle + k, color[k]);
             continue;
         }
+        const uint32_t corner[3] = { i[0], i[r->setup.second], i[r->setup.third] };
         s->drawn--;
         ends_save(s);
         if (!smear_assemble_far(s->b, r, corner, triangle + k))
