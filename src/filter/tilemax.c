@@ -9,7 +9,7 @@ static int32_t change(struct smear_pixel_velocity a, struct smear_pixel_velocity
     return max_i32(abs_i32(a.x - b.x), abs_i32(a.y - b.y));
 }
 
-void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
+void smear_tilemax_reference(const struct smear_window *w, int32_t row, int32_t column)
 {
     struct smear_tile_motion m = { 0, 0, INT16_MAX, INT16_MIN, INT16_MAX, INT16_MIN };
     int32_t longest = -1, rough = 0;

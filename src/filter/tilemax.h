@@ -3,10 +3,26 @@
 #ifndef SMEAR_TILEMAX_H
 #define SMEAR_TILEMAX_H
 
+#include "kernels/avx2.h"
 #include "raster/window.h"
 
 /* Reduces the velocities of tile `column` of tile row `row`. */
-void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column);
+void smear_tilemax_reference(const struct smear_window *w, int32_t row, int32_t column);
+#if SMEAR_AVX2
+/* Of tiles of which a multiple of eight columns lies inside the frame. */
+void smear_tilemax_avx2(const struct smear_window *w, int32_t row, int32_t column);
+#endif
+
+static inline void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
+{
+#if SMEAR_AVX2
+    if (smear_has_avx2() && (min_i32(w->tile, w->width - (column << w->tile_shift)) & 7) == 0) {
+        smear_tilemax_avx2(w, row, column);
+        return;
+    }
+#endif
+    smear_tilemax_reference(w, row, column);
+}
 
 /* Finds the 3 x 3 neighbourhood of every tile in `row`, where rows up to `known` have been reduced: the row being
  * finished knows all three, the one below it is looked at with two. With `corner`, a diagonal neighbour counts only if
