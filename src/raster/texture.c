@@ -5,6 +5,13 @@
 #include "base/fixmath.h"
 #include "base/pixel.h"
 
+/* A loop of its own for wraps: a third of the instructions, for machines that have room. */
+#if UINTPTR_MAX > 0xffffffffu && !defined(__OPTIMIZE_SIZE__)
+#define SMEAR_SAMPLE_WRAPPED 1
+#else
+#define SMEAR_SAMPLE_WRAPPED 0
+#endif
+
 static int log2_exact(uint32_t x)
 {
     return (x & (x - 1)) == 0 ? 31 - count_leading_zeros(x) : -1;
@@ -157,6 +164,47 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
         *out++ = sample_at(s, at, turns, format);
 }
 
+/* Sizes that are no powers of two, or other wraps. */
+#if SMEAR_SAMPLE_WRAPPED
+/* Coordinates of an axis that wrap alike: those below `period` beyond `from`. */
+struct wrapped {
+    int32_t from, period, size;
+    int mode;
+};
+
+static struct wrapped wrapped_make(int32_t size, int mode)
+{
+    return (struct wrapped){ 0, mode == SMEAR_MIRROR ? 2 * size : size, size, mode };
+}
+
+/* What wrap returns. Divides only where a coordinate comes into another period. */
+static inline int32_t wrapped_at(struct wrapped *w, int32_t i)
+{
+    if (w->mode == SMEAR_CLAMP)
+        return clamp_i32(i, 0, w->size - 1);
+    int32_t inside = i - w->from;
+    if ((uint32_t)inside >= (uint32_t)w->period) {
+        inside = i % w->period;
+        inside += inside < 0 ? w->period : 0;
+        w->from = i - inside;
+    }
+    return inside < w->size ? inside : w->period - 1 - inside;
+}
+
+/* Nearest texels. */
+static void sample_wrapped(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
+{
+    const uint64_t curvature = run->curvature;
+    uint64_t at = run->at + run->step * (uint32_t)first + curvature * (uint32_t)(first * (first - 1) / 2);
+    uint64_t step = run->step + curvature * (uint32_t)first;
+    struct wrapped u = wrapped_make(s->width, s->wrap_u), v = wrapped_make(s->height, s->wrap_v);
+    for (; n > 0; n--, at += step, step += curvature) {
+        const int32_t row = wrapped_at(&v, (int32_t)(at >> 32) >> 16);
+        *out++ = fetch(s, (uint32_t)(row * s->width + wrapped_at(&u, (int32_t)at >> 16)));
+    }
+}
+#endif
+
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
                   int first, int n)
 {
@@ -165,6 +213,12 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
 #else
     /* In registers: `out` might be any of its words. */
     const struct smear_sampler sampler = *s;
+#if SMEAR_SAMPLE_WRAPPED
+    if (!sampler.turns && !sampler.bilinear) {
+        sample_wrapped(out, &sampler, run, first, n);
+        return;
+    }
+#endif
     if (!sampler.turns)
         sample_run(out, s, run, first, n, false, 0);
     else if (sampler.format == SMEAR_TEXEL_8888)
