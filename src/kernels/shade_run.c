@@ -45,15 +45,10 @@ static inline SMEAR_AVX2_FUNCTION void shaded8_store(uint32_t *color, uint16_t *
     lanes8_store(color, p->color);
 }
 
-static inline SMEAR_AVX2_FUNCTION lanes8 ramp8(uint32_t first, uint32_t step, lanes8 numbers)
-{
-    return lanes8_all(first) + (lanes8)_mm256_mullo_epi32((__m256i)lanes8_all(step), (__m256i)numbers);
-}
-
 static inline SMEAR_AVX2_FUNCTION struct shade8 shade8_make(uint32_t z, uint32_t dz, const struct shade *k, lanes8 numbers)
 {
-    return (struct shade8){ ramp8(z, dz, numbers), ramp8(k->c[0], k->d[0], numbers), ramp8(k->c[1], k->d[1], numbers),
-                            ramp8(k->c[2], k->d[2], numbers) };
+    return (struct shade8){ lanes8_ramp(z, dz, numbers), lanes8_ramp(k->c[0], k->d[0], numbers), lanes8_ramp(k->c[1], k->d[1], numbers),
+                            lanes8_ramp(k->c[2], k->d[2], numbers) };
 }
 
 static inline SMEAR_AVX2_FUNCTION void shade8_step(struct shade8 *p, uint32_t dz, const struct shade *k, uint32_t n)
@@ -92,20 +87,15 @@ static inline SMEAR_AVX2_FUNCTION void shade_few(uint32_t *color, uint16_t *dept
                                                  const struct shade *k, bool linear)
 {
     const int32_t on = n - 4;
-    const __m256i numbers = _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3),
-                                             _mm256_inserti128_si256(_mm256_setzero_si256(), _mm_set1_epi32(on), 1));
-    const struct shade8 p = shade8_make(z, dz, k, (lanes8)numbers);
-    const __m128i first = (__m128i)v4u_load(color), last = (__m128i)v4u_load(color + on);
+    const struct shade8 p = shade8_make(z, dz, k, lanes8_numbers_few(n));
     const __m128i depths = _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i *)(const void *)depth),
                                               _mm_loadl_epi64((const __m128i *)(const void *)(depth + on)));
-    const struct shaded8 old = { (lanes8)_mm256_inserti128_si256(_mm256_castsi128_si256(first), last, 1),
-                                 (lanes8i)_mm256_cvtepu16_epi32(depths) };
+    const struct shaded8 old = { lanes8_load_few(color, n), (lanes8i)_mm256_cvtepu16_epi32(depths) };
     const struct shaded8 out = shaded8_over(old, &p, linear);
     const __m128i codes = shaded8_depths(&out);
     _mm_storel_epi64((__m128i *)(void *)depth, codes);
     _mm_storel_epi64((__m128i *)(void *)(depth + on), _mm_unpackhi_epi64(codes, codes));
-    v4u_store(color, (smear_v4u)_mm256_castsi256_si128((__m256i)out.color));
-    v4u_store(color + on, (smear_v4u)_mm256_extracti128_si256((__m256i)out.color, 1));
+    lanes8_store_few(color, out.color, n);
 }
 
 /* A third of the reference's instructions. */
