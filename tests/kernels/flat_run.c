@@ -25,11 +25,21 @@ CALLS(vector)
 #define VECTOR(CALL)
 #endif
 
+static void wide_best(struct kernel_call *c)
+{
+    flat_run(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], c->word[COLOR], false);
+}
+
+static void narrow_best(struct kernel_call *c)
+{
+    flat_run(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], c->word[COLOR] & 0xffffu, true);
+}
+
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
     { .name = "flat_run", .least = 1, .most = 19, .size = { 4, 2 },
-      .form = { { "reference", wide_reference }, { "unrolled", wide_unrolled } VECTOR(wide_vector) } },
+      .form = { { "reference", wide_reference }, { "unrolled", wide_unrolled } VECTOR(wide_vector), { "best", wide_best } } },
     { .name = "flat_run (narrow)", .least = 1, .most = 19, .size = { 2, 2 },
-      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR(narrow_vector) } },
+      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR(narrow_vector), { "best", narrow_best } } },
     { .name = NULL }
 };
