@@ -69,25 +69,36 @@ static SMEAR_NOINLINE bool eights_look(struct eight_look *l, const struct smear_
 }
 
 /* Draws pixels [i, end) that are nearer than what is there. */
-static inline void eights_put(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
-                              int32_t i, int32_t end)
+SMEAR_INLINE void eights_put_kind(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
+                                  int32_t i, int32_t end, bool copied, bool narrow)
 {
     uint16_t *const depth = t->depth, *const direct = t->direct;
+    uint32_t *const color = t->color;
+    const void *const texels = l->texels;
     for (; i < end; i++) {
         const int32_t at = p->at[i];
         const uint32_t code = p->code[i], pixel = p->pixel[i];
         if (code <= depth[at])
             continue;
         depth[at] = (uint16_t)code;
-        if (l->kind == EIGHT_COPIED && l->narrow)
-            direct[at] = ((const uint16_t *)l->texels)[pixel];
-        else if (l->kind == EIGHT_COPIED)
-            t->color[at] = ((const uint32_t *)l->texels)[pixel] & 0xffffffu;
-        else if (l->narrow)
-            direct[at] = (uint16_t)pixel;
+        if (narrow)
+            direct[at] = copied ? ((const uint16_t *)texels)[pixel] : (uint16_t)pixel;
         else
-            t->color[at] = pixel;
+            color[at] = copied ? ((const uint32_t *)texels)[pixel] & 0xffffffu : pixel;
     }
+}
+
+static inline void eights_put(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
+                              int32_t i, int32_t end)
+{
+    if (l->kind == EIGHT_COPIED && l->narrow)
+        eights_put_kind(t, l, p, i, end, true, true);
+    else if (l->kind == EIGHT_COPIED)
+        eights_put_kind(t, l, p, i, end, true, false);
+    else if (l->narrow)
+        eights_put_kind(t, l, p, i, end, false, true);
+    else
+        eights_put_kind(t, l, p, i, end, false, false);
 }
 
 #endif
