@@ -101,9 +101,11 @@ static uint32_t list_apart(struct apart *a, int job, const struct apart_place *p
 {
     struct smear_rows *rows = a->rows;
     uint32_t n = 0;
-    while (word_read(&a->listed) != (unsigned)job)
+    while (word_read(&a->listed) != (unsigned)job) {
         if (worker == 0)
             flush_ready(a);
+        wait_apart(rows);
+    }
     if (p->upper)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, a->first + p->row);
     for (uint32_t at = rows->opaque; at != SMEAR_NO_TRIANGLE; at = bins_triangle(&rows->bins, at)->next)

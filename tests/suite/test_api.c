@@ -1028,6 +1028,53 @@ static void test_any_number_of_workers_draws_the_same_picture(void)
         free(picture[k]);
 }
 
+/* Sharp frames of which nothing is blended: cores draw their rows apart where there is memory of temporal methods. */
+static int render_opaque(struct rig *r, double t)
+{
+    struct scene s;
+    make_scene(&s, t, SMEAR_NONE);
+    s.material[3].alpha = SMEAR_OPAQUE;
+    return rig_frame(r, &s.frame, s.draw, SCENE_DRAWS);
+}
+
+static void test_a_negative_answer_of_flush_ends_the_frame_of_several_workers(void)
+{
+    enum { FRAMES = 12 };
+    for (int k = 0; k < 6; k++) {
+        struct rig r, fresh;
+        smear_desc desc = small_desc(48, 64);
+        desc.methods = SMEAR_SET_TEMPORAL;
+        desc.bands = (uint8_t)(1 + k % 2);
+        smear_desc shared = desc;
+        shared.workers = (uint8_t)(2 + k / 2);
+        shared.idle = yield;
+        if (rig_begin(&r, &shared, false) && rig_begin(&fresh, &desc, false)) {
+            pthread_t thread[8];
+            struct helper helper[8];
+            r.reports_sent = fresh.reports_sent = desc.bands == 2;
+            for (int i = 1; i < shared.workers; i++) {
+                helper[i] = (struct helper){ r.ctx, i, FRAMES };
+                CHECK_EQ(pthread_create(&thread[i], NULL, help, &helper[i]), 0);
+            }
+            for (int i = 0; i < FRAMES; i++) {
+                CHECK_EQ(render_opaque(&fresh, 0.1 * i), SMEAR_OK);
+                CHECK(fresh.bands > 2);
+                r.fail_at = i & 1 ? -1 : i / 2 % fresh.bands;
+                r.fail_with = -77 - i;
+                CHECK_EQ(render_opaque(&r, 0.1 * i), i & 1 ? SMEAR_OK : -77 - i);
+                if (i & 1)
+                    same_picture(&fresh, r.picture);
+                else
+                    CHECK_EQ(r.bands, r.fail_at + 1);
+            }
+            for (int i = 1; i < shared.workers; i++)
+                pthread_join(thread[i], NULL);
+            rig_end(&fresh);
+        }
+        rig_end(&r);
+    }
+}
+
 static void test_work_of_an_index_that_is_no_helper_returns_at_once(void)
 {
     struct rig r;
@@ -2345,6 +2392,7 @@ void suite_api(void)
     RUN(test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else);
     RUN(test_two_bands_are_sent_by_another_thread_while_drawing_goes_on);
     RUN(test_any_number_of_workers_draws_the_same_picture);
+    RUN(test_a_negative_answer_of_flush_ends_the_frame_of_several_workers);
     RUN(test_work_of_an_index_that_is_no_helper_returns_at_once);
     RUN(test_a_known_draw_moves_and_unknown_ones_stand_still);
     RUN(test_a_cut_of_the_camera_stops_everything_for_one_frame);
