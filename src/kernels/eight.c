@@ -54,18 +54,25 @@ struct eight_corner {
     __m256i word[4];
 };
 
-EIGHT_INLINE __m256i eight_two_records(const int32_t *a, const int32_t *b)
+/* Loads 2, 3 or 4 words: what lies behind a record may be another core's to write. */
+EIGHT_INLINE __m128i eight_record(const int32_t *p, int words)
 {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128((const __m128i *)(const void *)a)),
-                                   _mm_loadu_si128((const __m128i *)(const void *)b), 1);
+    return words == 4 ? _mm_loadu_si128((const __m128i *)(const void *)p)
+         : words == 3 ? _mm_maskload_epi32((const int *)p, _mm_setr_epi32(-1, -1, -1, 0))
+                      : _mm_loadl_epi64((const __m128i *)(const void *)p);
 }
 
-EIGHT_INLINE struct eight_corner eight_corner_load(const int32_t *record, const uint16_t vertex[8][4], int i)
+EIGHT_INLINE __m256i eight_two_records(const int32_t *a, const int32_t *b, int words)
 {
-    const __m256i a = eight_two_records(record + vertex[0][i], record + vertex[4][i]);
-    const __m256i b = eight_two_records(record + vertex[1][i], record + vertex[5][i]);
-    const __m256i c = eight_two_records(record + vertex[2][i], record + vertex[6][i]);
-    const __m256i d = eight_two_records(record + vertex[3][i], record + vertex[7][i]);
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(eight_record(a, words)), eight_record(b, words), 1);
+}
+
+EIGHT_INLINE struct eight_corner eight_corner_load(const int32_t *record, const uint16_t vertex[8][4], int i, int words)
+{
+    const __m256i a = eight_two_records(record + vertex[0][i], record + vertex[4][i], words);
+    const __m256i b = eight_two_records(record + vertex[1][i], record + vertex[5][i], words);
+    const __m256i c = eight_two_records(record + vertex[2][i], record + vertex[6][i], words);
+    const __m256i d = eight_two_records(record + vertex[3][i], record + vertex[7][i], words);
     const __m256i ab = _mm256_unpacklo_epi32(a, b), cd = _mm256_unpacklo_epi32(c, d);
     const __m256i ab2 = _mm256_unpackhi_epi32(a, b), cd2 = _mm256_unpackhi_epi32(c, d);
     return (struct eight_corner){ { _mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd), _mm256_unpacklo_epi64(ab2, cd2),
@@ -214,7 +221,7 @@ EIGHT_INLINE __m256i eight_make_channels(struct eight *s, const struct eight_loo
 {
     __m256i channel[3][3], good = v8_all(-1);
     for (int i = 0; i < 3; i++) {
-        const struct eight_corner c = eight_corner_load(l->vertex + l->color, vertex, i);
+        const struct eight_corner c = eight_corner_load(l->vertex + l->color, vertex, i, 2);
         channel[i][0] = _mm256_and_si256(c.word[0], v8_all(0xffff));
         channel[i][1] = _mm256_srli_epi32(c.word[0], 16);
         channel[i][2] = _mm256_and_si256(c.word[1], v8_all(0xffff));
@@ -489,8 +496,10 @@ EIGHT_INLINE void eight_of_kind(struct eight_pixels *out, const struct eight_loo
 {
     struct eight s;
     struct eight_places places;
-    const struct eight_corner c[3] = { eight_corner_load(l->vertex, vertex, 0), eight_corner_load(l->vertex, vertex, 1),
-                                       eight_corner_load(l->vertex, vertex, 2) };
+    const int words = kind == EIGHT_COPIED || kind == EIGHT_LIT ? 4 : 3;
+    const struct eight_corner c[3] = { eight_corner_load(l->vertex, vertex, 0, words),
+                                       eight_corner_load(l->vertex, vertex, 1, words),
+                                       eight_corner_load(l->vertex, vertex, 2, words) };
     __m256i good = eight_make_edges(&s, l, c), change = v8_all(0);
     eight_make_scale(&s);
     if (kind == EIGHT_COPIED || kind == EIGHT_LIT)

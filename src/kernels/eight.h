@@ -52,8 +52,7 @@ struct eight_pixels {
     uint32_t pixel[8 * EIGHT_BOX + 8];
 };
 
-/* Eight triangles: places of vertices in words, the fourth of each is not looked at; and colours. There are 16 bytes of memory
- * behind the last record. */
+/* Eight triangles: places of vertices in words, the fourth of each is not looked at; and colours. */
 void smear_eight_avx2(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4], const uint32_t color[8]);
 
 #endif
