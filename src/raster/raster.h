@@ -3,6 +3,8 @@
 #ifndef SMEAR_RASTER_H
 #define SMEAR_RASTER_H
 
+#include "kernels/eight.h"
+#include "kernels/poses.h"
 #include "raster/target.h"
 
 /* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
@@ -23,5 +25,16 @@ void smear_raster_numbers(const struct smear_raster_frame *frame, const struct s
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
                            const struct bounds *bounds);
+
+#if SMEAR_AVX2
+/* Tells what triangles of a segment have in common, so that tiny ones are drawn eight at once; false where they are not. */
+bool smear_raster_look(struct eight_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                       const struct smear_segment *segment);
+
+/* Draws triangles of a segment that are seen, in order, as smear_raster_triangle does. `look`: of the segment, or null. */
+void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                        const struct smear_segment *segment, const struct eight_look *look, const uint32_t color[8],
+                        const struct poses *poses);
+#endif
 
 #endif

@@ -16,6 +16,7 @@
 #include "geometry/shutter.h"
 #include "raster/raster.h"
 #include "temporal/subframe_background.h"
+#include "temporal/subframe_eights.h"
 #include "temporal/subframe_gap.h"
 #include "temporal/subframe_pose.h"
 #include "temporal/subframe_sums.h"
@@ -171,8 +172,31 @@ static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, i
     }
 }
 
+#if SMEAR_AVX2
+static void draw_listed_by_eights(const struct subframes *f, int32_t time, struct subframe_box *all)
+{
+    struct subframe_eights eights;
+    smear_subframe_eights_begin(&eights, f, time, all);
+    for (uint32_t i = 0; i < f->moving_listed; i++)
+        if (!smear_subframe_eights_add(&eights, f->listed[i]))
+            draw_moving_triangle(f, f->listed[i], time, all);
+    for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++) {
+        const uint32_t triangle = f->t->moving[i].triangle;
+        if (is_seen(f, &f->t->moving[i]) && !smear_subframe_eights_add(&eights, triangle))
+            draw_moving_triangle(f, triangle, time, all);
+    }
+    smear_subframe_eights_end(&eights);
+}
+#endif
+
 static void draw_listed(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
+#if SMEAR_AVX2
+    if (subframe_eights_suit(f)) {
+        draw_listed_by_eights(f, time, all);
+        return;
+    }
+#endif
     for (uint32_t i = 0; i < f->moving_listed; i++)
         draw_moving_triangle(f, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* poses.h - eight triangles at an instant, their vertices along their paths: geometry/path.h for eight at once. */
+#ifndef SMEAR_KERNELS_POSES_H
+#define SMEAR_KERNELS_POSES_H
+
+#include "kernels/avx2.h"
+
+#if SMEAR_AVX2
+
+enum { POSES_RECORD = 8 };      /* words from one vertex to the next */
+
+struct poses_setup {
+    const int32_t *vertex;          /* records: x, y (q8 px), depth (q11), up to three words more; then, behind `motion` words in
+                                     * all, x, y and depth at open and those at close, which end the record */
+    int motion;
+    int32_t phase;                  /* path_phase */
+    int32_t low[2], high[2];        /* the guard band, q8 px: x, y */
+    int32_t depth_least, depth_most;
+    int32_t x0, y0, x1, y1;         /* the pixels looked at */
+    int32_t tiny;                   /* a box is tiny up to this width and height, px, */
+    int32_t tiny_box;               /* and this many pixels */
+};
+
+struct poses {
+    uint32_t seen;                  /* bit k: triangle k faces the eye and its box has pixels that are looked at. The others' records
+                                     * and bounds are undefined */
+    uint32_t tiny;                  /* bit k: so it is, and its box is tiny, all of it */
+    int32_t box[4];                 /* the pixels of all that are seen: x0, y0, x1, y1; undefined where none is */
+    int32_t bounds[8][4];           /* of the vertices: least x and y, largest x and y */
+    int32_t record[8][3][POSES_RECORD];     /* as those given, without the path */
+};
+
+/* Places of vertices in words, the fourth of each is not looked at. All eight must be there; `count` of them are looked at. */
+void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const uint16_t vertex[8][4], int count);
+
+#endif
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* subframe_eights.h - the moving triangles of some tiles at an instant, eight at once where a draw has so many. */
+#ifndef SMEAR_SUBFRAME_EIGHTS_H
+#define SMEAR_SUBFRAME_EIGHTS_H
+
+#include "kernels/poses.h"
+#include "raster/raster.h"
+#include "temporal/subframe_tile.h"
+
+#if SMEAR_AVX2
+
+/* Triangles of one segment that wait to be drawn. */
+struct subframe_eights {
+    const struct subframes *f;
+    struct subframe_box *all;           /* where anything was drawn */
+    int32_t time;
+    const struct smear_segment *segment;
+    struct poses_setup setup;
+    struct eight_look look;
+    bool has_look;
+    int count;
+    uint16_t vertex[8][4];
+    uint32_t color[8];
+};
+
+/* Whether an instant may be drawn so: shifts for smooth edges are each triangle's own. */
+static inline bool subframe_eights_suit(const struct subframes *f)
+{
+    return !(SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0) && smear_has_avx2();
+}
+
+void smear_subframe_eights_begin(struct subframe_eights *e, const struct subframes *f, int32_t time, struct subframe_box *all);
+
+/* Draws a triangle with a path, or has it wait. False where it has to be drawn alone, those before it have been drawn then. */
+bool smear_subframe_eights_add(struct subframe_eights *e, uint32_t triangle);
+
+/* Draws those that wait. */
+void smear_subframe_eights_end(struct subframe_eights *e);
+
+#endif
+#endif
