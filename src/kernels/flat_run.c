@@ -72,4 +72,88 @@ SMEAR_AVX2_FUNCTION void smear_flat_run_narrow_avx2(uint16_t *pixels, uint16_t *
             return;
     }
 }
+
+/* ------------------------------------------------------------------ rows */
+
+/* All ones in lanes below n, from flat_masks + 32 - n on, and in lanes from n on, from flat_masks + 16 - n on. */
+static const uint16_t flat_masks[48] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+    0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
+    0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
+};
+
+/* What rows have in common: depth steps of pixels 0 2 .. 14 and 1 3 .. 15; their colour. */
+struct flat_lanes {
+    __m256i steps, steps1, color;
+};
+
+static inline SMEAR_AVX2_FUNCTION __m256i flat16_load(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
+static inline SMEAR_AVX2_FUNCTION void flat16_store(void *p, __m256i a) { _mm256_storeu_si256((__m256i *)p, a); }
+
+/* Sixteen pixels, the first at z; those of the mask if there is one. */
+SMEAR_AVX2_FUNCTION SMEAR_INLINE_ALWAYS void flat16_draw(const struct flat_lanes *k, void *pixels, uint16_t *depth, uint32_t z,
+                                                         const uint16_t *mask, bool narrow)
+{
+    const __m256i first_z = _mm256_set1_epi32((int32_t)z), even = _mm256_add_epi32(first_z, k->steps),
+                  odd = _mm256_add_epi32(first_z, k->steps1);
+    __m256i code = _mm256_blend_epi16(_mm256_srli_epi32(even, 16), odd, 0xaa);
+    if (mask != NULL)
+        code = _mm256_and_si256(code, flat16_load(mask));
+    const __m256i old = flat16_load(depth), most = _mm256_max_epu16(code, old), stays = _mm256_cmpeq_epi16(most, old);
+    flat16_store(depth, most);
+    if (narrow) {
+        flat16_store(pixels, _mm256_blendv_epi8(k->color, flat16_load(pixels), stays));
+        return;
+    }
+    uint32_t *const first = (uint32_t *)pixels, *const last = first + 8;
+    const __m256i stays0 = _mm256_cvtepi16_epi32(_mm256_castsi256_si128(stays));
+    const __m256i stays1 = _mm256_cvtepi16_epi32(_mm256_extracti128_si256(stays, 1));
+    flat16_store(first, _mm256_blendv_epi8(k->color, flat16_load(first), stays0));
+    flat16_store(last, _mm256_blendv_epi8(k->color, flat16_load(last), stays1));
+}
+
+SMEAR_AVX2_FUNCTION SMEAR_INLINE_ALWAYS void flat_rows_of(const struct flat_rows *r, struct edge_walk *a, struct edge_walk *b,
+                                                          bool narrow)
+{
+    struct edge_walk left = *a, right = *b;
+    const lanes8 evens = lanes8_numbers() * 2;
+    const struct flat_lanes k = { (__m256i)lanes8_ramp(0, r->dz, evens), (__m256i)lanes8_ramp(r->dz, r->dz, evens),
+                                  narrow ? _mm256_set1_epi16((int16_t)r->color) : _mm256_set1_epi32((int32_t)r->color) };
+    const int32_t x0 = r->x0, x1 = r->x1, x_most = x1 - 16;
+    const int32_t stride = r->stride;
+    const uint32_t dz = r->dz, dz_down = r->dz_down;
+    uint32_t z = r->z;
+    uint16_t *depth = r->depth;
+    void *pixels = r->pixels;
+    for (int32_t rows = r->rows; rows > 0; rows--) {
+        int32_t x = max_i32(edge_pixel(&left), x0);
+        const int32_t end = min_i32(edge_pixel(&right), x1);
+        edge_step(&left);
+        edge_step(&right);
+        for (; end - x >= 16; x += 16)
+            flat16_draw(&k, pixel_after(pixels, x, narrow), depth + x, z + dz * (uint32_t)x, NULL, narrow);
+        if (x < end) {
+            const uint16_t *mask = flat_masks + 32 - (end - x);
+            if (x > x_most) {           /* the last sixteen before the end, of which some come before x */
+                mask = flat_masks + 16 - (x - (end - 16));
+                x = end - 16;
+            }
+            flat16_draw(&k, pixel_after(pixels, x, narrow), depth + x, z + dz * (uint32_t)x, mask, narrow);
+        }
+        depth += stride;
+        pixels = pixel_after(pixels, stride, narrow);
+        z += dz_down;
+    }
+    *a = left;
+    *b = right;
+}
+
+SMEAR_AVX2_FUNCTION void smear_flat_rows_avx2(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
+{
+    if (r->narrow)
+        flat_rows_of(r, left, right, true);
+    else
+        flat_rows_of(r, left, right, false);
+}
 #endif

@@ -2,11 +2,12 @@
 /* cover.c - which pixels a triangle covers, exactly.
  *
  * A pixel belongs to a triangle if its centre is inside, by the top-left rule. In row y an edge lies at
- * x(y) = x0 + (yc - y0) dx / dy, an exact fraction that is stepped with its remainder; pixels from ceil(left)
- * to ceil(right) - 1 are covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice
+ * x(y) = x0 + (yc - y0) dx / dy, exactly (kernels/edge_walk.h); pixels from ceil(left) to ceil(right) - 1 are
+ * covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice
  * or missed. Small triangles use edge functions instead, which say the same without a division. */
 #include "raster/cover.h"
 
+#include "kernels/edge_walk.h"
 #include "kernels/flat_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/span.h"
@@ -128,77 +129,6 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
 }
 
 /* ------------------------------------------------------------------ large triangles */
-
-/* First pixel at or right of an edge, row by row: ceil((x - 1/2 px) / 1 px) of the exact fraction. */
-struct edge_walk {
-    int32_t x;              /* q8: the edge's place at this row's centres,
-                             * rounded up; 127 more for edge_pixel */
-    int32_t rest;           /* what was added by rounding, in 1/dy: -dy < rest <= 0 */
-    int32_t step, step_rest;
-    int32_t dy;
-};
-
-#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
-/* divide_floor of what is known nearly. */
-static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *remainder)
-{
-    int32_t r = a - q * b;
-    for (; r < 0; r += b)
-        q--;
-    for (; r >= b; r -= b)
-        q++;
-    *remainder = r;
-    return q;
-}
-#endif
-
-/* From a down to b (b below a), starting at pixel row y, whose centre lies at or below a. */
-static void edge_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y)
-{
-    int32_t dx = b[VERTEX_X] - a[VERTEX_X];                     /* |dx| <= 2^20 */
-    int32_t first = (a[VERTEX_Y] + 127) >> 8;                   /* first row below a */
-    int32_t down = first * 256 + 128 - a[VERTEX_Y];             /* 0 .. 255 */
-    e->dy = b[VERTEX_Y] - a[VERTEX_Y];
-    e->x = a[VERTEX_X] + 127;
-#if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
-    if (e->dy >= 4 && (uint32_t)abs_i32(dx) < min_u32((uint32_t)e->dy * 32u, 1u << 15)) {
-        /* 1/dy = recip 2^(zeros - 46), good to 2^-14: quotients are off by less than two */
-        const int zeros = count_leading_zeros((uint32_t)e->dy), shift = 38 - zeros;
-        const int32_t over = dx * (int32_t)(recip_norm((uint32_t)e->dy << zeros) >> 15);
-        e->step = divide_near(over >> shift, dx * 256, e->dy, &e->step_rest);
-        e->x += divide_near((over >> 8) * down >> shift, dx * down, e->dy, &e->rest);
-    } else
-#endif
-    {
-        e->step = divide_floor(dx * 256, e->dy, &e->step_rest);
-        e->x += divide_floor(dx * down, e->dy, &e->rest);
-    }
-    uint32_t rows = (uint32_t)(y - first);
-    if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
-        uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
-        e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)e->dy);
-        e->rest = (int32_t)(rest % (uint32_t)e->dy);
-    }
-    if (e->rest > 0) {
-        e->rest -= e->dy;
-        e->x++;
-    }
-}
-
-SMEAR_INLINE_ALWAYS int32_t edge_pixel(const struct edge_walk *e)
-{
-    return e->x >> 8;
-}
-
-SMEAR_INLINE_ALWAYS void edge_step(struct edge_walk *e)
-{
-    e->x += e->step;
-    e->rest += e->step_rest;
-    if (e->rest > 0) {
-        e->rest -= e->dy;
-        e->x++;
-    }
-}
 
 /* A triangle's two sides on their way down. */
 struct sides {
@@ -494,6 +424,57 @@ static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
     cover_flat(s, true, true);
 }
+
+#if SMEAR_AVX2
+/* The same rows by vectors, whatever cuts them off. */
+static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    struct sides d;
+    if (!sides_start(&d, s))
+        return;
+    struct flat_rows rows = {
+        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1, .z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope),
+        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
+    };
+    int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (ring_row >= t->window_rows.ring)
+        ring_row -= t->window_rows.ring;
+    for (; y < d.end; y += rows.rows) {
+        if (y == knee)
+            knee = sides_part(&d, y);
+        const int32_t at = ring_row * rows.stride - t->window_rows.x0;
+        rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
+        rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
+        rows.depth = t->depth + at;
+        smear_flat_rows_avx2(&rows, &d.left, &d.right);
+        rows.z += rows.dz_down * (uint32_t)rows.rows;
+        ring_row += rows.rows;
+        if (ring_row == t->window_rows.ring)
+            ring_row = 0;
+    }
+}
+#endif
+
+static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
+{
+    const struct smear_raster_target *t = s->target;
+    if (s->slope == SLOPE_BOTH) {
+        cover_flat_break(s);
+        return;
+    }
+#if SMEAR_AVX2
+    if (t->x1 - t->x0 >= FLAT_ROWS_LEAST && smear_has_avx2()) {
+        cover_flat_lanes(s);
+        return;
+    }
+#endif
+    if (box->left < t->x0 || box->right > t->x1)
+        cover_flat_cut(s);
+    else
+        cover_flat_whole(s);
+}
 #endif
 
 /* ------------------------------------------------------------------ small triangles */
@@ -537,14 +518,8 @@ static void cover_small(const struct setup *s, const struct pixel_box *box, smea
 void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
 {
 #if SMEAR_SPAN_ROWS
-    const struct smear_raster_target *target = s->target;
     if (s->flat && !s->writes_velocity && !small) {
-        if (s->slope == SLOPE_BOTH)
-            cover_flat_break(s);
-        else if (box->left < target->x0 || box->right > target->x1)
-            cover_flat_cut(s);
-        else
-            cover_flat_whole(s);
+        cover_flat_rows(s, box);
         return;
     }
 #endif
@@ -560,8 +535,8 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
             return;
         }
         if (rows != NULL) {
-            cover_rows(s, rows,
-                       max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1);
+            cover_rows(s, rows, max_i32(box->left, 0) < s->target->x0
+                                || min_i32(box->right, s->frame->width) > s->target->x1);
             return;
         }
     }

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* edge_walk.c - how check_kernels calls kernels/edge_walk.h. */
+#include "kernels/edge_walk.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { AX, AY, BX, BY, Y };       /* words */
+
+static int32_t word(const struct kernel_call *c, int i) { return (int32_t)c->word[i]; }
+
+/* Edges of all lengths, near to one that ends in a pixel's centre now and then. */
+static void prepare(struct kernel_call *c)
+{
+    const int32_t longest = (1 << 20) - 512, half = longest / 2, most = min_i32(1 << kernel_between(4, 20), longest);
+    const int32_t ax = kernel_between(-half, half), ay = kernel_between(-half, half);
+    int32_t bx = ax + kernel_between(-most, most), by = ay + kernel_between(1, kernel_between(0, 1) ? most : longest);
+    if (kernel_between(0, 3) == 0) {
+        bx = (bx & ~255) + kernel_between(127, 129);
+        by = (by & ~255) + 256 + kernel_between(127, 129);
+    }
+    const int32_t first = (ay + 127) >> 8, end = (by + 127) >> 8;
+    c->word[AX] = (uint32_t)ax;
+    c->word[AY] = (uint32_t)ay;
+    c->word[BX] = (uint32_t)bx;
+    c->word[BY] = (uint32_t)by;
+    c->word[Y] = (uint32_t)(first < end ? kernel_between(first, end - 1) : end);
+}
+
+/* Pixels of up to n rows that have a centre beside the edge. */
+#define CALL(NAME, FORM) \
+    static void NAME(struct kernel_call *c) \
+    { \
+        const int32_t a[2] = { word(c, AX), word(c, AY) }, b[2] = { word(c, BX), word(c, BY) }; \
+        const int32_t rows = min_i32(((b[1] + 127) >> 8) - word(c, Y), c->n); \
+        struct FORM##_walker e; \
+        if (rows > 0) \
+            FORM##_start(&e, a, b, word(c, Y)); \
+        for (int32_t i = 0; i < rows; i++, FORM##_step(&e)) \
+            ((int32_t *)c->plane[0])[i] = FORM##_pixel(&e); \
+    }
+
+#define edge_rest_walker edge_rest
+#define edge_walker edge_walk
+CALL(by_rest, edge_rest)
+CALL(best, edge)
+
+extern const struct kernel kernels_edge_walk[];
+const struct kernel kernels_edge_walk[] = {
+    { .name = "edge_walk", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
+      .form = { { "reference", by_rest }, { "best", best } } },
+    { .name = NULL }
+};
