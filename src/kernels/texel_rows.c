@@ -6,18 +6,32 @@
 
 /* ------------------------------------------------------------------ references */
 
+static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, uint32_t z, uint64_t uv)
+{
+    const ptrdiff_t at = row * t->stride + x;
+    void *const color = t->narrow ? (void *)((uint16_t *)t->color + at) : (uint32_t *)t->color + at;
+    if (t->lights == NULL) {
+        texel_pixel(color, t->depth + at, z, t->texels, NULL, uv, t->log2_width, t->log2_height,
+                    t->narrow ? TEXELS_NARROW : TEXELS_WIDE);
+    } else if (z >> 16 > t->depth[at]) {
+        const uint32_t index = packed_index(uv, t->log2_width, t->log2_height);
+        const uint32_t pixel = lit_texel_reference(
+            t->lights, texel_fetch(t->texels, t->lights->palette, index, t->lights->format), x, row);
+        t->depth[at] = (uint16_t)(z >> 16);
+        if (t->narrow)
+            *(uint16_t *)color = (uint16_t)rgb565_nearest(pixel);
+        else
+            *(uint32_t *)color = pixel;
+    }
+}
+
 /* Pixels [a, b) of a row, of which `c` are the coordinates of pixel x. */
 static void draw_reference(const struct texel_rows *t, const struct texel_spans *s, int32_t i, struct texcoord c, int32_t x,
                            int32_t a, int32_t b)
 {
-    const enum texel_kind kind = t->narrow ? TEXELS_NARROW : TEXELS_WIDE;
-    const ptrdiff_t at = s->row[i] * t->stride;
     for (; x < b; x++) {
-        const ptrdiff_t pixel = at + x;
         if (x >= a)
-            texel_pixel(t->narrow ? (void *)((uint16_t *)t->color + pixel) : (uint32_t *)t->color + pixel, t->depth + pixel,
-                        s->z[i] + s->dz[i] * (uint32_t)x, t->texels, NULL, packed_uv(c.u, c.v), t->log2_width,
-                        t->log2_height, kind);
+            pixel_reference(t, s->row[i], x, s->z[i] + s->dz[i] * (uint32_t)x, packed_uv(c.u, c.v));
         c.u += c.du;
         c.v += c.dv;
         c.du -= c.curvature_u;
@@ -90,10 +104,13 @@ struct texel_lanes {
     void *color;
     uint16_t *depth;
     ptrdiff_t stride;
+    bool narrow;
+    struct lit_lanes lit;
 };
 
 /* A row. */
 struct row_lanes {
+    int32_t row;
     void *color;                        /* of pixel 0 */
     uint16_t *depth;
     uint32_t z, dz;
@@ -105,13 +122,24 @@ struct block_lanes {
     int32_t u[8], v[8], du[8], dv[8], ddu[8], ddv[8];
 };
 
-AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t)
+/* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn. */
+enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT };
+
+AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
 {
-    const int narrow = t->narrow;
+    return look == LOOK_LIT ? k->narrow : look == LOOK_NARROW;
+}
+
+AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, enum look look)
+{
+    const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look == LOOK_NARROW;
     k->texels = t->texels;
-    k->u_down = _mm256_set1_epi32(32 - t->log2_width + narrow);
-    k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + narrow);
-    k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - narrow)));
+    k->narrow = t->narrow;
+    if (look == LOOK_LIT)
+        lit_start(&k->lit, t->lights);
+    k->u_down = _mm256_set1_epi32(32 - t->log2_width + pairs);
+    k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
+    k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));
     k->odd_down = _mm256_set1_epi32(28 - t->log2_width);
     k->half = lanes_of(16);
     k->x_most = t->x1 - 16;
@@ -124,16 +152,18 @@ AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t)
 AVX2_INLINE __m256i evens_of_16(void) { return _mm256_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14); }
 AVX2_INLINE __m256i first_8(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i, bool narrow)
+AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i,
+                           enum look look)
 {
     const ptrdiff_t at = s->row[i] * k->stride;
     const __m256i dz = _mm256_set1_epi32((int32_t)s->dz[i]);
-    r->color = narrow ? (void *)((uint16_t *)k->color + at) : (uint32_t *)k->color + at;
+    r->row = s->row[i];
+    r->color = look_is_narrow(k, look) ? (void *)((uint16_t *)k->color + at) : (uint32_t *)k->color + at;
     r->depth = k->depth + at;
     r->z = s->z[i];
     r->dz = s->dz[i];
     r->eight = _mm256_mullo_epi32(first_8(), dz);
-    if (narrow) {
+    if (look == LOOK_NARROW) {
         r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
         r->odds = _mm256_add_epi32(r->evens, dz);
     }
@@ -214,20 +244,60 @@ AVX2_INLINE __m128i lower_halves(__m256i a)
     return _mm_packus_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
 }
 
+/* The first of a pair of narrow texels in the lower half, or the second. */
+AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
+{
+    return _mm256_srlv_epi32(pairs, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
+}
+
+/* Eight texels in their light. */
+AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v)
+{
+    const __m256i index = lanes_index(k, u, v);
+    struct lit_pairs t;
+    if (k->lit.format == SMEAR_TEXEL_565) {
+        t = lit_pairs_of_565(lanes_of_pairs(k, lanes_gather(k, index), u));
+    } else if (k->lit.format == SMEAR_TEXEL_8888) {
+        t = lit_pairs_of_8888(lanes_gather(k, index));
+    } else {
+        const __m256i bits = _mm256_and_si256(_mm256_slli_epi32(index, 3), _mm256_set1_epi32(24));
+        const __m256i byte = _mm256_srlv_epi32(lanes_gather(k, _mm256_srli_epi32(index, 2)), bits);
+        t = lit_pairs_of_8888(_mm256_i32gather_epi32((const int *)(const void *)k->lit.palette,
+                                                     _mm256_and_si256(byte, _mm256_set1_epi32(255)), 4));
+    }
+    return lit_in_light(&k->lit, t, x, r->row);
+}
+
+AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
+{
+    __m256i_u *const color = (__m256i_u *)((uint32_t *)r->color + x);
+    _mm256_storeu_si256(color, _mm256_blendv_epi8(pixels, _mm256_loadu_si256(color), _mm256_cvtepi16_epi32(hidden)));
+}
+
+/* Upper halves are 0. */
+AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
+{
+    __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
+    _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(pixels), _mm_loadu_si128(color), hidden));
+}
+
 /* Writes eight pixels with these coordinates where they are not hidden. */
 AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v, __m128i hidden,
-                       bool narrow)
+                       enum look look)
 {
-    __m256i texels = lanes_gather(k, lanes_index(k, u, v));
-    if (narrow) {
-        __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
-        texels = _mm256_srlv_epi32(texels, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
-        texels = _mm256_blend_epi16(texels, _mm256_setzero_si256(), 0xaa);
-        _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(texels), _mm_loadu_si128(color), hidden));
-    } else {
-        __m256i_u *const color = (__m256i_u *)((uint32_t *)r->color + x);
-        _mm256_storeu_si256(color, _mm256_blendv_epi8(texels, _mm256_loadu_si256(color), _mm256_cvtepi16_epi32(hidden)));
+    if (look == LOOK_LIT) {
+        const struct lit_pairs p = lit_8(k, r, x, u, v);
+        if (k->narrow)
+            put_narrow_8(r, x, lit_narrow(p), hidden);
+        else
+            put_wide_8(r, x, lit_wide(p), hidden);
+        return;
     }
+    const __m256i texels = lanes_gather(k, lanes_index(k, u, v));
+    if (look == LOOK_NARROW)
+        put_narrow_8(r, x, _mm256_blend_epi16(lanes_of_pairs(k, texels, u), _mm256_setzero_si256(), 0xaa), hidden);
+    else
+        put_wide_8(r, x, texels, hidden);
 }
 
 /* Tests eight depths from x on, of which those of a mask are drawn. Which are hidden; false if all. */
@@ -247,7 +317,7 @@ AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16_t *ma
 
 /* Eight pixels, as draw_16. */
 AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                        int32_t x, int32_t i, const uint16_t *mask, bool narrow)
+                        int32_t x, int32_t i, const uint16_t *mask, enum look look)
 {
     __m128i hidden;
     if (!test_8(r, x, mask, &hidden))
@@ -258,7 +328,7 @@ AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, 
         pairs = pairs_of(lane);
     }
     put_8(k, r, x, lanes_at(c->u[block], c->du[block], c->ddu[block], lane, pairs),
-          lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs), hidden, narrow);
+          lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs), hidden, look);
 }
 
 /* Where eight pixels begin among which are those from a on, up to b, and the mask of these. */
@@ -274,9 +344,9 @@ AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int32_t b
 
 /* Pixels [a, b) of a block that begins at `start`. */
 AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                            int32_t start, int32_t a, int32_t b, bool narrow)
+                            int32_t start, int32_t a, int32_t b, enum look look)
 {
-    if (narrow) {
+    if (look == LOOK_NARROW) {
         for (; b - a >= 16; a += 16)
             draw_16(k, r, c, block, a, a - start, NULL);
         if (b - a > 8 && a <= k->x_most) {
@@ -287,7 +357,7 @@ AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes 
     for (; a < b; a += 8) {
         const uint16_t *mask;
         const int32_t x = eight_from(k, a, b, &mask);
-        draw_8(k, r, c, block, x, x - start, mask, narrow);
+        draw_8(k, r, c, block, x, x - start, mask, look);
     }
 }
 
@@ -433,7 +503,7 @@ AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k
 
 /* A place for each pixel. */
 AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                               int32_t row, int32_t a, int32_t b, bool narrow)
+                               int32_t row, int32_t a, int32_t b, enum look look)
 {
     for (; a < b; a += 8) {
         const uint16_t *mask;
@@ -442,7 +512,7 @@ AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lan
         if (!test_8(r, x, mask, &hidden))
             continue;
         const struct place_lanes p = places_at(planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), _mm256_set1_epi32(row));
-        put_8(k, r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, narrow);
+        put_8(k, r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, look);
     }
 }
 
@@ -465,7 +535,7 @@ AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t b
 
 /* Blocks from that of pixel a on. */
 AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                               struct block_lanes *c, const struct texel_spans *s, int32_t i, int32_t block, bool narrow)
+                               struct block_lanes *c, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
 {
     const int32_t last = s->right[i] - 1, a = s->a[i], b = s->b[i];
     const __m256i row = _mm256_set1_epi32(s->row[i]), zero = _mm256_setzero_si256();
@@ -481,7 +551,7 @@ AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lan
         before = places;
         for (; j < 8; j++) {
             const int32_t stop = end[j + 1] + (end[j + 1] == last);
-            draw_block(k, r, c, j, end[j], max_i32(end[j], a), min_i32(stop, b), narrow);
+            draw_block(k, r, c, j, end[j], max_i32(end[j], a), min_i32(stop, b), look);
             if (stop >= b)
                 return;
         }
@@ -489,32 +559,34 @@ AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lan
     }
 }
 
-AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p, bool narrow)
+AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p, enum look look)
 {
     struct texel_lanes k;
     struct planes_lanes planes;
     struct block_lanes c;
-    lanes_start(&k, t);
+    lanes_start(&k, t, look);
     planes_start(&planes, p);
     store_lanes(c.ddu, _mm256_setzero_si256());
     store_lanes(c.ddv, _mm256_setzero_si256());
     for (int32_t i = 0; i < s->count; i++) {
         struct row_lanes r;
-        row_start(&r, &k, s, i, narrow);
+        row_start(&r, &k, s, i, look);
         if (p->block == 1 || s->right[i] - s->left[i] <= SHORT_SPAN)
-            row_of_places(&k, &r, &planes, s->row[i], s->a[i], s->b[i], narrow);
+            row_of_places(&k, &r, &planes, s->row[i], s->a[i], s->b[i], look);
         else
-            row_of_blocks(&k, &r, &planes, &c, s, i, p->block, narrow);
+            row_of_blocks(&k, &r, &planes, &c, s, i, p->block, look);
     }
 }
 
 SMEAR_AVX2_FUNCTION void smear_texel_rows_places_avx2(const struct texel_rows *t, const struct texel_spans *s,
                                                       const struct texel_planes *p)
 {
-    if (t->narrow)
-        rows_of_places(t, s, p, true);
+    if (t->lights != NULL)
+        rows_of_places(t, s, p, LOOK_LIT);
+    else if (t->narrow)
+        rows_of_places(t, s, p, LOOK_NARROW);
     else
-        rows_of_places(t, s, p, false);
+        rows_of_places(t, s, p, LOOK_WIDE);
 }
 
 /* ------------------------------------------------------------------ curves */
@@ -543,12 +615,12 @@ AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, int
     store_lanes(step, _mm256_add_epi32(dx, _mm256_add_epi32(_mm256_add_epi32(along, along), k->dxx)));
 }
 
-AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, bool narrow)
+AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, enum look look)
 {
     struct texel_lanes k;
     struct curve_lanes u, v;
     struct block_lanes c;
-    lanes_start(&k, t);
+    lanes_start(&k, t, look);
     curve_start(&u, &p->u);
     curve_start(&v, &p->v);
     store_lanes(c.ddu, _mm256_add_epi32(u.dxx, u.dxx));
@@ -561,8 +633,8 @@ AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_s
         const int32_t count = min_i32(s->count - i, 8);
         for (int32_t j = 0; j < count; j++) {
             struct row_lanes r;
-            row_start(&r, &k, s, i + j, narrow);
-            draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], narrow);
+            row_start(&r, &k, s, i + j, look);
+            draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], look);
         }
     }
 }
@@ -570,9 +642,11 @@ AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_s
 SMEAR_AVX2_FUNCTION void smear_texel_rows_curves_avx2(const struct texel_rows *t, const struct texel_spans *s,
                                                       const struct texel_curves *p)
 {
-    if (t->narrow)
-        rows_of_curves(t, s, p, true);
+    if (t->lights != NULL)
+        rows_of_curves(t, s, p, LOOK_LIT);
+    else if (t->narrow)
+        rows_of_curves(t, s, p, LOOK_NARROW);
     else
-        rows_of_curves(t, s, p, false);
+        rows_of_curves(t, s, p, LOOK_WIDE);
 }
 #endif

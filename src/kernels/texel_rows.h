@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* texel_rows.h - copied texels in rows of a triangle, eight or sixteen pixels at once: for processors that have AVX2. */
+/* texel_rows.h - texels in rows of a triangle, eight or sixteen pixels at once: for processors that have AVX2. */
 #ifndef SMEAR_KERNELS_TEXEL_ROWS_H
 #define SMEAR_KERNELS_TEXEL_ROWS_H
 
 #include "kernels/avx2.h"
+#include "kernels/texel_lit.h"
 #include "kernels/texel_places.h"
 #include "kernels/texel_run.h"
 
@@ -19,10 +20,11 @@ struct texel_spans {
     uint32_t z[TEXEL_SPANS], dz[TEXEL_SPANS];
 };
 
-/* Where texels are copied from, and to: pixel 0 of row 0, which may lie outside the memory; in all rows columns
+/* Where texels are taken from, and pixels lie: pixel 0 of row 0, which may lie outside the memory; in all rows columns
  * [x0, x1), which are TEXEL_ROWS_LEAST at least, may be written as they are. */
 struct texel_rows {
-    const void *texels;                 /* RGB565 if narrow, else 32 bits; of an even number */
+    const void *texels;                 /* if copied, RGB565 if narrow, else 32 bits; a multiple of four */
+    const struct texel_lights *lights;  /* null: they are copied */
     int log2_width, log2_height;        /* 1 .. 12 */
     void *color;
     uint16_t *depth;

@@ -594,7 +594,13 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
         || t->log2_height == 0 || fog_has_no_rows(s))
         return NULL;
-    if (s->segment->shade != SHADE_NONE || fog_of(s) != FOG_NONE || t->format != (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
+    const bool copied = s->segment->shade == SHADE_NONE && t->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888);
+#if SMEAR_LANE_ROWS
+    smear_rows_fn *lanes = smear_lane_rows_choose(s, !copied);
+    if (lanes != NULL)
+        return lanes;
+#endif
+    if (!copied || fog_of(s) != FOG_NONE) {
         if (segment_gouraud(s->segment) && !s->even_color)
             return SMEAR_SHADED_ROWS && fog_of(s) == FOG_NONE ? smear_shaded_rows_choose(s) : NULL;
 #if SMEAR_DIRECT
@@ -603,11 +609,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
 #endif
         return is_curved ? curves_lit : rows_lit;
     }
-#if SMEAR_LANE_ROWS
-    smear_rows_fn *lanes = smear_lane_rows_choose(s);
-    if (lanes != NULL)
-        return lanes;
-#endif
 #if SMEAR_DIRECT
     if (narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);

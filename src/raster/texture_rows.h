@@ -53,11 +53,11 @@ smear_rows_fn smear_rows_shade;
 /* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
 smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
 
-/* Copied texels have rows of their own on processors with AVX2, of the same bits. */
+/* Texels have rows of their own on processors with AVX2, of the same bits. */
 #define SMEAR_LANE_ROWS (SMEAR_AVX2 && SMEAR_SPAN_ROWS && SMEAR_WITH_TEXTURE)
 
-/* Likewise, unlit and in the target's own pixels; null where there are no such instructions: lane_rows.c. */
-smear_rows_fn *smear_lane_rows_choose(const struct setup *s);
+/* Likewise: unlit and in the target's own pixels, or `lit`; null in fog and where there are no such instructions: lane_rows.c. */
+smear_rows_fn *smear_lane_rows_choose(const struct setup *s, bool lit);
 
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)

@@ -7,7 +7,10 @@
 
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, TEXELS = 1 << (LOG2_WIDTH + LOG2_HEIGHT), SPANS = 11, FIRST = 100 };
 enum { Q, DQ, U, V, DU, DV, SLOPE, Z, DZ, SHAPE, SEED };        /* words */
-enum { COLOR, DEPTH, TEXTURE };                                 /* planes */
+enum { COLOR, DEPTH, TEXTURE, PALETTE };                        /* planes */
+
+/* Texels of 32 or 16 bits, copied; or lit ones, of any format, to pixels of 32 or 16. */
+enum texels { WIDE, NARROW, LIT, LIT_NARROW };
 
 extern const struct kernel kernels_texel_rows[];
 
@@ -17,6 +20,7 @@ static void prepare(struct kernel_call *c)
 {
     c->word[SEED] = kernel_random();
     c->bytes[TEXTURE] = TEXELS * 4;
+    c->bytes[PALETTE] = 256 * 4;
     if (kernel_random() % 4u == 0)
         return;
     c->word[Q] = c->word[Q] >> 1 | 1u << 24;
@@ -46,17 +50,38 @@ static void spans_make(struct texel_spans *s, const struct kernel_call *c)
     }
 }
 
-/* Rows all lie in the same memory. */
-static void rows_make(struct texel_rows *t, const struct kernel_call *c, bool narrow)
+/* Light of all kinds: white or not, even or not. */
+static void lights_make(struct texel_lights *l, const struct kernel_call *c)
 {
+    static const int formats[4] = { SMEAR_TEXEL_8888, SMEAR_TEXEL_565, SMEAR_TEXEL_PALETTE8, SMEAR_TEXEL_565 };
+    const uint32_t seed = c->word[SEED];
+    const bool white = (seed >> 24 & 1u) != 0, even = (seed >> 25 & 1u) != 0;
+    *l = (struct texel_lights){ .palette = (const uint32_t *)c->plane[PALETTE], .format = formats[seed >> 26 & 3u],
+                                .linear = (seed >> 28 & 1u) != 0, .plain = seed >> 29 == 0 };
+    for (int i = 0; i < 3; i++) {
+        const uint32_t word = white ? seed : seed * (uint32_t)(i + 3), step = word * 69069u;
+        l->c[i] = (struct texel_plane){ (int32_t)(word >> 6 & 0xffffffu), 0, 0 };
+        if (!even) {
+            l->c[i].dx = (int32_t)step >> 12;
+            l->c[i].dy = (int32_t)(step << 8) >> 10;
+        }
+    }
+}
+
+/* Rows all lie in the same memory. */
+static void rows_make(struct texel_rows *t, const struct kernel_call *c, enum texels texels, struct texel_lights *lights)
+{
+    const bool narrow = texels == NARROW || texels == LIT_NARROW;
+    lights_make(lights, c);
     *t = (struct texel_rows){
-        .texels = c->plane[TEXTURE], .log2_width = LOG2_WIDTH, .log2_height = LOG2_HEIGHT, .x0 = FIRST, .x1 = FIRST + c->n,
+        .texels = c->plane[TEXTURE], .lights = texels >= LIT ? lights : NULL,
+        .log2_width = LOG2_WIDTH, .log2_height = LOG2_HEIGHT, .x0 = FIRST, .x1 = FIRST + c->n,
         .depth = (uint16_t *)c->plane[DEPTH] - FIRST, .narrow = narrow,
         .color = narrow ? (void *)((uint16_t *)c->plane[COLOR] - FIRST) : (uint32_t *)c->plane[COLOR] - FIRST
     };
 }
 
-static void call_places(struct kernel_call *c, bool narrow,
+static void call_places(struct kernel_call *c, enum texels texels,
                         void draw(const struct texel_rows *, const struct texel_spans *, const struct texel_planes *))
 {
     static const int32_t blocks[8] = { 1, 4, 8, 16, 16, 16, 32, 64 };
@@ -68,13 +93,14 @@ static void call_places(struct kernel_call *c, bool narrow,
         (int)(shape >> 6 & 7u), divided, divided && (shape >> 9 & 1u) != 0
     };
     struct texel_rows t;
+    struct texel_lights lights;
     struct texel_spans s;
-    rows_make(&t, c, narrow);
+    rows_make(&t, c, texels, &lights);
     spans_make(&s, c);
     draw(&t, &s, &p);
 }
 
-static void call_curves(struct kernel_call *c, bool narrow,
+static void call_curves(struct kernel_call *c, enum texels texels,
                         void draw(const struct texel_rows *, const struct texel_spans *, const struct texel_curves *))
 {
     const struct texel_curves p = {
@@ -83,17 +109,22 @@ static void call_curves(struct kernel_call *c, bool narrow,
         { c->word[V] | 8u, c->word[DV] & ~15u, c->word[U] & ~15u, c->word[SEED] & ~15u, c->word[DU] & ~15u, c->word[Q] & ~15u }
     };
     struct texel_rows t;
+    struct texel_lights lights;
     struct texel_spans s;
-    rows_make(&t, c, narrow);
+    rows_make(&t, c, texels, &lights);
     spans_make(&s, c);
     draw(&t, &s, &p);
 }
 
 #define CALLS(FORM, PLACES, CURVES) \
-    static void wide_places_##FORM(struct kernel_call *c) { call_places(c, false, PLACES); } \
-    static void narrow_places_##FORM(struct kernel_call *c) { call_places(c, true, PLACES); } \
-    static void wide_curves_##FORM(struct kernel_call *c) { call_curves(c, false, CURVES); } \
-    static void narrow_curves_##FORM(struct kernel_call *c) { call_curves(c, true, CURVES); }
+    static void wide_places_##FORM(struct kernel_call *c) { call_places(c, WIDE, PLACES); } \
+    static void narrow_places_##FORM(struct kernel_call *c) { call_places(c, NARROW, PLACES); } \
+    static void lit_places_##FORM(struct kernel_call *c) { call_places(c, LIT, PLACES); } \
+    static void lit_narrow_places_##FORM(struct kernel_call *c) { call_places(c, LIT_NARROW, PLACES); } \
+    static void wide_curves_##FORM(struct kernel_call *c) { call_curves(c, WIDE, CURVES); } \
+    static void narrow_curves_##FORM(struct kernel_call *c) { call_curves(c, NARROW, CURVES); } \
+    static void lit_curves_##FORM(struct kernel_call *c) { call_curves(c, LIT, CURVES); } \
+    static void lit_narrow_curves_##FORM(struct kernel_call *c) { call_curves(c, LIT_NARROW, CURVES); }
 
 /* On processors that lack them both are the reference. */
 static void places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p)
@@ -110,7 +141,7 @@ CALLS(reference, smear_texel_rows_places_reference, smear_texel_rows_curves_refe
 CALLS(avx2, places, curves)
 
 #define KERNEL(NAME, CALL, SIZE) \
-    { .name = NAME, .least = TEXEL_ROWS_LEAST, .most = 67, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
+    { .name = NAME, .least = TEXEL_ROWS_LEAST, .most = 67, .size = { SIZE, 2, 4, 4 }, .prepare = prepare, .timed = 240, \
       .form = { { "reference", CALL##_reference }, { "avx2", CALL##_avx2 } } }
 #else
 #define KERNEL(NAME, CALL, SIZE) { .name = NULL }
@@ -119,7 +150,11 @@ CALLS(avx2, places, curves)
 const struct kernel kernels_texel_rows[] = {
     KERNEL("texel_rows_places", wide_places, 4),
     KERNEL("texel_rows_places (narrow)", narrow_places, 2),
+    KERNEL("texel_rows_places (lit)", lit_places, 4),
+    KERNEL("texel_rows_places (lit, narrow)", lit_narrow_places, 2),
     KERNEL("texel_rows_curves", wide_curves, 4),
     KERNEL("texel_rows_curves (narrow)", narrow_curves, 2),
+    KERNEL("texel_rows_curves (lit)", lit_curves, 4),
+    KERNEL("texel_rows_curves (lit, narrow)", lit_narrow_curves, 2),
     { .name = NULL }
 };

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* texel_lit.h - what eight texels become in light, by AVX2: for rows of a triangle (texel_rows.h). */
+#ifndef SMEAR_KERNELS_TEXEL_LIT_H
+#define SMEAR_KERNELS_TEXEL_LIT_H
+
+#include "base/pixel.h"
+#include "kernels/avx2.h"
+#include "kernels/texel_places.h"
+
+#if SMEAR_AVX2
+
+/* Texels of any format, and the light on them: red, green and blue of pixel x in a row, q16 codes, or linear light with 8 bits
+ * more. */
+struct texel_lights {
+    const uint32_t *palette;
+    int format;                         /* smear_texel_format */
+    bool linear;
+    bool plain;                         /* white: texels keep their codes */
+    struct texel_plane c[3];
+};
+
+static inline uint32_t lit_texel_reference(const struct texel_lights *k, uint32_t t, int32_t x, int32_t row)
+{
+    uint32_t code[3];
+    for (int i = 0; i < 3; i++) {
+        const uint32_t of_texel = t >> (16 - 8 * i) & 255u, light = (uint32_t)texel_plane_at(&k->c[i], x, row);
+        code[i] = k->plain ? of_texel : k->linear ? code_times_linear(of_texel, light >> 8 & 0xffffu)
+                                                  : code_times(of_texel, light >> 16 & 255u);
+    }
+    return pixel_make(0, code[0], code[1], code[2]);
+}
+
+#define LIT_INLINE SMEAR_AVX2_FUNCTION static inline __attribute__((always_inline))
+
+/* Light of eight pixels. Codes: of red and blue (pairs, blue first), then of green, twice. Linear: of red, green and blue, 65536
+ * is one. */
+struct lit_light {
+    __m256i c[3];
+};
+
+/* What all pixels of a triangle have in common. */
+struct lit_lanes {
+    const uint32_t *palette;
+    int format;
+    bool linear, plain, even, white;    /* white: green and blue are as red */
+    uint32_t at[3], dx[3], dy[3];
+    __m256i step[3];                    /* i dx for i = 0 .. 7 */
+    struct lit_light light;             /* if even */
+};
+
+LIT_INLINE bool lit_planes_equal(const struct texel_plane *a, const struct texel_plane *b)
+{
+    return a->at == b->at && a->dx == b->dx && a->dy == b->dy;
+}
+
+/* Codes or light of eight pixels from values as those of struct texel_lights. */
+LIT_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i b, bool linear)
+{
+    if (linear) {
+        const __m256i low = _mm256_set1_epi32(0xffff);
+        struct lit_light l = { { _mm256_and_si256(_mm256_srli_epi32(r, 8), low), _mm256_and_si256(_mm256_srli_epi32(g, 8), low),
+                                 _mm256_and_si256(_mm256_srli_epi32(b, 8), low) } };
+        for (int i = 0; i < 3; i++)
+            l.c[i] = _mm256_add_epi32(l.c[i], _mm256_srli_epi32(l.c[i], 15));
+        return l;
+    }
+    const __m256i pair = _mm256_set1_epi32(0xff00ff);
+    return (struct lit_light){ { _mm256_and_si256(_mm256_blend_epi16(_mm256_srli_epi32(b, 16), r, 0xaa), pair),
+                                 _mm256_and_si256(_mm256_blend_epi16(_mm256_srli_epi32(g, 16), g, 0xaa), pair),
+                                 _mm256_setzero_si256() } };
+}
+
+LIT_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *l)
+{
+    const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    k->palette = l->palette;
+    k->format = l->format;
+    k->linear = l->linear;
+    k->plain = l->plain;
+    k->even = (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
+    k->white = lit_planes_equal(&l->c[0], &l->c[1]) && lit_planes_equal(&l->c[0], &l->c[2]);
+    k->light.c[0] = k->light.c[1] = k->light.c[2] = _mm256_setzero_si256();
+    if (k->even) {
+        k->light = lit_light_from(_mm256_set1_epi32(l->c[0].at), _mm256_set1_epi32(l->c[1].at), _mm256_set1_epi32(l->c[2].at),
+                                  l->linear);
+        return;
+    }
+    for (int i = 0; i < (k->white ? 1 : 3); i++) {
+        k->at[i] = (uint32_t)l->c[i].at;
+        k->dx[i] = (uint32_t)l->c[i].dx;
+        k->dy[i] = (uint32_t)l->c[i].dy;
+        k->step[i] = _mm256_mullo_epi32(_mm256_set1_epi32(l->c[i].dx), numbers);
+    }
+}
+
+/* Channel i of eight pixels from x on. */
+LIT_INLINE __m256i lit_channel(const struct lit_lanes *k, int i, int32_t x, int32_t row)
+{
+    return _mm256_add_epi32(_mm256_set1_epi32((int32_t)(k->at[i] + k->dx[i] * (uint32_t)x + k->dy[i] * (uint32_t)row)), k->step[i]);
+}
+
+LIT_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32_t x, int32_t row)
+{
+    if (k->even)
+        return k->light;
+    const __m256i r = lit_channel(k, 0, x, row);
+    if (k->white)
+        return lit_light_from(r, r, r, k->linear);
+    return lit_light_from(r, lit_channel(k, 1, x, row), lit_channel(k, 2, x, row), k->linear);
+}
+
+/* Texels, or pixels, as red and blue (pairs, blue first) and green. */
+struct lit_pairs {
+    __m256i rb, g;
+};
+
+LIT_INLINE struct lit_pairs lit_pairs_of_565(__m256i t)
+{
+    const __m256i five = _mm256_set1_epi32(31), red = _mm256_set1_epi32(31 << 16), six = _mm256_set1_epi32(63);
+    const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, five), _mm256_and_si256(_mm256_slli_epi32(t, 5), red));
+    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), six);
+    return (struct lit_pairs){
+        _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, _mm256_set1_epi16(527)), _mm256_set1_epi16(23)), 6),
+        _mm256_srli_epi32(_mm256_add_epi32(_mm256_mullo_epi16(g, _mm256_set1_epi32(259)), _mm256_set1_epi32(33)), 6)
+    };
+}
+
+LIT_INLINE struct lit_pairs lit_pairs_of_8888(__m256i t)
+{
+    return (struct lit_pairs){ _mm256_and_si256(t, _mm256_set1_epi32(0xff00ff)),
+                               _mm256_and_si256(_mm256_srli_epi32(t, 8), _mm256_set1_epi32(255)) };
+}
+
+/* code_times */
+LIT_INLINE __m256i lit_times(__m256i a, __m256i b)
+{
+    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), _mm256_set1_epi16(128));
+    return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
+}
+
+/* code_times_linear. The table of light is read from the half before an element on, and not for code 0, whose light is 0; that
+ * of codes ends in more than three of 255, so that words are read within it. */
+LIT_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
+{
+    const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32(code, zero);
+    uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
+    SMEAR_KEEP_VALUE(before);
+    const __m256i upper = _mm256_mask_i32gather_epi32(zero, (const int *)before, code, some, 2);
+    const __m256i product = _mm256_mullo_epi32(_mm256_srli_epi32(upper, 16), light);
+    const __m256i index = _mm256_min_epu32(_mm256_srli_epi32(product, 20), _mm256_set1_epi32(4092));
+    return _mm256_and_si256(_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, index, 1), _mm256_set1_epi32(255));
+}
+
+LIT_INLINE struct lit_pairs lit_in_light(const struct lit_lanes *k, struct lit_pairs t, int32_t x, int32_t row)
+{
+    if (k->plain)
+        return t;
+    const struct lit_light l = lit_light_at(k, x, row);
+    if (!k->linear)
+        return (struct lit_pairs){ lit_times(t.rb, l.c[0]), lit_times(t.g, l.c[1]) };
+    const __m256i r = lit_times_linear(_mm256_srli_epi32(t.rb, 16), l.c[0]);
+    const __m256i b = lit_times_linear(_mm256_and_si256(t.rb, _mm256_set1_epi32(255)), l.c[2]);
+    return (struct lit_pairs){ _mm256_or_si256(_mm256_slli_epi32(r, 16), b), lit_times_linear(t.g, l.c[1]) };
+}
+
+/* As 0x00RRGGBB, or by rgb565_nearest. */
+LIT_INLINE __m256i lit_wide(struct lit_pairs p)
+{
+    return _mm256_or_si256(p.rb, _mm256_slli_epi32(p.g, 8));
+}
+
+LIT_INLINE __m256i lit_narrow(struct lit_pairs p)
+{
+    const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, _mm256_set1_epi16(249)), _mm256_set1_epi16(1014)),
+                                         11);
+    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(_mm256_add_epi32(_mm256_mullo_epi16(p.g, _mm256_set1_epi32(253)),
+                                                                          _mm256_set1_epi32(505)), 5),
+                                       _mm256_set1_epi32(0x7e0));
+    return _mm256_or_si256(_mm256_or_si256(_mm256_srli_epi32(rb, 5), g), _mm256_and_si256(rb, _mm256_set1_epi32(31)));
+}
+#undef LIT_INLINE
+
+#endif
+
+#endif
