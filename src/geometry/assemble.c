@@ -6,7 +6,7 @@
  * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
-#include "geometry/assemble_eights.h"
+#include "geometry/assemble_avx2.h"
 #include "geometry/tiny.h"
 
 static void forget_all(struct smear_assembler *a)
@@ -527,7 +527,7 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
     struct smear_triangles four;
 #if SMEAR_AVX2
     if (smear_has_avx2() && end - first >= 8) {
-        const uint32_t reached = smear_assemble_eights(b, r, first, end);
+        const uint32_t reached = smear_assemble_avx2(b, r, first, end);
         if (reached == UINT32_MAX)
             return reached;
         index += 3 * (reached - first);

@@ -2,7 +2,7 @@
 /* places.c - from the vertices of a mesh to the screen, by fours or eights. */
 #include "geometry/places.h"
 
-#include "kernels/eights.h"
+#include "kernels/places8.h"
 
 #if SMEAR_PLACES
 static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
@@ -19,9 +19,9 @@ static void find_place(struct smear_place *p, const struct batch *b, uint32_t in
 /* Finds vertices from r->first on by eights. Returns how far that goes. */
 SMEAR_AVX2_FUNCTION static uint32_t find_by_eights(const struct batch *b, const struct places *r, const struct place_setup *setup)
 {
-    struct eight_rows rows;
+    struct place_rows8 rows;
     uint32_t i = r->first;
-    eight_rows_make(&rows, setup);
+    place_rows8_make(&rows, setup);
     for (; r->end - i >= 8; i += 8)
         for (uint32_t rest = ~places_avx2(r->place + i, b->d->at.position + 3 * i, &rows) & 255u; rest != 0; rest &= rest - 1)
             find_place(r->place + i + __builtin_ctz(rest), b, i + (uint32_t)__builtin_ctz(rest));

@@ -6,7 +6,7 @@
 
 #include "base/pixel.h"
 #include "geometry/bins.h"
-#include "kernels/points.h"
+#include "kernels/tiny_weights.h"
 
 /* Edge functions at the centre of a pixel, q16; inside is e0, e1, e2 >= 0. e1 and e2 are twice the areas
  * opposite to v[1] and v[2]. Exact in 32 bits for boxes of up to 64 x 64 px. */

@@ -4,8 +4,9 @@
  *
  * A variant NAME_avx2 is a function of its own, marked SMEAR_AVX2_FUNCTION: the compiler takes these instructions in it and
  * in what it inlines there, but inlines it nowhere else. So it stands for enough work to be called for: a
- * triangle's rows, not one pixel. NAME asks smear_has_avx2() first. Helpers of such functions are `static inline` and so
- * marked, too. -DSMEAR_AVX2=0 leaves them all out. */
+ * triangle's rows, not one pixel. NAME asks smear_has_avx2() first. Helpers of such functions are so marked, too: small
+ * ones SMEAR_AVX2_INLINE, those that a compiler may leave alone `static inline SMEAR_AVX2_FUNCTION`. What they are written
+ * in is lanes8.h. -DSMEAR_AVX2=0 leaves them all out. */
 #ifndef SMEAR_AVX2_H
 #define SMEAR_AVX2_H
 
@@ -23,6 +24,7 @@
 #include <immintrin.h>
 
 #define SMEAR_AVX2_FUNCTION __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt")))
+#define SMEAR_AVX2_INLINE static inline __attribute__((always_inline)) SMEAR_AVX2_FUNCTION
 
 /* Whether this processor has them; some instructions, no call. */
 static inline bool smear_has_avx2(void)

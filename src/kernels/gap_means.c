@@ -270,7 +270,7 @@ SMEAR_AVX2_FUNCTION void smear_gap_means_avx2(const struct gap_planes *p, int32_
     for (; at + 8 <= end; at += 8)
         gap_means8(p, at, taps, cover, NULL);
     if (at < end) {
-        const lanes8 left = (lanes8)((lanes8i)lanes8_numbers() >= at - (end - 8));
+        const lanes8 left = (lanes8)(lanes8i_numbers() >= at - (end - 8));
         gap_means8(p, end - 8, taps, cover, &left);
     }
 }

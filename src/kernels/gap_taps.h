@@ -188,7 +188,7 @@ static inline SMEAR_AVX2_FUNCTION struct gap_sums8 gap_choose8(struct gap_sums8 
 static inline SMEAR_AVX2_FUNCTION struct gap_pixels8 gap_pixels8_at(const struct gap_planes *p, int32_t at, uint32_t instant)
 {
     struct gap_pixels8 c = { .own = { lanes8_load(p->sums.rb + at), lanes8_load(p->sums.gn + at) },
-                             .depth = lanes8_of_u16(p->depth + at), .nearest = (lanes8i)lanes8_all(p->nearest),
+                             .depth = lanes8i_load_halves(p->depth + at), .nearest = (lanes8i)lanes8_all(p->nearest),
                              .instant = (lanes8i)lanes8_all(instant) };
     c.times = (lanes8i)(c.own.gn >> 16);
     c.hides = c.depth > c.nearest;
@@ -198,7 +198,7 @@ static inline SMEAR_AVX2_FUNCTION struct gap_pixels8 gap_pixels8_at(const struct
 static inline SMEAR_AVX2_FUNCTION struct gap_sums8 gap_tap8(struct gap_pixels8 *c, const struct gap_planes *p, int32_t at)
 {
     const struct gap_sums8 there = { lanes8_load(p->sums.rb + at), lanes8_load(p->sums.gn + at) };
-    const lanes8i depth = lanes8_of_u16(p->depth + at), times = (lanes8i)(there.gn >> 16);
+    const lanes8i depth = lanes8i_load_halves(p->depth + at), times = (lanes8i)(there.gn >> 16);
     const lanes8i covers = (depth > c->depth) & ((depth > c->nearest) | (c->times > times + c->instant));
     c->hides |= (c->depth > depth) & (times > c->times + c->instant);
     return (struct gap_sums8){ lanes8_choose(covers, c->own.rb, there.rb), lanes8_choose(covers, c->own.gn, there.gn) };

@@ -27,7 +27,7 @@ static inline SMEAR_AVX2_FUNCTION void light8_step(struct light8 *l, const struc
 static inline SMEAR_AVX2_FUNCTION lanes8 lit_channel8(lanes8 code, lanes8 light)
 {
     light = light >> 8 & 0xffffu;
-    return lanes8_encode(lanes8_mul32(lanes8_decode(code), light + (light >> 15)) >> 20);
+    return lanes8_encode(lanes8_decode(code) * (light + (light >> 15)) >> 20);
 }
 
 static inline SMEAR_AVX2_FUNCTION lanes8 lit_texels8(lanes8 t, const struct light8 *l)
@@ -56,14 +56,14 @@ SMEAR_AVX2_FUNCTION void smear_light_texels_avx2(uint32_t *texel, int32_t n, con
 
 static inline SMEAR_AVX2_FUNCTION lanes8 blended_channel8(lanes8 over, lanes8 a, lanes8 under, lanes8 b)
 {
-    return lanes8_encode((lanes8_mul32(lanes8_decode(over & 255u), a) + lanes8_mul32(lanes8_decode(under & 255u), b)) >> 12);
+    return lanes8_encode((lanes8_decode(over & 255u) * a + lanes8_decode(under & 255u) * b) >> 12);
 }
 
 /* Eight pixels over those of `color`. */
 static inline SMEAR_AVX2_FUNCTION lanes8 blended8(const uint32_t *color, const uint16_t *depth, const uint32_t *in, lanes8 z)
 {
     const lanes8 over = lanes8_load(in), under = lanes8_load(color), a = (over >> 24) + (over >> 31), b = 256u - a;
-    const lanes8 seen = (lanes8)((lanes8i)(z >> 16) > lanes8_of_u16(depth)) & (lanes8)((lanes8i)a > 0);
+    const lanes8 seen = (lanes8)((lanes8i)(z >> 16) > lanes8i_load_halves(depth)) & (lanes8)((lanes8i)a > 0);
     if (!lanes8_any(seen))
         return under;
     const lanes8 mixed = blended_channel8(over >> 16, a, under >> 16, b) << 16 | blended_channel8(over >> 8, a, under >> 8, b) << 8

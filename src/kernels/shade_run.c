@@ -30,7 +30,7 @@ static inline SMEAR_AVX2_FUNCTION struct shaded8 shaded8_over(struct shaded8 old
 static inline SMEAR_AVX2_FUNCTION struct shaded8 shaded8_of(const uint32_t *color, const uint16_t *depth, const struct shade8 *p,
                                                             bool linear)
 {
-    return shaded8_over((struct shaded8){ lanes8_load(color), lanes8_of_u16(depth) }, p, linear);
+    return shaded8_over((struct shaded8){ lanes8_load(color), lanes8i_load_halves(depth) }, p, linear);
 }
 
 static inline SMEAR_AVX2_FUNCTION __m128i shaded8_depths(const struct shaded8 *p)

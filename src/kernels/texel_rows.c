@@ -85,10 +85,8 @@ void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct 
 
 /* ------------------------------------------------------------------ pixels */
 
-#define AVX2_INLINE SMEAR_AVX2_FUNCTION static inline __attribute__((always_inline))
-
 /* Loads a number from memory wherever it is used: compilers would make it anew, in two or three instructions. */
-AVX2_INLINE __m256i lanes_of(int32_t a)
+SMEAR_AVX2_INLINE __m256i lanes_of(int32_t a)
 {
     __m256i lanes = _mm256_set1_epi32(a);
     __asm__("" : "+x"(lanes));
@@ -125,12 +123,12 @@ struct block_lanes {
 /* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn. */
 enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT };
 
-AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
+SMEAR_AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
 {
     return look == LOOK_LIT ? k->narrow : look == LOOK_NARROW;
 }
 
-AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, enum look look)
+SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, enum look look)
 {
     const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look == LOOK_NARROW;
     k->texels = t->texels;
@@ -149,11 +147,11 @@ AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, 
     k->stride = t->stride;
 }
 
-AVX2_INLINE __m256i evens_of_16(void) { return _mm256_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14); }
-AVX2_INLINE __m256i first_8(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+SMEAR_AVX2_INLINE __m256i evens_of_16(void) { return _mm256_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14); }
+SMEAR_AVX2_INLINE __m256i first_8(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i,
-                           enum look look)
+SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i,
+                                 enum look look)
 {
     const ptrdiff_t at = s->row[i] * k->stride;
     const __m256i dz = _mm256_set1_epi32((int32_t)s->dz[i]);
@@ -170,31 +168,31 @@ AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, con
 }
 
 /* Texels' indices, or those of pairs. */
-AVX2_INLINE __m256i lanes_index(const struct texel_lanes *k, __m256i u, __m256i v)
+SMEAR_AVX2_INLINE __m256i lanes_index(const struct texel_lanes *k, __m256i u, __m256i v)
 {
     return _mm256_or_si256(_mm256_srlv_epi32(u, k->u_down),
                            _mm256_and_si256(_mm256_srlv_epi32(v, k->v_down), k->v_mask));
 }
 
-AVX2_INLINE __m256i lanes_gather(const struct texel_lanes *k, __m256i index)
+SMEAR_AVX2_INLINE __m256i lanes_gather(const struct texel_lanes *k, __m256i index)
 {
     return _mm256_i32gather_epi32((const int *)k->texels, index, 4);
 }
 
 /* a + i da + i (i - 1) / 2 dda. */
-AVX2_INLINE __m256i lanes_at(int32_t a, int32_t da, int32_t dda, __m256i i, __m256i pairs)
+SMEAR_AVX2_INLINE __m256i lanes_at(int32_t a, int32_t da, int32_t dda, __m256i i, __m256i pairs)
 {
     return _mm256_add_epi32(_mm256_add_epi32(_mm256_set1_epi32(a), _mm256_mullo_epi32(i, _mm256_set1_epi32(da))),
                             _mm256_mullo_epi32(pairs, _mm256_set1_epi32(dda)));
 }
 
 /* How far that is from the value at i + 1. */
-AVX2_INLINE __m256i lanes_step(int32_t da, int32_t dda, __m256i i)
+SMEAR_AVX2_INLINE __m256i lanes_step(int32_t da, int32_t dda, __m256i i)
 {
     return _mm256_add_epi32(_mm256_set1_epi32(da), _mm256_mullo_epi32(i, _mm256_set1_epi32(dda)));
 }
 
-AVX2_INLINE __m256i pairs_of(__m256i i)
+SMEAR_AVX2_INLINE __m256i pairs_of(__m256i i)
 {
     return _mm256_srli_epi32(_mm256_mullo_epi32(i, _mm256_sub_epi32(i, _mm256_set1_epi32(1))), 1);
 }
@@ -208,8 +206,8 @@ static const uint16_t lane_masks[48] = {
 };
 
 /* Sixteen narrow pixels from x on, of which those of the mask are drawn if there is one; pixel x is number i of its block. */
-AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                         int32_t x, int32_t i, const uint16_t *mask)
+SMEAR_AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                               int32_t x, int32_t i, const uint16_t *mask)
 {
     uint16_t *const depth = r->depth + x, *const color = (uint16_t *)r->color + x;
     const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
@@ -239,19 +237,19 @@ AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r,
 }
 
 /* Takes the lower halves of eight words. */
-AVX2_INLINE __m128i lower_halves(__m256i a)
+SMEAR_AVX2_INLINE __m128i lower_halves(__m256i a)
 {
     return _mm_packus_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
 }
 
 /* The first of a pair of narrow texels in the lower half, or the second. */
-AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
+SMEAR_AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
 {
     return _mm256_srlv_epi32(pairs, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
 }
 
 /* Eight texels in their light. */
-AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v)
+SMEAR_AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v)
 {
     const __m256i index = lanes_index(k, u, v);
     struct lit_pairs t;
@@ -268,22 +266,22 @@ AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row
     return lit_in_light(&k->lit, t, x, r->row);
 }
 
-AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
+SMEAR_AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
 {
     __m256i_u *const color = (__m256i_u *)((uint32_t *)r->color + x);
     _mm256_storeu_si256(color, _mm256_blendv_epi8(pixels, _mm256_loadu_si256(color), _mm256_cvtepi16_epi32(hidden)));
 }
 
 /* Upper halves are 0. */
-AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
+SMEAR_AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
 {
     __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
     _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(pixels), _mm_loadu_si128(color), hidden));
 }
 
 /* Writes eight pixels with these coordinates where they are not hidden. */
-AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v, __m128i hidden,
-                       enum look look)
+SMEAR_AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v, __m128i hidden,
+                             enum look look)
 {
     if (look == LOOK_LIT) {
         const struct lit_pairs p = lit_8(k, r, x, u, v);
@@ -301,7 +299,7 @@ AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, i
 }
 
 /* Tests eight depths from x on, of which those of a mask are drawn. Which are hidden; false if all. */
-AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m128i *hidden)
+SMEAR_AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m128i *hidden)
 {
     __m128i_u *const depth = (__m128i_u *)(r->depth + x);
     const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
@@ -316,8 +314,8 @@ AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16_t *ma
 }
 
 /* Eight pixels, as draw_16. */
-AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                        int32_t x, int32_t i, const uint16_t *mask, enum look look)
+SMEAR_AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                              int32_t x, int32_t i, const uint16_t *mask, enum look look)
 {
     __m128i hidden;
     if (!test_8(r, x, mask, &hidden))
@@ -332,7 +330,7 @@ AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, 
 }
 
 /* Where eight pixels begin among which are those from a on, up to b, and the mask of these. */
-AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int32_t b, const uint16_t **mask)
+SMEAR_AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int32_t b, const uint16_t **mask)
 {
     if (a <= k->x_most8) {
         *mask = lane_masks + 32 - min_i32(b - a, 8);
@@ -343,8 +341,8 @@ AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int32_t b
 }
 
 /* Pixels [a, b) of a block that begins at `start`. */
-AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                            int32_t start, int32_t a, int32_t b, enum look look)
+SMEAR_AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                                  int32_t start, int32_t a, int32_t b, enum look look)
 {
     if (look == LOOK_NARROW) {
         for (; b - a >= 16; a += 16)
@@ -380,12 +378,12 @@ struct planes_lanes {
     __m256i least_q, first_up, exponent, seed, half, low, one, turns, center;       /* numbers of recip_norm and others */
 };
 
-AVX2_INLINE struct plane_lanes plane_start(const struct texel_plane *p)
+SMEAR_AVX2_INLINE struct plane_lanes plane_start(const struct texel_plane *p)
 {
     return (struct plane_lanes){ _mm256_set1_epi32(p->at), _mm256_set1_epi32(p->dx), _mm256_set1_epi32(p->dy) };
 }
 
-AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_planes *p)
+SMEAR_AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_planes *p)
 {
     k->q = plane_start(&p->q);
     k->u = plane_start(&p->u);
@@ -405,20 +403,20 @@ AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_planes 
     k->center = lanes_of(128);
 }
 
-AVX2_INLINE __m256i plane_lanes_at(const struct plane_lanes *p, __m256i x, __m256i row)
+SMEAR_AVX2_INLINE __m256i plane_lanes_at(const struct plane_lanes *p, __m256i x, __m256i row)
 {
     return _mm256_add_epi32(p->at, _mm256_add_epi32(_mm256_mullo_epi32(p->dx, x), _mm256_mullo_epi32(p->dy, row)));
 }
 
 /* As mulh_i32. */
-AVX2_INLINE __m256i mulh_lanes(__m256i a, __m256i b)
+SMEAR_AVX2_INLINE __m256i mulh_lanes(__m256i a, __m256i b)
 {
     const __m256i even = _mm256_mul_epi32(a, b), odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32));
     return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
 }
 
 /* As part_by. */
-AVX2_INLINE __m256i part_lanes(__m256i a, __m256i part)
+SMEAR_AVX2_INLINE __m256i part_lanes(__m256i a, __m256i part)
 {
     const __m256i even = _mm256_mul_epi32(a, part);
     const __m256i odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(part, 32));
@@ -426,14 +424,14 @@ AVX2_INLINE __m256i part_lanes(__m256i a, __m256i part)
 }
 
 /* 158 less count_leading_zeros: a float's exponent, of a number without what would round it up to a power of two. */
-AVX2_INLINE __m256i exponent_lanes(__m256i a)
+SMEAR_AVX2_INLINE __m256i exponent_lanes(__m256i a)
 {
     const __m256i cut = _mm256_andnot_si256(_mm256_srli_epi32(a, 8), a);
     return _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(cut)), 23);
 }
 
 /* As recip_norm. Seeds are gathered in pairs. */
-AVX2_INLINE __m256i recip_lanes(const struct planes_lanes *k, __m256i m)
+SMEAR_AVX2_INLINE __m256i recip_lanes(const struct planes_lanes *k, __m256i m)
 {
     const __m256i index = _mm256_and_si256(_mm256_srli_epi32(m, 23), k->seed);
     const __m256i second = _mm256_and_si256(_mm256_srli_epi32(m, 18), k->half);
@@ -444,7 +442,7 @@ AVX2_INLINE __m256i recip_lanes(const struct planes_lanes *k, __m256i m)
                             _mm256_srai_epi32(_mm256_mullo_epi32(r, _mm256_srai_epi32(error, 4)), 8));
 }
 
-AVX2_INLINE struct place_lanes places_at(const struct planes_lanes *k, __m256i x, __m256i row)
+SMEAR_AVX2_INLINE struct place_lanes places_at(const struct planes_lanes *k, __m256i x, __m256i row)
 {
     struct place_lanes p = { plane_lanes_at(&k->u, x, row), plane_lanes_at(&k->v, x, row), _mm256_setzero_si256() };
     if (!k->divided)
@@ -460,7 +458,7 @@ AVX2_INLINE struct place_lanes places_at(const struct planes_lanes *k, __m256i x
 }
 
 /* Takes the last lane of `before`, then seven of a. */
-AVX2_INLINE __m256i lanes_before(__m256i before, __m256i a)
+SMEAR_AVX2_INLINE __m256i lanes_before(__m256i before, __m256i a)
 {
     return _mm256_alignr_epi8(a, _mm256_permute2x128_si256(before, a, 0x21), 12);
 }
@@ -470,11 +468,11 @@ static const int32_t lane_inverse[19] = {
     0, 65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192, 7282, 6554, 5958, 5461, 5041, 4681, 4369, 4096, 2048, 1024
 };
 
-AVX2_INLINE void store_lanes(int32_t *out, __m256i a) { _mm256_storeu_si256((__m256i_u *)out, a); }
+SMEAR_AVX2_INLINE void store_lanes(int32_t *out, __m256i a) { _mm256_storeu_si256((__m256i_u *)out, a); }
 
 /* As places_between, of one coordinate. */
-AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from, __m256i to, __m256i n, __m256i part, __m256i rate,
-                               __m256i mask, int32_t *step, int32_t *change)
+SMEAR_AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from, __m256i to, __m256i n, __m256i part, __m256i rate,
+                                     __m256i mask, int32_t *step, int32_t *change)
 {
     __m256i d = part_lanes(_mm256_sub_epi32(to, from), part);
     if (k->parabolic) {
@@ -487,8 +485,8 @@ AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from, __m25
 }
 
 /* The coordinates of eight blocks that end at `ends`, n pixels long; the places where they begin and end. */
-AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k, __m256i n, struct place_lanes before,
-                             struct place_lanes to)
+SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k, __m256i n, struct place_lanes before,
+                                   struct place_lanes to)
 {
     const struct place_lanes from = { lanes_before(before.u, to.u), lanes_before(before.v, to.v),
                                       lanes_before(before.nearness, to.nearness) };
@@ -502,8 +500,8 @@ AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k
 }
 
 /* A place for each pixel. */
-AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                               int32_t row, int32_t a, int32_t b, enum look look)
+SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
+                                     int32_t row, int32_t a, int32_t b, enum look look)
 {
     for (; a < b; a += 8) {
         const uint16_t *mask;
@@ -517,7 +515,7 @@ AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lan
 }
 
 /* Where eight blocks end, the first of them at x if `first`. Returns where the last one does. */
-AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t block, bool first)
+SMEAR_AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t block, bool first)
 {
     if (block <= COLOR_BLOCK_MAX) {
         const __m256i number = _mm256_add_epi32(first_8(), _mm256_set1_epi32(!first));
@@ -534,8 +532,8 @@ AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t b
 }
 
 /* Blocks from that of pixel a on. */
-AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                               struct block_lanes *c, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
+SMEAR_AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
+                                     struct block_lanes *c, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
 {
     const int32_t last = s->right[i] - 1, a = s->a[i], b = s->b[i];
     const __m256i row = _mm256_set1_epi32(s->row[i]), zero = _mm256_setzero_si256();
@@ -559,7 +557,7 @@ AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lan
     }
 }
 
-AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p, enum look look)
+SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p, enum look look)
 {
     struct texel_lanes k;
     struct planes_lanes planes;
@@ -595,7 +593,7 @@ struct curve_lanes {
     __m256i at, dx, dy, dxx, dxy, dyy;
 };
 
-AVX2_INLINE void curve_start(struct curve_lanes *k, const struct texel_curve *c)
+SMEAR_AVX2_INLINE void curve_start(struct curve_lanes *k, const struct texel_curve *c)
 {
     k->at = _mm256_set1_epi32((int32_t)c->at);
     k->dx = _mm256_set1_epi32((int32_t)c->dx);
@@ -606,7 +604,7 @@ AVX2_INLINE void curve_start(struct curve_lanes *k, const struct texel_curve *c)
 }
 
 /* Values at eight places, and steps to the right of them. */
-AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, int32_t *value, int32_t *step)
+SMEAR_AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, int32_t *value, int32_t *step)
 {
     const __m256i along = _mm256_mullo_epi32(k->dxx, x), dx = _mm256_add_epi32(k->dx, _mm256_mullo_epi32(k->dxy, y));
     const __m256i down = _mm256_mullo_epi32(_mm256_add_epi32(k->dy, _mm256_mullo_epi32(k->dyy, y)), y);
@@ -615,7 +613,7 @@ AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, int
     store_lanes(step, _mm256_add_epi32(dx, _mm256_add_epi32(_mm256_add_epi32(along, along), k->dxx)));
 }
 
-AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, enum look look)
+SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, enum look look)
 {
     struct texel_lanes k;
     struct curve_lanes u, v;

@@ -4,7 +4,7 @@
 #include "raster/raster.h"
 
 #include "raster/cover_texels.h"
-#include "raster/eights.h"
+#include "raster/cover_tiny8.h"
 #include "raster/fog.h"
 #include "raster/span.h"
 
@@ -251,7 +251,7 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
 
 #if SMEAR_AVX2
 /* Copies up to eight triangles of one segment, from `head` on, but for points. Returns how many. */
-static inline int take_eight(const struct smear_bins *bins, uint32_t head, uint16_t vertex[8][4], uint32_t color[8])
+static inline int take_tiny8(const struct smear_bins *bins, uint32_t head, uint16_t vertex[8][4], uint32_t color[8])
 {
     const uint16_t segment = bins_triangle(bins, head)->segment;
     int n = 0;
@@ -273,14 +273,14 @@ static inline int take_eight(const struct smear_bins *bins, uint32_t head, uint1
 }
 
 /* Draws up to eight triangles of one segment, the first of which is `head`, and points among them. Returns what follows. */
-static uint32_t draw_eight(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
-                           const struct eight_look *look, bool *moved)
+static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
+                           const struct tiny8_look *look, bool *moved)
 {
-    struct eight_pixels pixels;
+    struct tiny8_pixels pixels;
     uint16_t vertex[8][4];
     uint32_t color[8];
-    const int n = take_eight(frame->bins, head, vertex, color);
-    smear_eight_avx2(&pixels, look, (const uint16_t(*)[4])vertex, color);
+    const int n = take_tiny8(frame->bins, head, vertex, color);
+    smear_tiny8_avx2(&pixels, look, (const uint16_t(*)[4])vertex, color);
     int32_t start = 0;
     for (int k = 0; k < n;) {
         const uint32_t number = head;
@@ -291,7 +291,7 @@ static uint32_t draw_eight(const struct smear_raster_frame *frame, const struct 
             continue;
         }
         if ((pixels.taken >> k & 1u) != 0) {
-            eights_put(target, look, &pixels, start, pixels.end[k]);
+            tiny8_put(target, look, &pixels, start, pixels.end[k]);
         } else {
             const int32_t *v[3];
             for (int i = 0; i < 3; i++)
@@ -303,11 +303,11 @@ static uint32_t draw_eight(const struct smear_raster_frame *frame, const struct 
     return head;
 }
 
-static void draw_eights(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
     bool moved = target->over, suits = false;
     uint32_t segment = SMEAR_POINT;
-    struct eight_look look;
+    struct tiny8_look look;
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
@@ -318,10 +318,10 @@ static void draw_eights(const struct smear_raster_frame *frame, const struct sme
         }
         if (t->segment != segment) {
             segment = t->segment;
-            suits = eights_look(&look, frame, target, &frame->bins->segment[segment]);
+            suits = tiny8_look(&look, frame, target, &frame->bins->segment[segment]);
         }
         if (suits) {
-            head = draw_eight(frame, target, head, &look, &moved);
+            head = draw_tiny8(frame, target, head, &look, &moved);
             continue;
         }
         const int32_t *v[3];
@@ -336,8 +336,8 @@ static void draw_eights(const struct smear_raster_frame *frame, const struct sme
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
 #if SMEAR_AVX2
-    if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && eights_suit(target)) {
-        draw_eights(frame, target, head);
+    if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && tiny8_suit(target)) {
+        draw_list_tiny8(frame, target, head);
         return;
     }
 #endif
@@ -370,17 +370,17 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
 }
 
 #if SMEAR_AVX2
-bool smear_raster_look(struct eight_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        const struct smear_segment *segment)
 {
-    return !frame_has_fog(frame) && eights_suit(target) && eights_look(look, frame, target, segment);
+    return !frame_has_fog(frame) && tiny8_suit(target) && tiny8_look(look, frame, target, segment);
 }
 
 /* Makes the pixels of tiny ones, in their order. */
-static void make_tiny(struct eight_pixels *pixels, const struct eight_look *look, const uint32_t color[8], const struct poses *poses,
+static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], const struct poses *poses,
                       uint32_t tiny)
 {
-    struct eight_look l = *look;
+    struct tiny8_look l = *look;
     uint16_t vertex[8][4];
     uint32_t colors[8];
     int n = 0;
@@ -395,14 +395,14 @@ static void make_tiny(struct eight_pixels *pixels, const struct eight_look *look
         colors[k] = colors[0];
     }
     l.vertex = poses->record[0][0];
-    smear_eight_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
+    smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
 }
 
 void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const struct eight_look *look, const uint32_t color[8],
+                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
                         const struct poses *poses)
 {
-    struct eight_pixels pixels;
+    struct tiny8_pixels pixels;
     const uint32_t tiny = look != NULL && (poses->tiny & (poses->tiny - 1)) != 0 ? poses->tiny : 0;    /* one costs less alone */
     int32_t start = 0, n = 0;
     if (tiny != 0)
@@ -413,7 +413,7 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
             const int32_t from = start, i = n++;
             start = pixels.end[i];
             if ((pixels.taken >> i & 1u) != 0) {
-                eights_put(target, look, &pixels, from, start);
+                tiny8_put(target, look, &pixels, from, start);
                 continue;
             }
         }

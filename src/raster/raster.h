@@ -3,7 +3,7 @@
 #ifndef SMEAR_RASTER_H
 #define SMEAR_RASTER_H
 
-#include "kernels/eight.h"
+#include "kernels/tiny8.h"
 #include "kernels/poses.h"
 #include "raster/target.h"
 
@@ -28,12 +28,12 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
 
 #if SMEAR_AVX2
 /* Tells what triangles of a segment have in common, so that tiny ones are drawn eight at once; false where they are not. */
-bool smear_raster_look(struct eight_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        const struct smear_segment *segment);
 
 /* Draws triangles of a segment that are seen, in order, as smear_raster_triangle does. `look`: of the segment, or null. */
 void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const struct eight_look *look, const uint32_t color[8],
+                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
                         const struct poses *poses);
 #endif
 

@@ -20,7 +20,7 @@ void smear_subframe_eights_begin(struct subframe_eights *e, const struct subfram
     e->count = 0;
     e->setup = (struct poses_setup){ .phase = path_phase(time), .low = { x - guard, y - guard }, .high = { x + guard, y + guard },
                                      .depth_least = SMEAR_DEPTH_MIN, .depth_most = SMEAR_DEPTH_MAX,
-                                     .x0 = tile->x0, .y0 = tile->y0, .x1 = tile->x1, .y1 = tile->y1, .tiny_box = EIGHT_BOX };
+                                     .x0 = tile->x0, .y0 = tile->y0, .x1 = tile->x1, .y1 = tile->y1, .tiny_box = TINY8_BOX };
 }
 
 void smear_subframe_eights_end(struct subframe_eights *e)

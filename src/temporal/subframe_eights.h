@@ -16,7 +16,7 @@ struct subframe_eights {
     int32_t time;
     const struct smear_segment *segment;
     struct poses_setup setup;
-    struct eight_look look;
+    struct tiny8_look look;
     bool has_look;
     int count;
     uint16_t vertex[8][4];

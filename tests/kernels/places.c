@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* places.c - how check_kernels calls kernels/places.h and eights.h: vertices in fours and eights under a random projection,
+/* places.c - how check_kernels calls kernels/places.h and places8.h: vertices in fours and eights under a random projection,
  * of which most lie before the camera and some do not. */
-#include "kernels/eights.h"
+#include "kernels/places8.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -77,11 +77,11 @@ static void eights_reference(struct kernel_call *c)
 SMEAR_AVX2_FUNCTION static void find_eights(struct kernel_call *c)
 {
     struct place_setup s;
-    struct eight_rows rows;
+    struct place_rows8 rows;
     int32_t m[3][4];
     struct smear_place *out = c->plane[1];
     make(&s, m, c);
-    eight_rows_make(&rows, &s);
+    place_rows8_make(&rows, &s);
     for (int32_t i = 0; i < c->n; i += 8) {
         const uint32_t found = places_avx2(out + i, (const int16_t *)c->plane[0] + 3 * i, &rows);
         for (int k = 0; k < 8; k++)

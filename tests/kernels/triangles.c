@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* triangles.c - how check_kernels calls kernels/triangles.h, points.h and eights.h: fours and eights of triangles among
+/* triangles.c - how check_kernels calls kernels/triangles.h, triangles8.h and points8.h: fours and eights of triangles among
  * sixteen vertices, near one another or far apart, of which each call makes many from one number; and ranges of indices. */
-#include "kernels/eights.h"
+#include "kernels/points8.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -77,7 +77,7 @@ static void reference(struct kernel_call *c)
 }
 
 /* Keeps what is defined. */
-static uint32_t sum_up_eight(uint32_t sum, const struct smear_eight *t)
+static uint32_t sum_up_eight(uint32_t sum, const struct smear_triangles8 *t)
 {
     sum = sum * 31u + (t->seen | t->far << 8 | (t->seen & t->tiny) << 16 | (t->seen & t->back) << 24);
     for (int k = 0; k < 8; k++) {
@@ -107,11 +107,11 @@ static uint32_t sum_up_points(uint32_t sum, const struct smear_points *p)
     return sum;
 }
 
-static void many_eights(struct kernel_call *c, eight_fn *look, points_fn *find)
+static void many_eights(struct kernel_call *c, triangles8_fn *look, points_fn *find)
 {
     const uint32_t color[8] = { 1, 2, 3, 4, 5, 6, 7, 0xffffffffu };
     struct fours f;
-    struct smear_eight t;
+    struct smear_triangles8 t;
     struct smear_points p;
     uint32_t seed = c->word[SEED], sum = 0, found = 0;
     for (int i = 0; i < FOURS; i++) {
@@ -130,7 +130,7 @@ static void many_eights(struct kernel_call *c, eight_fn *look, points_fn *find)
 
 static void eights_reference(struct kernel_call *c)
 {
-    many_eights(c, &eight_reference, &points_reference);
+    many_eights(c, &triangles8_reference, &points_reference);
 }
 
 static void range_reference(struct kernel_call *c)
@@ -161,13 +161,13 @@ static void range_vector(struct kernel_call *c)
 #endif
 
 #if SMEAR_AVX2
-SMEAR_AVX2_FUNCTION static void look_by_avx2(struct smear_eight *out, const struct smear_place *place, const uint16_t index[24],
+SMEAR_AVX2_FUNCTION static void look_by_avx2(struct smear_triangles8 *out, const struct smear_place *place, const uint16_t index[24],
                                              const struct triangles_setup *s)
 {
-    eight_avx2(out, place, index, s);
+    triangles8_avx2(out, place, index, s);
 }
 
-SMEAR_AVX2_FUNCTION static void find_by_avx2(struct smear_points *out, const struct smear_eight *t, const uint32_t color[8],
+SMEAR_AVX2_FUNCTION static void find_by_avx2(struct smear_points *out, const struct smear_triangles8 *t, const uint32_t color[8],
                                              const struct points_setup *s)
 {
     points_avx2(out, t, color, s);

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* assemble_eights.c - the loop over a draw's triangles by AVX2: eight are looked at, and the pixels of tiny ones are made, at
+/* assemble_avx2.c - the loop over a draw's triangles by AVX2: eight are looked at, and the pixels of tiny ones are made, at
  * once; what is left for each one is to be listed. All is added in the order, and with the bits, of assemble.c. */
-#include "geometry/assemble_eights.h"
+#include "geometry/assemble_avx2.h"
 
 #include "geometry/tiny.h"
-#include "kernels/eights.h"
+#include "kernels/points8.h"
 
 #if SMEAR_PLACES && SMEAR_AVX2
-#define EIGHTS_INLINE SMEAR_AVX2_FUNCTION SMEAR_INLINE_ALWAYS
 
 /* What stays the same for a draw, and how much of the store is in use between ends_load and ends_save. It lies in
  * registers: what is added to the store might change it elsewhere, for all that a compiler knows. */
-struct eights {
+struct assemble8 {
     struct batch *b;
     const struct smear_place *place;
     uint32_t *stored;
@@ -33,7 +32,7 @@ struct eights {
     uint32_t words, count, drawn;
 };
 
-EIGHTS_INLINE void ends_load(struct eights *s)
+SMEAR_AVX2_INLINE void ends_load(struct assemble8 *s)
 {
     const struct smear_segment *segment = s->b->segment;
     const struct smear_bins *g = s->b->a->bins;
@@ -44,7 +43,7 @@ EIGHTS_INLINE void ends_load(struct eights *s)
     s->drawn = 0;
 }
 
-EIGHTS_INLINE void ends_save(const struct eights *s)
+SMEAR_AVX2_INLINE void ends_save(const struct assemble8 *s)
 {
     struct smear_bins *g = s->b->a->bins;
     g->vertex_words = s->words;
@@ -53,7 +52,7 @@ EIGHTS_INLINE void ends_save(const struct eights *s)
 }
 
 /* Does what bins_add does, for an entry that is known but for `next`. */
-EIGHTS_INLINE struct smear_triangle *ends_add(struct eights *s, uint32_t *last_of_row, __m128i entry)
+SMEAR_AVX2_INLINE struct smear_triangle *ends_add(struct assemble8 *s, uint32_t *last_of_row, __m128i entry)
 {
     const uint32_t i = s->count++, last = *last_of_row;
     struct smear_triangle *t = s->top - (size_t)i;
@@ -70,7 +69,7 @@ EIGHTS_INLINE struct smear_triangle *ends_add(struct eights *s, uint32_t *last_o
 }
 
 /* Stores a record of the simple kind. The word after it may be written, too: there is room. */
-EIGHTS_INLINE uint32_t store_simple(struct eights *s, uint32_t index)
+SMEAR_AVX2_INLINE uint32_t store_simple(struct assemble8 *s, uint32_t index)
 {
     const uint32_t word = s->words;
     uint32_t *record = s->pool + word;
@@ -96,7 +95,7 @@ static SMEAR_NOINLINE uint32_t store_other(const struct batch *b, const struct s
 }
 
 /* Returns the first word of a vertex's record, which it stores where that has not been done. */
-EIGHTS_INLINE uint32_t stored_corner(struct eights *s, uint32_t index, uint32_t triangle, bool back, bool shares)
+SMEAR_AVX2_INLINE uint32_t stored_corner(struct assemble8 *s, uint32_t index, uint32_t triangle, bool back, bool shares)
 {
     const uint32_t stored = s->stored[index];
     uint32_t word;
@@ -124,14 +123,15 @@ static SMEAR_NOINLINE void color_point(const struct batch *b, struct smear_trian
         point->color = smear_assemble_face(b, triangle, back);
 }
 
-EIGHTS_INLINE struct smear_triangle *add_point(struct eights *s, const struct smear_points *points, int n, uint32_t k)
+SMEAR_AVX2_INLINE struct smear_triangle *add_point(struct assemble8 *s, const struct smear_points *points, int n, uint32_t k)
 {
     return ends_add(s, s->opaque + points->row[n][k], _mm_loadu_si128((const __m128i *)(const void *)points->entry[n][k]));
 }
 
 /* Adds triangle k, whose indices are the given ones: as one or two points if `points` has it, else to the list. */
-EIGHTS_INLINE void add_one(struct eights *s, const struct smear_eight *eight, const struct smear_points *points, uint32_t k,
-                           const uint16_t *corner, const struct triangles_setup *setup, uint32_t triangle, uint32_t color)
+SMEAR_AVX2_INLINE void add_one(struct assemble8 *s, const struct smear_triangles8 *eight, const struct smear_points *points,
+                               uint32_t k, const uint16_t *corner, const struct triangles_setup *setup, uint32_t triangle,
+                               uint32_t color)
 {
     const bool is_points = (points->first >> k & 1u) != 0, back = (eight->back >> k & 1u) != 0;
     uint32_t word0 = 0, word1 = 0, word2 = 0;
@@ -156,7 +156,7 @@ EIGHTS_INLINE void add_one(struct eights *s, const struct smear_eight *eight, co
 }
 
 /* Takes those that reach only into tiles that the display has already off `seen`. */
-static uint32_t only_damaged(const struct batch *b, const struct smear_eight *eight, uint32_t seen)
+static uint32_t only_damaged(const struct batch *b, const struct smear_triangles8 *eight, uint32_t seen)
 {
     for (uint32_t all = seen; all != 0; all &= all - 1) {
         const int k = __builtin_ctz(all);
@@ -168,8 +168,9 @@ static uint32_t only_damaged(const struct batch *b, const struct smear_eight *ei
 }
 
 /* Adds those of eight triangles whose bits `all` has. Returns false where there is no room. */
-EIGHTS_INLINE bool add_some(struct eights *s, const struct places *r, const struct smear_eight *eight, const struct smear_points *points,
-                            const uint32_t color[8], const uint16_t *index, uint32_t triangle, uint32_t all)
+SMEAR_AVX2_INLINE bool add_some(struct assemble8 *s, const struct places *r, const struct smear_triangles8 *eight,
+                                const struct smear_points *points, const uint32_t color[8], const uint16_t *index,
+                                uint32_t triangle, uint32_t all)
 {
     if (assembler_has_damage(s->b->a))
         all = only_damaged(s->b, eight, all & eight->seen) | (all & eight->far);
@@ -206,16 +207,16 @@ SMEAR_AVX2_FUNCTION static inline void find_colors(uint32_t color[8], const stru
     if (b->face_color == NULL)
         return;
     const __m256i order = _mm256_broadcastsi128_si256(_mm_setr_epi8(2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15));
-    eight_store(color, _mm256_shuffle_epi8(eight_load(b->face_color + 4 * triangle), order));
+    lanes8_store(color, (lanes8)_mm256_shuffle_epi8((__m256i)lanes8_load(b->face_color + 4 * triangle), order));
 }
 
-static void eights_start(struct eights *s, struct batch *b, const struct places *r)
+static void assemble8_start(struct assemble8 *s, struct batch *b, const struct places *r)
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *segment = b->segment;
     const bool colored = segment_colored(segment), by_vertices = segment_by_vertices(segment);
     const bool shaded = b->face_color == NULL && segment->shade == SHADE_FLAT;
-    *s = (struct eights){
+    *s = (struct assemble8){
         .b = b, .place = r->place, .stored = r->stored, .opaque = g->opaque_last, .listed = row_list(g, b->d, 0),
         .uv = segment_textured(segment) ? b->d->mesh->uv : NULL, .color = SMEAR_WITH_GOURAUD ? b->vertex_color : NULL,
         .simple = segment_moves(segment) == 0 && (!colored || b->vertex_color != NULL), .by_vertices = by_vertices,
@@ -227,17 +228,17 @@ static void eights_start(struct eights *s, struct batch *b, const struct places 
     };
 }
 
-SMEAR_AVX2_FUNCTION uint32_t smear_assemble_eights(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
+SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
-    struct smear_eight eight;
+    struct smear_triangles8 eight;
     struct smear_points points = { .first = 0 };
     uint32_t color[8];
     __builtin_memset(color, 0xff, sizeof color);
-    struct eights s;
-    eights_start(&s, b, r);
+    struct assemble8 s;
+    assemble8_start(&s, b, r);
     for (uint32_t i = first; end - i >= 8; i += 8, index += 24) {
-        eight_avx2(&eight, r->place, index, &r->setup);
+        triangles8_avx2(&eight, r->place, index, &r->setup);
         const uint32_t all = eight.seen | eight.far;
         if (all == 0)
             continue;

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* eight.c - the pixels of eight tiny triangles by AVX2, made as eight.h says. A triangle costs a fourth of what it does alone. */
-#include "kernels/eight.h"
+/* tiny8.c - the pixels of eight tiny triangles by AVX2, made as tiny8.h says. A triangle costs a fourth of what it does alone. */
+#include "kernels/tiny8.h"
 
 #if SMEAR_AVX2
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
 
-#define EIGHT_INLINE static inline __attribute__((always_inline)) SMEAR_AVX2_FUNCTION
 
 /* An element for each triangle. Pairs of halves have the first in the lower one. */
-struct eight {
+struct tiny8 {
     int32_t corner[8];                  /* pairs: the first pixel of the box, x y */
     int32_t row[8];                     /* pairs: minus the width of the box, 1 */
     int32_t per_width[8];               /* pairs: 2^11 / width, rounded up, twice */
@@ -28,20 +27,20 @@ struct eight {
     int32_t color[8];
 };
 
-EIGHT_INLINE __m256i v8_all(int32_t a) { return _mm256_set1_epi32(a); }
-EIGHT_INLINE __m256i v8_load(const int32_t *p) { return _mm256_loadu_si256((const __m256i *)(const void *)p); }
-EIGHT_INLINE void v8_store(int32_t *p, __m256i a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
-EIGHT_INLINE __m256i v8_add(__m256i a, __m256i b) { return _mm256_add_epi32(a, b); }
-EIGHT_INLINE __m256i v8_sub(__m256i a, __m256i b) { return _mm256_sub_epi32(a, b); }
-EIGHT_INLINE __m256i v8_pair(__m256i low, __m256i high) { return _mm256_blend_epi16(low, _mm256_slli_epi32(high, 16), 0xaa); }
-EIGHT_INLINE __m256i v8_dot(__m256i a, __m256i b) { return _mm256_madd_epi16(a, b); }
+SMEAR_AVX2_INLINE __m256i v8_all(int32_t a) { return _mm256_set1_epi32(a); }
+SMEAR_AVX2_INLINE __m256i v8_load(const int32_t *p) { return _mm256_loadu_si256((const __m256i *)(const void *)p); }
+SMEAR_AVX2_INLINE void v8_store(int32_t *p, __m256i a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
+SMEAR_AVX2_INLINE __m256i v8_add(__m256i a, __m256i b) { return _mm256_add_epi32(a, b); }
+SMEAR_AVX2_INLINE __m256i v8_sub(__m256i a, __m256i b) { return _mm256_sub_epi32(a, b); }
+SMEAR_AVX2_INLINE __m256i v8_pair(__m256i low, __m256i high) { return _mm256_blend_epi16(low, _mm256_slli_epi32(high, 16), 0xaa); }
+SMEAR_AVX2_INLINE __m256i v8_dot(__m256i a, __m256i b) { return _mm256_madd_epi16(a, b); }
 /* The element of each pixel's triangle. */
-EIGHT_INLINE __m256i v8_of(const int32_t *p, __m256i triangle) { return _mm256_permutevar8x32_epi32(v8_load(p), triangle); }
+SMEAR_AVX2_INLINE __m256i v8_of(const int32_t *p, __m256i triangle) { return _mm256_permutevar8x32_epi32(v8_load(p), triangle); }
 /* All ones where a is not less than b, as numbers without a sign. */
-EIGHT_INLINE __m256i v8_at_least(__m256i a, __m256i b) { return _mm256_cmpeq_epi32(_mm256_max_epu32(a, b), a); }
-EIGHT_INLINE __m256i v8_fits_half(__m256i a) { return _mm256_cmpeq_epi32(_mm256_srai_epi32(_mm256_slli_epi32(a, 16), 16), a); }
+SMEAR_AVX2_INLINE __m256i v8_at_least(__m256i a, __m256i b) { return _mm256_cmpeq_epi32(_mm256_max_epu32(a, b), a); }
+SMEAR_AVX2_INLINE __m256i v8_fits_half(__m256i a) { return _mm256_cmpeq_epi32(_mm256_srai_epi32(_mm256_slli_epi32(a, 16), 16), a); }
 
-EIGHT_INLINE __m256i v8_mulh(__m256i a, __m256i b)
+SMEAR_AVX2_INLINE __m256i v8_mulh(__m256i a, __m256i b)
 {
     const __m256i even = _mm256_mul_epi32(a, b), odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32));
     return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
@@ -50,51 +49,51 @@ EIGHT_INLINE __m256i v8_mulh(__m256i a, __m256i b)
 /* ------------------------------------------------------------------ triangles */
 
 /* Four words of a vertex of each triangle. */
-struct eight_corner {
+struct tiny8_corner {
     __m256i word[4];
 };
 
 /* Loads 2, 3 or 4 words: what lies behind a record may be another core's to write. */
-EIGHT_INLINE __m128i eight_record(const int32_t *p, int words)
+SMEAR_AVX2_INLINE __m128i tiny8_record(const int32_t *p, int words)
 {
     return words == 4 ? _mm_loadu_si128((const __m128i *)(const void *)p)
          : words == 3 ? _mm_maskload_epi32((const int *)p, _mm_setr_epi32(-1, -1, -1, 0))
                       : _mm_loadl_epi64((const __m128i *)(const void *)p);
 }
 
-EIGHT_INLINE __m256i eight_two_records(const int32_t *a, const int32_t *b, int words)
+SMEAR_AVX2_INLINE __m256i tiny8_two_records(const int32_t *a, const int32_t *b, int words)
 {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(eight_record(a, words)), eight_record(b, words), 1);
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(tiny8_record(a, words)), tiny8_record(b, words), 1);
 }
 
-EIGHT_INLINE struct eight_corner eight_corner_load(const int32_t *record, const uint16_t vertex[8][4], int i, int words)
+SMEAR_AVX2_INLINE struct tiny8_corner tiny8_corner_load(const int32_t *record, const uint16_t vertex[8][4], int i, int words)
 {
-    const __m256i a = eight_two_records(record + vertex[0][i], record + vertex[4][i], words);
-    const __m256i b = eight_two_records(record + vertex[1][i], record + vertex[5][i], words);
-    const __m256i c = eight_two_records(record + vertex[2][i], record + vertex[6][i], words);
-    const __m256i d = eight_two_records(record + vertex[3][i], record + vertex[7][i], words);
+    const __m256i a = tiny8_two_records(record + vertex[0][i], record + vertex[4][i], words);
+    const __m256i b = tiny8_two_records(record + vertex[1][i], record + vertex[5][i], words);
+    const __m256i c = tiny8_two_records(record + vertex[2][i], record + vertex[6][i], words);
+    const __m256i d = tiny8_two_records(record + vertex[3][i], record + vertex[7][i], words);
     const __m256i ab = _mm256_unpacklo_epi32(a, b), cd = _mm256_unpacklo_epi32(c, d);
     const __m256i ab2 = _mm256_unpackhi_epi32(a, b), cd2 = _mm256_unpackhi_epi32(c, d);
-    return (struct eight_corner){ { _mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd), _mm256_unpacklo_epi64(ab2, cd2),
+    return (struct tiny8_corner){ { _mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd), _mm256_unpacklo_epi64(ab2, cd2),
                                     _mm256_unpackhi_epi64(ab2, cd2) } };
 }
 
-EIGHT_INLINE __m256i v8_least(__m256i a, __m256i b, __m256i c) { return _mm256_min_epi32(a, _mm256_min_epi32(b, c)); }
-EIGHT_INLINE __m256i v8_most(__m256i a, __m256i b, __m256i c) { return _mm256_max_epi32(a, _mm256_max_epi32(b, c)); }
-EIGHT_INLINE __m256i v8_first_pixel(__m256i a) { return _mm256_srai_epi32(v8_add(a, v8_all(127)), 8); }
+SMEAR_AVX2_INLINE __m256i v8_least(__m256i a, __m256i b, __m256i c) { return _mm256_min_epi32(a, _mm256_min_epi32(b, c)); }
+SMEAR_AVX2_INLINE __m256i v8_most(__m256i a, __m256i b, __m256i c) { return _mm256_max_epi32(a, _mm256_max_epi32(b, c)); }
+SMEAR_AVX2_INLINE __m256i v8_first_pixel(__m256i a) { return _mm256_srai_epi32(v8_add(a, v8_all(127)), 8); }
 
 /* -1 where centres on the edge do not count, else 0: tiny_bias. */
-EIGHT_INLINE __m256i v8_bias(__m256i dx, __m256i dy)
+SMEAR_AVX2_INLINE __m256i v8_bias(__m256i dx, __m256i dy)
 {
     return _mm256_xor_si256(_mm256_srai_epi32(v8_sub(_mm256_slli_epi32(dy, 16), dx), 31), v8_all(-1));
 }
 
-static const uint16_t eight_per_width[17] = {
+static const uint16_t tiny8_per_width[17] = {
     2048, 2048, 1024, 683, 512, 410, 342, 293, 256, 228, 205, 187, 171, 158, 147, 137, 128
 };
 
 /* Finds boxes and edges. Returns which are tiny. */
-EIGHT_INLINE __m256i eight_make_edges(struct eight *s, const struct eight_look *l, const struct eight_corner c[3])
+SMEAR_AVX2_INLINE __m256i tiny8_make_edges(struct tiny8 *s, const struct tiny8_look *l, const struct tiny8_corner c[3])
 {
     const __m256i x = c[0].word[0], y = c[0].word[1];
     const __m256i left = v8_first_pixel(v8_least(x, c[1].word[0], c[2].word[0])),
@@ -103,7 +102,7 @@ EIGHT_INLINE __m256i eight_make_edges(struct eight *s, const struct eight_look *
                   bottom = v8_first_pixel(v8_most(y, c[1].word[1], c[2].word[1]));
     const __m256i width = v8_sub(right, left), height = v8_sub(bottom, top);
     const __m256i large = _mm256_or_si256(_mm256_cmpgt_epi32(_mm256_max_epi32(width, height), v8_all(l->most)),
-                                          _mm256_cmpgt_epi32(_mm256_mullo_epi32(width, height), v8_all(EIGHT_BOX)));
+                                          _mm256_cmpgt_epi32(_mm256_mullo_epi32(width, height), v8_all(TINY8_BOX)));
     const __m256i cut_left = _mm256_max_epi32(left, v8_all(l->x0)), cut_top = _mm256_max_epi32(top, v8_all(l->y0)),
                   zero = v8_all(0);
     const __m256i cut_width = _mm256_max_epi32(v8_sub(_mm256_min_epi32(right, v8_all(l->x1)), cut_left), zero);
@@ -129,34 +128,34 @@ EIGHT_INLINE __m256i eight_make_edges(struct eight *s, const struct eight_look *
 }
 
 /* 2^61 / m, as recip_norm has it, from its seed. */
-EIGHT_INLINE __m256i eight_recip_from(__m256i m, __m256i seed)
+SMEAR_AVX2_INLINE __m256i tiny8_recip_from(__m256i m, __m256i seed)
 {
     const __m256i error = v8_sub(v8_all(INT32_MIN), _mm256_mullo_epi32(_mm256_srli_epi32(m, 11), seed));
     return v8_add(_mm256_slli_epi32(seed, 19), _mm256_srai_epi32(_mm256_mullo_epi32(seed, _mm256_srai_epi32(error, 4)), 8));
 }
 
-EIGHT_INLINE __m256i eight_recip_of(const int32_t *value, int32_t *zeros, int32_t *seed)
+SMEAR_AVX2_INLINE __m256i tiny8_recip_of(const int32_t *value, int32_t *zeros, int32_t *seed)
 {
     for (int k = 0; k < 8; k++) {
         const uint32_t a = (uint32_t)value[k], up = _lzcnt_u32(a);
         zeros[k] = (int32_t)up;
         seed[k] = smear_recip_seed[(a << (up & 31u)) >> 22 & 511u];
     }
-    return eight_recip_from(_mm256_sllv_epi32(v8_load(value), v8_load(zeros)), v8_load(seed));
+    return tiny8_recip_from(_mm256_sllv_epi32(v8_load(value), v8_load(zeros)), v8_load(seed));
 }
 
-EIGHT_INLINE void eight_make_scale(struct eight *s)
+SMEAR_AVX2_INLINE void tiny8_make_scale(struct tiny8 *s)
 {
-    const __m256i recip = v8_sub(_mm256_srli_epi32(eight_recip_of(s->area, s->zeros, s->seed), 14), v8_all(1));
+    const __m256i recip = v8_sub(_mm256_srli_epi32(tiny8_recip_of(s->area, s->zeros, s->seed), 14), v8_all(1));
     v8_store(s->recip, v8_pair(recip, recip));
 }
 
 /* Range of what goes from 0 to a and to b. */
-EIGHT_INLINE __m256i v8_range(__m256i a, __m256i b) { return v8_sub(v8_most(a, b, v8_all(0)), v8_least(a, b, v8_all(0))); }
+SMEAR_AVX2_INLINE __m256i v8_range(__m256i a, __m256i b) { return v8_sub(v8_most(a, b, v8_all(0)), v8_least(a, b, v8_all(0))); }
 
 /* Makes depths of which weights q15 are taken, and coordinates. Returns where this will do. */
-EIGHT_INLINE __m256i eight_make_texture(struct eight *s, const struct eight_look *l, const struct eight_corner c[3],
-                                        __m256i *change)
+SMEAR_AVX2_INLINE __m256i tiny8_make_texture(struct tiny8 *s, const struct tiny8_look *l, const struct tiny8_corner c[3],
+                                             __m256i *change)
 {
     const __m256i q = c[0].word[2], to1 = v8_sub(c[1].word[2], q), to2 = v8_sub(c[2].word[2], q);
     const __m256i high1 = _mm256_srai_epi32(to1, 15), high2 = _mm256_srai_epi32(to2, 15);
@@ -186,7 +185,7 @@ EIGHT_INLINE __m256i eight_make_texture(struct eight *s, const struct eight_look
     const __m256i eighth = _mm256_srli_epi32(q, 3), twice = v8_add(eighth, eighth);
     good =
         _mm256_and_si256(good, _mm256_and_si256(v8_at_least(twice, v8_add(to1, eighth)), v8_at_least(twice, v8_add(to2, eighth))));
-    const __m256i recip = eight_recip_of(s->q, s->zeros_q, s->seed_q), up = v8_sub(v8_load(s->zeros_q), v8_all(1));
+    const __m256i recip = tiny8_recip_of(s->q, s->zeros_q, s->seed_q), up = v8_sub(v8_load(s->zeros_q), v8_all(1));
     const __m256i e1 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to1, up), recip), 13);
     const __m256i e2 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to2, up), recip), 13);
     v8_store(s->e, v8_pair(e1, e2));
@@ -202,7 +201,7 @@ EIGHT_INLINE __m256i eight_make_texture(struct eight *s, const struct eight_look
 }
 
 /* Makes depths of which weights q16 are taken. Returns where colours may be mixed. */
-EIGHT_INLINE __m256i eight_make_depth(struct eight *s, const struct eight_look *l, const struct eight_corner c[3])
+SMEAR_AVX2_INLINE __m256i tiny8_make_depth(struct tiny8 *s, const struct tiny8_look *l, const struct tiny8_corner c[3])
 {
     const __m256i q = c[0].word[2], to1 = v8_sub(c[1].word[2], q), to2 = v8_sub(c[2].word[2], q);
     const __m256i high1 = _mm256_srai_epi32(to1, 16), high2 = _mm256_srai_epi32(to2, 16);
@@ -217,11 +216,11 @@ EIGHT_INLINE __m256i eight_make_depth(struct eight *s, const struct eight_look *
 }
 
 /* Makes three channels of the vertices. Returns where this will do; `change`: that of 1/w, q15, of lit texels, or 0. */
-EIGHT_INLINE __m256i eight_make_channels(struct eight *s, const struct eight_look *l, const uint16_t vertex[8][4], __m256i change)
+SMEAR_AVX2_INLINE __m256i tiny8_make_channels(struct tiny8 *s, const struct tiny8_look *l, const uint16_t vertex[8][4], __m256i change)
 {
     __m256i channel[3][3], good = v8_all(-1);
     for (int i = 0; i < 3; i++) {
-        const struct eight_corner c = eight_corner_load(l->vertex + l->color, vertex, i, 2);
+        const struct tiny8_corner c = tiny8_corner_load(l->vertex + l->color, vertex, i, 2);
         channel[i][0] = _mm256_and_si256(c.word[0], v8_all(0xffff));
         channel[i][1] = _mm256_srli_epi32(c.word[0], 16);
         channel[i][2] = _mm256_and_si256(c.word[1], v8_all(0xffff));
@@ -238,7 +237,7 @@ EIGHT_INLINE __m256i eight_make_channels(struct eight *s, const struct eight_loo
 }
 
 /* Makes channels of one light for each triangle. */
-EIGHT_INLINE void eight_make_even_light(struct eight *s, const struct eight_look *l, const uint32_t color[8])
+SMEAR_AVX2_INLINE void tiny8_make_even_light(struct tiny8 *s, const struct tiny8_look *l, const uint32_t color[8])
 {
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 8; k++) {
@@ -252,12 +251,12 @@ EIGHT_INLINE void eight_make_even_light(struct eight *s, const struct eight_look
 /* ------------------------------------------------------------------ covered centres */
 
 /* Pixels that are lined up: triangle and place, x y. */
-struct eight_places {
-    int32_t triangle[8 * EIGHT_BOX + 8], place[8 * EIGHT_BOX + 8];
+struct tiny8_places {
+    int32_t triangle[8 * TINY8_BOX + 8], place[8 * TINY8_BOX + 8];
 };
 
 /* Moves the words of a mask to the front. */
-static const uint32_t eight_to_front[16][4] = {
+static const uint32_t tiny8_to_front[16][4] = {
 #define W0 0x03020100u
 #define W1 0x07060504u
 #define W2 0x0b0a0908u
@@ -271,16 +270,16 @@ static const uint32_t eight_to_front[16][4] = {
 #undef W3
 };
 
-EIGHT_INLINE int32_t eight_line_up_four(struct eight_places *out, int32_t n, __m128i place, uint32_t mask, __m128i triangle)
+SMEAR_AVX2_INLINE int32_t tiny8_line_up_four(struct tiny8_places *out, int32_t n, __m128i place, uint32_t mask, __m128i triangle)
 {
-    const __m128i order = _mm_loadu_si128((const __m128i *)(const void *)eight_to_front[mask]);
+    const __m128i order = _mm_loadu_si128((const __m128i *)(const void *)tiny8_to_front[mask]);
     _mm_storeu_si128((__m128i *)(void *)(out->place + n), _mm_shuffle_epi8(place, order));
     _mm_storeu_si128((__m128i *)(void *)(out->triangle + n), triangle);
     return n + __builtin_popcount(mask);
 }
 
 /* Appends the covered centres of triangle k. */
-EIGHT_INLINE int32_t eight_line_up(struct eight_places *out, int32_t n, const struct eight *s, int k)
+SMEAR_AVX2_INLINE int32_t tiny8_line_up(struct tiny8_places *out, int32_t n, const struct tiny8 *s, int k)
 {
     const __m256i pairs = _mm256_setr_epi32(0, 0x10001, 0x20002, 0x30003, 0x40004, 0x50005, 0x60006, 0x70007);
     const __m256i by_width = v8_all(s->per_width[k]), row = v8_all(s->row[k]), corner = v8_all(s->corner[k]),
@@ -299,9 +298,9 @@ EIGHT_INLINE int32_t eight_line_up(struct eight_places *out, int32_t n, const st
                       e0 = v8_sub(v8_sub(sum, e1), e2);
         const __m256i any = _mm256_or_si256(e0, _mm256_or_si256(e1, e2));
         const uint32_t mask = _bzhi_u32(~(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(any)), (uint32_t)(pixels - i)) & 255u;
-        n = eight_line_up_four(out, n, _mm256_castsi256_si128(place), mask & 15u, triangle);
+        n = tiny8_line_up_four(out, n, _mm256_castsi256_si128(place), mask & 15u, triangle);
         if (mask > 15u)
-            n = eight_line_up_four(out, n, _mm256_extracti128_si256(place, 1), mask >> 4, triangle);
+            n = tiny8_line_up_four(out, n, _mm256_extracti128_si256(place, 1), mask >> 4, triangle);
     }
     return n;
 }
@@ -309,7 +308,7 @@ EIGHT_INLINE int32_t eight_line_up(struct eight_places *out, int32_t n, const st
 /* ------------------------------------------------------------------ pixels */
 
 /* Weights: q15 if `fifteen`, else q16. */
-EIGHT_INLINE __m256i eight_weights_at(const struct eight *s, __m256i triangle, __m256i place, bool fifteen)
+SMEAR_AVX2_INLINE __m256i tiny8_weights_at(const struct tiny8 *s, __m256i triangle, __m256i place, bool fifteen)
 {
     const __m256i at = _mm256_add_epi16(_mm256_slli_epi16(place, 8), v8_of(s->centre, triangle));
     const __m256i e1 = v8_add(v8_dot(at, v8_of(s->normal1, triangle)), v8_of(s->bias1, triangle));
@@ -323,25 +322,25 @@ EIGHT_INLINE __m256i eight_weights_at(const struct eight *s, __m256i triangle, _
 }
 
 /* The nearest depth code of units q11: tiny_code. */
-EIGHT_INLINE __m256i eight_code_of(__m256i units)
+SMEAR_AVX2_INLINE __m256i tiny8_code_of(__m256i units)
 {
     const __m256i far = _mm256_srli_epi32(v8_add(units, v8_all(0x400)), 11);
     const __m256i near = _mm256_srli_epi32(v8_add(units, v8_all((int32_t)(((32768u - 2048u) << 15) + 0x4000u))), 15);
     return _mm256_blendv_epi8(near, far, _mm256_cmpgt_epi32(v8_all(32768 << 11), units));
 }
 
-EIGHT_INLINE __m256i eight_code_at(const struct eight *s, __m256i triangle, __m256i weight, bool fifteen)
+SMEAR_AVX2_INLINE __m256i tiny8_code_at(const struct tiny8 *s, __m256i triangle, __m256i weight, bool fifteen)
 {
     const __m256i part = _mm256_mulhi_epu16(weight, v8_of(s->q_low, triangle));
     const __m256i high = v8_of(s->q_high, triangle), q = v8_of(s->q, triangle);
     if (fifteen)
-        return eight_code_of(v8_add(v8_add(q, v8_dot(weight, high)), v8_dot(part, v8_all(0x10001))));
+        return tiny8_code_of(v8_add(v8_add(q, v8_dot(weight, high)), v8_dot(part, v8_all(0x10001))));
     const __m256i low = v8_add(_mm256_and_si256(part, v8_all(0xffff)), _mm256_srli_epi32(part, 16));
-    return eight_code_of(v8_add(v8_add(q, v8_dot(_mm256_xor_si256(weight, v8_all((int32_t)0x80008000u)), high)), low));
+    return tiny8_code_of(v8_add(v8_add(q, v8_dot(_mm256_xor_si256(weight, v8_all((int32_t)0x80008000u)), high)), low));
 }
 
 /* Numbers of texels, at weights q15. */
-EIGHT_INLINE __m256i eight_index_at(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight)
+SMEAR_AVX2_INLINE __m256i tiny8_index_at(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight)
 {
     __m256i p = weight;
     if (l->perspective) {
@@ -356,11 +355,11 @@ EIGHT_INLINE __m256i eight_index_at(const struct eight *s, const struct eight_lo
 }
 
 /* Pixels as red and blue (pairs, blue first) and green. */
-struct eight_looks {
+struct tiny8_looks {
     __m256i rb, g;
 };
 
-EIGHT_INLINE __m256i v8_pack(struct eight_looks p, bool narrow)
+SMEAR_AVX2_INLINE __m256i v8_pack(struct tiny8_looks p, bool narrow)
 {
     if (!narrow)
         return _mm256_or_si256(p.rb, _mm256_slli_epi32(p.g, 8));
@@ -371,12 +370,12 @@ EIGHT_INLINE __m256i v8_pack(struct eight_looks p, bool narrow)
 }
 
 /* Channel i of colours mixed at weights q14, q14 of 16 bits. */
-EIGHT_INLINE __m256i v8_mixed(const struct eight *s, int i, __m256i triangle, __m256i weight)
+SMEAR_AVX2_INLINE __m256i v8_mixed(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
 {
     return v8_add(_mm256_slli_epi32(v8_of(s->light[i], triangle), 14), v8_dot(v8_of(s->to_light[i], triangle), weight));
 }
 
-EIGHT_INLINE __m256i v8_encoded(__m256i light)
+SMEAR_AVX2_INLINE __m256i v8_encoded(__m256i light)
 {
     uint32_t index[8];
     _mm256_storeu_si256((__m256i *)(void *)index, light);
@@ -385,20 +384,20 @@ EIGHT_INLINE __m256i v8_encoded(__m256i light)
     return _mm256_loadu_si256((const __m256i *)(const void *)index);
 }
 
-EIGHT_INLINE struct eight_looks v8_shaded(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight)
+SMEAR_AVX2_INLINE struct tiny8_looks v8_shaded(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight)
 {
     const __m256i w = _mm256_srli_epi16(weight, 2), r = v8_mixed(s, 0, triangle, w), g = v8_mixed(s, 1, triangle, w);
     const __m256i b = v8_mixed(s, 2, triangle, w);
     if (l->linear)
-        return (struct eight_looks){ v8_pair(v8_encoded(_mm256_srli_epi32(b, 18)), v8_encoded(_mm256_srli_epi32(r, 18))),
+        return (struct tiny8_looks){ v8_pair(v8_encoded(_mm256_srli_epi32(b, 18)), v8_encoded(_mm256_srli_epi32(r, 18))),
                                      v8_encoded(_mm256_srli_epi32(g, 18)) };
     const __m256i half = v8_all(1 << 21);
-    return (struct eight_looks){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
+    return (struct tiny8_looks){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
                                  _mm256_srli_epi32(v8_add(g, half), 22) };
 }
 
 /* Texels of numbers in memory, which become the texels themselves. */
-EIGHT_INLINE void v8_fetch(uint32_t texel[8], const struct eight_look *l)
+SMEAR_AVX2_INLINE void v8_fetch(uint32_t texel[8], const struct tiny8_look *l)
 {
     if (l->format == SMEAR_TEXEL_565) {
         for (int i = 0; i < 8; i++)
@@ -412,37 +411,37 @@ EIGHT_INLINE void v8_fetch(uint32_t texel[8], const struct eight_look *l)
     }
 }
 
-EIGHT_INLINE struct eight_looks eight_texel_looks(__m256i t, const struct eight_look *l)
+SMEAR_AVX2_INLINE struct tiny8_looks tiny8_texel_looks(__m256i t, const struct tiny8_look *l)
 {
     if (l->format != SMEAR_TEXEL_565)
-        return (struct eight_looks){ _mm256_and_si256(t, v8_all(0xff00ff)),
+        return (struct tiny8_looks){ _mm256_and_si256(t, v8_all(0xff00ff)),
                                      _mm256_and_si256(_mm256_srli_epi32(t, 8), v8_all(255)) };
     const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, v8_all(31)), _mm256_slli_epi32(_mm256_srli_epi32(t, 11), 16));
     const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), v8_all(63));
     return (
-        struct eight_looks){ _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6),
+        struct tiny8_looks){ _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6),
                              _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(g, v8_all(259)), v8_all(33)), 6) };
 }
 
-EIGHT_INLINE __m256i eight_light_at(const struct eight *s, int i, __m256i triangle, __m256i weight)
+SMEAR_AVX2_INLINE __m256i tiny8_light_at(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
 {
     return v8_add(v8_of(s->light[i], triangle), _mm256_srai_epi32(v8_dot(v8_of(s->to_light[i], triangle), weight), 15));
 }
 
-EIGHT_INLINE __m256i eight_code_of_light(__m256i light)
+SMEAR_AVX2_INLINE __m256i tiny8_code_of_light(__m256i light)
 {
     return _mm256_srli_epi32(v8_add(_mm256_min_epu32(light, v8_all(0xff00)), v8_all(128)), 8);
 }
 
 /* code_times for halves. */
-EIGHT_INLINE __m256i v8_times(__m256i a, __m256i b)
+SMEAR_AVX2_INLINE __m256i v8_times(__m256i a, __m256i b)
 {
     const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), v8_all(0x800080));
     return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
 }
 
 /* code_times_linear */
-EIGHT_INLINE __m256i v8_times_linear(__m256i code, __m256i light)
+SMEAR_AVX2_INLINE __m256i v8_times_linear(__m256i code, __m256i light)
 {
     uint32_t index[8];
     _mm256_storeu_si256((__m256i *)(void *)index, code);
@@ -452,36 +451,36 @@ EIGHT_INLINE __m256i v8_times_linear(__m256i code, __m256i light)
     return v8_encoded(_mm256_srli_epi32(_mm256_mullo_epi32(there, v8_add(light, _mm256_srli_epi32(light, 15))), 20));
 }
 
-EIGHT_INLINE struct eight_looks v8_lit(const struct eight *s, const struct eight_look *l, __m256i triangle, __m256i weight,
-                                       __m256i texel)
+SMEAR_AVX2_INLINE struct tiny8_looks v8_lit(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight,
+                                            __m256i texel)
 {
-    const struct eight_looks t = eight_texel_looks(texel, l);
-    const __m256i r = eight_light_at(s, 0, triangle, weight), g = eight_light_at(s, 1, triangle, weight),
-                  b = eight_light_at(s, 2, triangle, weight);
+    const struct tiny8_looks t = tiny8_texel_looks(texel, l);
+    const __m256i r = tiny8_light_at(s, 0, triangle, weight), g = tiny8_light_at(s, 1, triangle, weight),
+                  b = tiny8_light_at(s, 2, triangle, weight);
     if (l->linear)
-        return (struct eight_looks){ v8_pair(v8_times_linear(_mm256_and_si256(t.rb, v8_all(255)), b),
+        return (struct tiny8_looks){ v8_pair(v8_times_linear(_mm256_and_si256(t.rb, v8_all(255)), b),
                                              v8_times_linear(_mm256_srli_epi32(t.rb, 16), r)),
                                      v8_times_linear(t.g, g) };
-    return (struct eight_looks){ v8_times(t.rb, v8_pair(eight_code_of_light(b), eight_code_of_light(r))),
-                                 _mm256_and_si256(v8_times(t.g, eight_code_of_light(g)), v8_all(255)) };
+    return (struct tiny8_looks){ v8_times(t.rb, v8_pair(tiny8_code_of_light(b), tiny8_code_of_light(r))),
+                                 _mm256_and_si256(v8_times(t.g, tiny8_code_of_light(g)), v8_all(255)) };
 }
 
-EIGHT_INLINE void eight_draw_eight(struct eight_pixels *out, int32_t i, const struct eight *s, const struct eight_look *l,
-                                   const struct eight_places *p, enum eight_kind kind)
+SMEAR_AVX2_INLINE void tiny8_draw(struct tiny8_pixels *out, int32_t i, const struct tiny8 *s, const struct tiny8_look *l,
+                                  const struct tiny8_places *p, enum tiny8_kind kind)
 {
     const __m256i triangle = v8_load(p->triangle + i), place = v8_load(p->place + i);
-    const bool textured = kind == EIGHT_COPIED || kind == EIGHT_LIT;
-    const __m256i weight = eight_weights_at(s, triangle, place, textured);
+    const bool textured = kind == TINY8_COPIED || kind == TINY8_LIT;
+    const __m256i weight = tiny8_weights_at(s, triangle, place, textured);
     v8_store(out->at + i, v8_add(v8_dot(place, v8_all(l->stride << 16 | 1)), v8_all(l->at)));
-    v8_store((int32_t *)out->code + i, eight_code_at(s, triangle, weight, textured));
+    v8_store((int32_t *)out->code + i, tiny8_code_at(s, triangle, weight, textured));
     __m256i pixel;
-    if (kind == EIGHT_FLAT) {
+    if (kind == TINY8_FLAT) {
         pixel = v8_of(s->color, triangle);
-    } else if (kind == EIGHT_SHADED) {
+    } else if (kind == TINY8_SHADED) {
         pixel = v8_pack(v8_shaded(s, l, triangle, weight), l->narrow);
     } else {
-        pixel = eight_index_at(s, l, triangle, weight);
-        if (kind == EIGHT_LIT) {
+        pixel = tiny8_index_at(s, l, triangle, weight);
+        if (kind == TINY8_LIT) {
             uint32_t texel[8];
             _mm256_storeu_si256((__m256i *)(void *)texel, pixel);
             v8_fetch(texel, l);
@@ -491,28 +490,28 @@ EIGHT_INLINE void eight_draw_eight(struct eight_pixels *out, int32_t i, const st
     v8_store((int32_t *)out->pixel + i, pixel);
 }
 
-EIGHT_INLINE void eight_of_kind(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4],
-                                const uint32_t color[8], enum eight_kind kind)
+SMEAR_AVX2_INLINE void tiny8_of_kind(struct tiny8_pixels *out, const struct tiny8_look *l, const uint16_t vertex[8][4],
+                                     const uint32_t color[8], enum tiny8_kind kind)
 {
-    struct eight s;
-    struct eight_places places;
-    const int words = kind == EIGHT_COPIED || kind == EIGHT_LIT ? 4 : 3;
-    const struct eight_corner c[3] = { eight_corner_load(l->vertex, vertex, 0, words),
-                                       eight_corner_load(l->vertex, vertex, 1, words),
-                                       eight_corner_load(l->vertex, vertex, 2, words) };
-    __m256i good = eight_make_edges(&s, l, c), change = v8_all(0);
-    eight_make_scale(&s);
-    if (kind == EIGHT_COPIED || kind == EIGHT_LIT)
-        good = _mm256_and_si256(good, eight_make_texture(&s, l, c, &change));
+    struct tiny8 s;
+    struct tiny8_places places;
+    const int words = kind == TINY8_COPIED || kind == TINY8_LIT ? 4 : 3;
+    const struct tiny8_corner c[3] = { tiny8_corner_load(l->vertex, vertex, 0, words),
+                                       tiny8_corner_load(l->vertex, vertex, 1, words),
+                                       tiny8_corner_load(l->vertex, vertex, 2, words) };
+    __m256i good = tiny8_make_edges(&s, l, c), change = v8_all(0);
+    tiny8_make_scale(&s);
+    if (kind == TINY8_COPIED || kind == TINY8_LIT)
+        good = _mm256_and_si256(good, tiny8_make_texture(&s, l, c, &change));
     else
-        good = _mm256_and_si256(good, eight_make_depth(&s, l, c));
-    if (kind == EIGHT_SHADED || (kind == EIGHT_LIT && l->color != 0))
-        good = _mm256_and_si256(good, eight_make_channels(&s, l, vertex, change));
-    else if (kind == EIGHT_LIT)
-        eight_make_even_light(&s, l, color);
-    if (kind == EIGHT_FLAT) {
+        good = _mm256_and_si256(good, tiny8_make_depth(&s, l, c));
+    if (kind == TINY8_SHADED || (kind == TINY8_LIT && l->color != 0))
+        good = _mm256_and_si256(good, tiny8_make_channels(&s, l, vertex, change));
+    else if (kind == TINY8_LIT)
+        tiny8_make_even_light(&s, l, color);
+    if (kind == TINY8_FLAT) {
         const __m256i p = v8_load((const int32_t *)color);
-        v8_store(s.color, v8_pack((struct eight_looks){ _mm256_and_si256(p, v8_all(0xff00ff)),
+        v8_store(s.color, v8_pack((struct tiny8_looks){ _mm256_and_si256(p, v8_all(0xff00ff)),
                                                         _mm256_and_si256(_mm256_srli_epi32(p, 8), v8_all(255)) },
                                   l->narrow));
     }
@@ -520,28 +519,28 @@ EIGHT_INLINE void eight_of_kind(struct eight_pixels *out, const struct eight_loo
     int32_t n = 0;
     for (int k = 0; k < 8; k++) {
         if ((out->taken >> k & 1u) != 0) {
-            s.per_width[k] = eight_per_width[s.per_width[k]] * 0x10001;
-            n = eight_line_up(&places, n, &s, k);
+            s.per_width[k] = tiny8_per_width[s.per_width[k]] * 0x10001;
+            n = tiny8_line_up(&places, n, &s, k);
         }
         out->end[k] = n;
     }
     v8_store(places.triangle + n, v8_all(0));
     v8_store(places.place + n, v8_all(0));
     for (int32_t i = 0; i < n; i += 8)
-        eight_draw_eight(out, i, &s, l, &places, kind);
+        tiny8_draw(out, i, &s, l, &places, kind);
 }
 
-SMEAR_AVX2_FUNCTION void smear_eight_avx2(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4],
+SMEAR_AVX2_FUNCTION void smear_tiny8_avx2(struct tiny8_pixels *out, const struct tiny8_look *l, const uint16_t vertex[8][4],
                                           const uint32_t color[8])
 {
-    if (l->kind == EIGHT_FLAT)
-        eight_of_kind(out, l, vertex, color, EIGHT_FLAT);
-    else if (l->kind == EIGHT_SHADED)
-        eight_of_kind(out, l, vertex, color, EIGHT_SHADED);
-    else if (l->kind == EIGHT_COPIED)
-        eight_of_kind(out, l, vertex, color, EIGHT_COPIED);
+    if (l->kind == TINY8_FLAT)
+        tiny8_of_kind(out, l, vertex, color, TINY8_FLAT);
+    else if (l->kind == TINY8_SHADED)
+        tiny8_of_kind(out, l, vertex, color, TINY8_SHADED);
+    else if (l->kind == TINY8_COPIED)
+        tiny8_of_kind(out, l, vertex, color, TINY8_COPIED);
     else
-        eight_of_kind(out, l, vertex, color, EIGHT_LIT);
+        tiny8_of_kind(out, l, vertex, color, TINY8_LIT);
 }
 
 #endif

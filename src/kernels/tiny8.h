@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* eight.h - the pixels of eight tiny triangles at once. They are made ready in lanes, a triangle each; then the covered
+/* tiny8.h - the pixels of eight tiny triangles at once. They are made ready in lanes, a triangle each; then the covered
  * centres of each box are found, a pixel in each lane, and lined up; then depth and colours of what is lined up, eight pixels at
  * once, whichever triangles they are of. The bits are those of cover_tiny.h and cover_texels.c, which draw what is not taken. */
-#ifndef SMEAR_KERNELS_EIGHT_H
-#define SMEAR_KERNELS_EIGHT_H
+#ifndef SMEAR_KERNELS_TINY8_H
+#define SMEAR_KERNELS_TINY8_H
 
 #include "smear.h"
 
@@ -11,16 +11,16 @@
 
 #if SMEAR_AVX2
 
-enum eight_kind {
-    EIGHT_FLAT,             /* a colour for each triangle */
-    EIGHT_SHADED,           /* colours of vertices */
-    EIGHT_COPIED,           /* texels as they are */
-    EIGHT_LIT               /* texels in the light of vertices, a triangle or of none */
+enum tiny8_kind {
+    TINY8_FLAT,             /* a colour for each triangle */
+    TINY8_SHADED,           /* colours of vertices */
+    TINY8_COPIED,           /* texels as they are */
+    TINY8_LIT               /* texels in the light of vertices, a triangle or of none */
 };
 
 /* What triangles have in common. */
-struct eight_look {
-    enum eight_kind kind;
+struct tiny8_look {
+    enum tiny8_kind kind;
     const int32_t *vertex;          /* records: x, y (q8 px), depth units q11, uv (mesh units) */
     int color;                      /* in a record: the first of two words of colour; 0: none */
     bool perspective;               /* depth is 1/w */
@@ -41,19 +41,19 @@ struct eight_look {
 };
 
 /* Boxes of at most this many pixels are tiny. */
-enum { EIGHT_BOX = 32 };
+enum { TINY8_BOX = 32 };
 
 /* Pixels of the triangles that are taken, in the order of triangles, not tested by depth. */
-struct eight_pixels {
+struct tiny8_pixels {
     uint32_t taken;                 /* bit k: triangle k; another one is not drawn here */
     int32_t end[8];                 /* its pixels begin where those before it end */
-    int32_t at[8 * EIGHT_BOX + 8];
-    uint32_t code[8 * EIGHT_BOX + 8];       /* depth */
-    uint32_t pixel[8 * EIGHT_BOX + 8];
+    int32_t at[8 * TINY8_BOX + 8];
+    uint32_t code[8 * TINY8_BOX + 8];       /* depth */
+    uint32_t pixel[8 * TINY8_BOX + 8];
 };
 
 /* Eight triangles: places of vertices in words, the fourth of each is not looked at; and colours. */
-void smear_eight_avx2(struct eight_pixels *out, const struct eight_look *l, const uint16_t vertex[8][4], const uint32_t color[8]);
+void smear_tiny8_avx2(struct tiny8_pixels *out, const struct tiny8_look *l, const uint16_t vertex[8][4], const uint32_t color[8]);
 
 #endif
 #endif

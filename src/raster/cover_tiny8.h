@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* eights.h - tiny triangles of a list, eight at once (kernels/eight.h): which have what they need in common, and their pixels. */
-#ifndef SMEAR_EIGHTS_H
-#define SMEAR_EIGHTS_H
+/* cover_tiny8.h - tiny triangles of a list, eight at once (kernels/tiny8.h): which have what they need in common, and
+ * their pixels. */
+#ifndef SMEAR_COVER_TINY8_H
+#define SMEAR_COVER_TINY8_H
 
-#include "kernels/eight.h"
+#include "kernels/tiny8.h"
 #include "raster/cover_tiny.h"
 
 #if SMEAR_AVX2
 
 /* Whether a target's lists may be drawn so: pixels say nothing but colour and depth, and lie in rows that do not go round. */
-static inline bool eights_suit(const struct smear_raster_target *t)
+static inline bool tiny8_suit(const struct smear_raster_target *t)
 {
     const struct smear_plane_rows *rows = &t->window_rows;
     return !target_has_velocity(t) && rows->ring_row + (t->y1 - t->y0) <= rows->ring && rows->stride < 1 << 15
@@ -17,7 +18,7 @@ static inline bool eights_suit(const struct smear_raster_target *t)
 }
 
 /* False where the texture's bits are not told by shifts of mesh units. */
-static inline bool eights_texture(struct eight_look *l, const struct smear_sampler *m)
+static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sampler *m)
 {
     if (!m->turns || m->levels != 0)
         return false;
@@ -36,8 +37,8 @@ static inline bool eights_texture(struct eight_look *l, const struct smear_sampl
 }
 
 /* Tells what triangles of a segment have in common. False where they are drawn one by one. */
-static SMEAR_NOINLINE bool eights_look(struct eight_look *l, const struct smear_raster_frame *frame,
-                                       const struct smear_raster_target *t, const struct smear_segment *segment)
+static SMEAR_NOINLINE bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *frame,
+                                      const struct smear_raster_target *t, const struct smear_segment *segment)
 {
     const struct smear_raster_draw *draw = &frame->draw[segment->draw];
     const struct smear_plane_rows *rows = &t->window_rows;
@@ -56,21 +57,21 @@ static SMEAR_NOINLINE bool eights_look(struct eight_look *l, const struct smear_
     l->at = target_row(rows, t, t->y0) - t->y0 * rows->stride;
     l->stride = rows->stride;
     l->most = SMALL_PX;
-    l->kind = segment_gouraud(segment) ? EIGHT_SHADED : EIGHT_FLAT;
+    l->kind = segment_gouraud(segment) ? TINY8_SHADED : TINY8_FLAT;
     if (!segment_textured(segment))
         return true;
     l->most = SMALL_TEXTURED_PX;
     l->white = segment->shade == SHADE_NONE;
     l->linear = l->linear && !l->white;
-    l->kind = EIGHT_LIT;
+    l->kind = TINY8_LIT;
     if (l->white && draw->sampler.format == (l->narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
-        l->kind = EIGHT_COPIED;
-    return eights_texture(l, &draw->sampler);
+        l->kind = TINY8_COPIED;
+    return tiny8_texture(l, &draw->sampler);
 }
 
 /* Draws pixels [i, end) that are nearer than what is there. */
-SMEAR_INLINE void eights_put_kind(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
-                                  int32_t i, int32_t end, bool copied, bool narrow)
+SMEAR_INLINE void tiny8_put_kind(const struct smear_raster_target *t, const struct tiny8_look *l, const struct tiny8_pixels *p,
+                                 int32_t i, int32_t end, bool copied, bool narrow)
 {
     uint16_t *const depth = t->depth, *const direct = t->direct;
     uint32_t *const color = t->color;
@@ -88,17 +89,17 @@ SMEAR_INLINE void eights_put_kind(const struct smear_raster_target *t, const str
     }
 }
 
-static inline void eights_put(const struct smear_raster_target *t, const struct eight_look *l, const struct eight_pixels *p,
-                              int32_t i, int32_t end)
+static inline void tiny8_put(const struct smear_raster_target *t, const struct tiny8_look *l, const struct tiny8_pixels *p,
+                             int32_t i, int32_t end)
 {
-    if (l->kind == EIGHT_COPIED && l->narrow)
-        eights_put_kind(t, l, p, i, end, true, true);
-    else if (l->kind == EIGHT_COPIED)
-        eights_put_kind(t, l, p, i, end, true, false);
+    if (l->kind == TINY8_COPIED && l->narrow)
+        tiny8_put_kind(t, l, p, i, end, true, true);
+    else if (l->kind == TINY8_COPIED)
+        tiny8_put_kind(t, l, p, i, end, true, false);
     else if (l->narrow)
-        eights_put_kind(t, l, p, i, end, false, true);
+        tiny8_put_kind(t, l, p, i, end, false, true);
     else
-        eights_put_kind(t, l, p, i, end, false, false);
+        tiny8_put_kind(t, l, p, i, end, false, false);
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* eight.c - how check_kernels calls kernels/eight.h: lists of random triangles drawn as the raster does, and one by one, which
+/* tiny8.c - how check_kernels calls kernels/tiny8.h: lists of random triangles drawn as the raster does, and one by one, which
  * is what defines the result. Each call makes and draws many lists from one number. */
-#include "kernels/eight.h"
+#include "kernels/tiny8.h"
 #include "raster/raster.h"
 
 #include "tests/kernels/kernels.h"
@@ -154,11 +154,11 @@ static void reference(struct kernel_call *c) { many(c, draw_one_by_one); }
 static void list(struct kernel_call *c) { many(c, draw_list); }
 #endif
 
-extern const struct kernel kernels_eight[];
-const struct kernel kernels_eight[] = {
+extern const struct kernel kernels_tiny8[];
+const struct kernel kernels_tiny8[] = {
 #if SMEAR_AVX2
     /* Each length is another call, whose data are other lists. */
-    { .name = "eight (made, drawn, summed up)", .least = PIXELS - 60, .most = PIXELS, .size = { 1 }, .timed = PIXELS,
+    { .name = "tiny8 (made, drawn, summed up)", .least = PIXELS - 60, .most = PIXELS, .size = { 1 }, .timed = PIXELS,
       .form = { { "one by one", reference }, { "list", list } } },
 #endif
     { .name = NULL }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* assemble_eights.h - the loop over a draw's triangles by AVX2, and what it leaves to assemble.c. */
-#ifndef SMEAR_ASSEMBLE_EIGHTS_H
-#define SMEAR_ASSEMBLE_EIGHTS_H
+/* assemble_avx2.h - the loop over a draw's triangles by AVX2, and what it leaves to assemble.c. */
+#ifndef SMEAR_ASSEMBLE_AVX2_H
+#define SMEAR_ASSEMBLE_AVX2_H
 
 #include "geometry/places.h"
 #include "kernels/avx2.h"
@@ -9,7 +9,7 @@
 #if SMEAR_PLACES && SMEAR_AVX2
 /* Adds triangles of [first, end) by eights. Returns how far that goes: fewer than eight are left, or places are in the way;
  * UINT32_MAX where there is no room. The processor has AVX2. */
-uint32_t smear_assemble_eights(struct batch *b, const struct places *r, uint32_t first, uint32_t end);
+uint32_t smear_assemble_avx2(struct batch *b, const struct places *r, uint32_t first, uint32_t end);
 
 /* Stores a vertex of any kind; returns the first word of its record. */
 uint32_t smear_assemble_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle, bool back);
