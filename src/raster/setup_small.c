@@ -205,6 +205,22 @@ static int32_t light_value(const struct setup *s, int vertex, int c)
     return frame_is_linear(s->frame) && c < 3 ? value - (value >> 9) + 64 : min_i32(value, 0xff00) + 0x80;
 }
 
+/* Whether green and blue are as red, as light without a colour is. */
+static inline bool light_is_white(const struct setup *s)
+{
+#ifndef __OPTIMIZE_SIZE__
+    for (int i = 0; i < 3; i++) {
+        const uint32_t red_green = (uint32_t)s->v[i][s->segment->color], blue = (uint32_t)s->v[i][s->segment->color + 1];
+        if (red_green != (red_green << 16 | (blue & 0xffffu)))
+            return false;
+    }
+    return true;
+#else
+    (void)s;
+    return false;
+#endif
+}
+
 static bool light_make(struct setup *s, const struct slopes *g, const struct depth_change *k)
 {
     const int channels = draw_is_opaque(s->draw) ? 3 : 4;
@@ -222,6 +238,10 @@ static bool light_make(struct setup *s, const struct slopes *g, const struct dep
         p->dx = weigh(b, g->x1, g->x2) >> 7;
         p->dy = weigh(b, g->y1, g->y2) >> 7;
         place(p, s, value << 8);
+        if (c == 0 && light_is_white(s)) {
+            p[1] = p[2] = *p;
+            c = 2;
+        }
     }
     s->even_color = most == 0;
     return is_gentle(g, most) && (uint32_t)(most >> 8) * (uint32_t)change <= 2u << 15;    /* off by half a code, as setup.c has it */
