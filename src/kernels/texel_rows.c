@@ -112,7 +112,7 @@ struct row_lanes {
     void *color;                        /* of pixel 0 */
     uint16_t *depth;
     uint32_t z, dz;
-    __m256i evens, odds, eight;         /* i dz for i = 0 2 .. 14, 1 3 .. 15, and 0 .. 7 */
+    __m256i evens, eight;               /* i dz for i = 0 2 .. 14 if texels are copied to narrow pixels, and 0 .. 7 */
 };
 
 /* Coordinates of a block's pixel 0, and how they change. */
@@ -161,10 +161,8 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
     r->z = s->z[i];
     r->dz = s->dz[i];
     r->eight = _mm256_mullo_epi32(first_8(), dz);
-    if (look == LOOK_NARROW) {
+    if (look == LOOK_NARROW)
         r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
-        r->odds = _mm256_add_epi32(r->evens, dz);
-    }
 }
 
 /* Texels' indices, or those of pairs. */
@@ -205,18 +203,31 @@ static const uint16_t lane_masks[48] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
 };
 
-/* Sixteen narrow pixels from x on, of which those of the mask are drawn if there is one; pixel x is number i of its block. */
-SMEAR_AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                               int32_t x, int32_t i, const uint16_t *mask)
+/* Tests sixteen depths from x on, of which those of a mask are drawn if there is one. Which are hidden; false if all. */
+SMEAR_AVX2_INLINE bool test_16(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m256i *hidden, enum look look)
 {
-    uint16_t *const depth = r->depth + x, *const color = (uint16_t *)r->color + x;
-    const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
-    __m256i code = _mm256_blend_epi16(_mm256_srli_epi32(_mm256_add_epi32(z, r->evens), 16), _mm256_add_epi32(z, r->odds), 0xaa);
+    __m256i_u *const depth = (__m256i_u *)(r->depth + x);
+    const __m256i dz = _mm256_set1_epi32((int32_t)r->dz);
+    const __m256i evens = look == LOOK_NARROW ? r->evens : _mm256_mullo_epi32(evens_of_16(), dz);
+    const __m256i even = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x)), evens);
+    __m256i code = _mm256_blend_epi16(_mm256_srli_epi32(even, 16), _mm256_add_epi32(even, dz), 0xaa);
     if (mask != NULL)
         code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)mask));
-    const __m256i old = _mm256_loadu_si256((const __m256i_u *)depth), most = _mm256_max_epu16(code, old);
-    const __m256i hidden = _mm256_cmpeq_epi16(most, old);
-    if (_mm256_movemask_epi8(hidden) == -1)
+    const __m256i old = _mm256_loadu_si256(depth), most = _mm256_max_epu16(code, old);
+    *hidden = _mm256_cmpeq_epi16(most, old);
+    if (_mm256_movemask_epi8(*hidden) == -1)
+        return false;
+    _mm256_storeu_si256(depth, most);
+    return true;
+}
+
+/* Sixteen narrow pixels from x on, of which those of the mask are drawn if there is one; pixel x is number i of its block. */
+SMEAR_AVX2_INLINE void draw_narrow_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                                      int32_t x, int32_t i, const uint16_t *mask)
+{
+    __m256i_u *const color = (__m256i_u *)((uint16_t *)r->color + x);
+    __m256i hidden;
+    if (!test_16(r, x, mask, &hidden, LOOK_NARROW))
         return;
     __m256i lane = evens_of_16(), pairs = _mm256_setr_epi32(0, 1, 6, 15, 28, 45, 66, 91);
     if (i != 0) {
@@ -232,8 +243,7 @@ SMEAR_AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lan
     const __m256i odd = _mm256_sllv_epi32(lanes_gather(k, lanes_index(k, u1, v1)),
                                           _mm256_andnot_si256(_mm256_srlv_epi32(u1, k->odd_down), k->half));
     const __m256i texels = _mm256_blend_epi16(even, odd, 0xaa);
-    _mm256_storeu_si256((__m256i_u *)depth, most);
-    _mm256_storeu_si256((__m256i_u *)color, _mm256_blendv_epi8(texels, _mm256_loadu_si256((const __m256i_u *)color), hidden));
+    _mm256_storeu_si256(color, _mm256_blendv_epi8(texels, _mm256_loadu_si256(color), hidden));
 }
 
 /* Takes the lower halves of eight words. */
@@ -313,13 +323,10 @@ SMEAR_AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16
     return true;
 }
 
-/* Eight pixels, as draw_16. */
-SMEAR_AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                              int32_t x, int32_t i, const uint16_t *mask, enum look look)
+/* Writes eight pixels from x on, pixel x being number i of its block, where they are not hidden. */
+SMEAR_AVX2_INLINE void put_block_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                                   int32_t x, int32_t i, __m128i hidden, enum look look)
 {
-    __m128i hidden;
-    if (!test_8(r, x, mask, &hidden))
-        return;
     __m256i lane = first_8(), pairs = _mm256_setr_epi32(0, 0, 1, 3, 6, 10, 15, 21);
     if (i != 0) {
         lane = _mm256_add_epi32(lane, _mm256_set1_epi32(i));
@@ -327,6 +334,30 @@ SMEAR_AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lane
     }
     put_8(k, r, x, lanes_at(c->u[block], c->du[block], c->ddu[block], lane, pairs),
           lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs), hidden, look);
+}
+
+/* Eight pixels, as draw_narrow_16. */
+SMEAR_AVX2_INLINE void draw_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                              int32_t x, int32_t i, const uint16_t *mask, enum look look)
+{
+    __m128i hidden;
+    if (test_8(r, x, mask, &hidden))
+        put_block_8(k, r, c, block, x, i, hidden, look);
+}
+
+/* Sixteen pixels, which are narrow if texels are copied as such, else two eights. */
+SMEAR_AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
+                               int32_t x, int32_t i, const uint16_t *mask, enum look look)
+{
+    if (look == LOOK_NARROW) {
+        draw_narrow_16(k, r, c, block, x, i, mask);
+        return;
+    }
+    __m256i hidden;
+    if (!test_16(r, x, mask, &hidden, look))
+        return;
+    put_block_8(k, r, c, block, x, i, _mm256_castsi256_si128(hidden), look);
+    put_block_8(k, r, c, block, x + 8, i + 8, _mm256_extracti128_si256(hidden, 1), look);
 }
 
 /* Where eight pixels begin among which are those from a on, up to b, and the mask of these. */
@@ -340,15 +371,15 @@ SMEAR_AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int
     return b - 8;
 }
 
-/* Pixels [a, b) of a block that begins at `start`. */
+/* Pixels [a, b) of a block that begins at `start`; by eights alone where there may be sixteen, but seldom are. */
 SMEAR_AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
-                                  int32_t start, int32_t a, int32_t b, enum look look)
+                                  int32_t start, int32_t a, int32_t b, enum look look, bool eights)
 {
-    if (look == LOOK_NARROW) {
+    if (!eights) {
         for (; b - a >= 16; a += 16)
-            draw_16(k, r, c, block, a, a - start, NULL);
+            draw_16(k, r, c, block, a, a - start, NULL, look);
         if (b - a > 8 && a <= k->x_most) {
-            draw_16(k, r, c, block, a, a - start, lane_masks + 32 - (b - a));
+            draw_16(k, r, c, block, a, a - start, lane_masks + 32 - (b - a), look);
             return;
         }
     }
@@ -549,7 +580,7 @@ SMEAR_AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct r
         before = places;
         for (; j < 8; j++) {
             const int32_t stop = end[j + 1] + (end[j + 1] == last);
-            draw_block(k, r, c, j, end[j], max_i32(end[j], a), min_i32(stop, b), look);
+            draw_block(k, r, c, j, end[j], max_i32(end[j], a), min_i32(stop, b), look, false);
             if (stop >= b)
                 return;
         }
@@ -632,7 +663,7 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
         for (int32_t j = 0; j < count; j++) {
             struct row_lanes r;
             row_start(&r, &k, s, i + j, look);
-            draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], look);
+            draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], look, look != LOOK_NARROW);
         }
     }
 }
