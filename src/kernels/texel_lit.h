@@ -30,8 +30,6 @@ static inline uint32_t lit_texel_reference(const struct texel_lights *k, uint32_
     return pixel_make(0, code[0], code[1], code[2]);
 }
 
-#define LIT_INLINE SMEAR_AVX2_FUNCTION static inline __attribute__((always_inline))
-
 /* Light of eight pixels. Codes: of red and blue (pairs, blue first), then of green, twice. Linear: of red, green and blue, 65536
  * is one. */
 struct lit_light {
@@ -48,13 +46,13 @@ struct lit_lanes {
     struct lit_light light;             /* if even */
 };
 
-LIT_INLINE bool lit_planes_equal(const struct texel_plane *a, const struct texel_plane *b)
+SMEAR_AVX2_INLINE bool lit_planes_equal(const struct texel_plane *a, const struct texel_plane *b)
 {
     return a->at == b->at && a->dx == b->dx && a->dy == b->dy;
 }
 
 /* Codes or light of eight pixels from values as those of struct texel_lights. */
-LIT_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i b, bool linear)
+SMEAR_AVX2_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i b, bool linear)
 {
     if (linear) {
         const __m256i low = _mm256_set1_epi32(0xffff);
@@ -70,7 +68,7 @@ LIT_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i b, bool
                                  _mm256_setzero_si256() } };
 }
 
-LIT_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *l)
+SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *l)
 {
     const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     k->palette = l->palette;
@@ -94,12 +92,12 @@ LIT_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *l)
 }
 
 /* Channel i of eight pixels from x on. */
-LIT_INLINE __m256i lit_channel(const struct lit_lanes *k, int i, int32_t x, int32_t row)
+SMEAR_AVX2_INLINE __m256i lit_channel(const struct lit_lanes *k, int i, int32_t x, int32_t row)
 {
     return _mm256_add_epi32(_mm256_set1_epi32((int32_t)(k->at[i] + k->dx[i] * (uint32_t)x + k->dy[i] * (uint32_t)row)), k->step[i]);
 }
 
-LIT_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32_t x, int32_t row)
+SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32_t x, int32_t row)
 {
     if (k->even)
         return k->light;
@@ -114,7 +112,7 @@ struct lit_pairs {
     __m256i rb, g;
 };
 
-LIT_INLINE struct lit_pairs lit_pairs_of_565(__m256i t)
+SMEAR_AVX2_INLINE struct lit_pairs lit_pairs_of_565(__m256i t)
 {
     const __m256i five = _mm256_set1_epi32(31), red = _mm256_set1_epi32(31 << 16), six = _mm256_set1_epi32(63);
     const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, five), _mm256_and_si256(_mm256_slli_epi32(t, 5), red));
@@ -125,14 +123,14 @@ LIT_INLINE struct lit_pairs lit_pairs_of_565(__m256i t)
     };
 }
 
-LIT_INLINE struct lit_pairs lit_pairs_of_8888(__m256i t)
+SMEAR_AVX2_INLINE struct lit_pairs lit_pairs_of_8888(__m256i t)
 {
     return (struct lit_pairs){ _mm256_and_si256(t, _mm256_set1_epi32(0xff00ff)),
                                _mm256_and_si256(_mm256_srli_epi32(t, 8), _mm256_set1_epi32(255)) };
 }
 
 /* code_times */
-LIT_INLINE __m256i lit_times(__m256i a, __m256i b)
+SMEAR_AVX2_INLINE __m256i lit_times(__m256i a, __m256i b)
 {
     const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), _mm256_set1_epi16(128));
     return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
@@ -140,7 +138,7 @@ LIT_INLINE __m256i lit_times(__m256i a, __m256i b)
 
 /* code_times_linear. The table of light is read from the half before an element on, and not for code 0, whose light is 0; that
  * of codes ends in more than three of 255, so that words are read within it. */
-LIT_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
+SMEAR_AVX2_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
 {
     const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32(code, zero);
     uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
@@ -151,7 +149,7 @@ LIT_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
     return _mm256_and_si256(_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, index, 1), _mm256_set1_epi32(255));
 }
 
-LIT_INLINE struct lit_pairs lit_in_light(const struct lit_lanes *k, struct lit_pairs t, int32_t x, int32_t row)
+SMEAR_AVX2_INLINE struct lit_pairs lit_in_light(const struct lit_lanes *k, struct lit_pairs t, int32_t x, int32_t row)
 {
     if (k->plain)
         return t;
@@ -164,12 +162,12 @@ LIT_INLINE struct lit_pairs lit_in_light(const struct lit_lanes *k, struct lit_p
 }
 
 /* As 0x00RRGGBB, or by rgb565_nearest. */
-LIT_INLINE __m256i lit_wide(struct lit_pairs p)
+SMEAR_AVX2_INLINE __m256i lit_wide(struct lit_pairs p)
 {
     return _mm256_or_si256(p.rb, _mm256_slli_epi32(p.g, 8));
 }
 
-LIT_INLINE __m256i lit_narrow(struct lit_pairs p)
+SMEAR_AVX2_INLINE __m256i lit_narrow(struct lit_pairs p)
 {
     const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, _mm256_set1_epi16(249)), _mm256_set1_epi16(1014)),
                                          11);
@@ -178,7 +176,6 @@ LIT_INLINE __m256i lit_narrow(struct lit_pairs p)
                                        _mm256_set1_epi32(0x7e0));
     return _mm256_or_si256(_mm256_or_si256(_mm256_srli_epi32(rb, 5), g), _mm256_and_si256(rb, _mm256_set1_epi32(31)));
 }
-#undef LIT_INLINE
 
 #endif
 
