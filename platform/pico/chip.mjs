@@ -17,7 +17,7 @@ export { Fault };
 // the next words of the line hide.
 export const MISS = 45;
 
-const GPIO_HI_IN = 0x08, FIFO_ST = 0x50, FIFO_WR = 0x54, FIFO_RD = 0x58, SSI_DR0 = 0x60, SSI_RXFLR = 0x24, SSI_SR = 0x28, SSI_SER = 0x10, QSPI_SS_CTRL = 0x0c;
+const GPIO_IN = 0x04, GPIO_HI_IN = 0x08, FIFO_ST = 0x50, FIFO_WR = 0x54, FIFO_RD = 0x58, SSI_DR0 = 0x60, SSI_RXFLR = 0x24, SSI_SR = 0x28, SSI_SER = 0x10, QSPI_SS_CTRL = 0x0c;
 
 class Bus {
     constructor(chip) {
@@ -138,6 +138,9 @@ class Sio {
         switch (offset) {
         case 0:
             return core;
+        case GPIO_IN:
+            this.chip.on_look?.();
+            break;
         case GPIO_HI_IN:
             return 0x3f;                        // nobody presses BOOTSEL
         case FIFO_ST:

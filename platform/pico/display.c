@@ -28,6 +28,7 @@ static struct {
     int dma;
     volatile unsigned waiting;      /* bands handed to flush and not sent, 0 to 2 */
     smear_band next;                /* with two: the one behind the one that is being sent */
+    unsigned left;                  /* of them, those of a frame that display_show() was told of */
 } bus;
 
 /* ------------------------------------------------------------------ bus */
@@ -143,11 +144,20 @@ static int flush(void *user, const smear_band *band)
     return 0;
 }
 
+static void end_frame(void)
+{
+    drain();
+    if (BOARD(LED) != NO_PIN)
+        gpio_xor_mask(1u << BOARD(LED));
+}
+
 /* The band has left memory; its last bytes are in the bus's queue. */
 static void sent(void)
 {
     dma_channel_acknowledge_irq0((uint)bus.dma);
     smear_band_done(bus.ctx);
+    if (bus.left > 0 && --bus.left == 0)
+        end_frame();
     if (--bus.waiting > 0)
         send(&bus.next);
 }
@@ -250,13 +260,14 @@ void display_attach(smear_context *ctx)
         board_start_core1(work);
 }
 
+/* The frame's last bands are sent while the next frame is prepared. */
 void display_show(void)
 {
-    while (bus.waiting > 0)
-        tight_loop_contents();
-    drain();
-    if (BOARD(LED) != NO_PIN)
-        gpio_xor_mask(1u << BOARD(LED));
+    const uint32_t state = save_and_disable_interrupts();
+    bus.left = bus.waiting;
+    if (bus.left == 0)
+        end_frame();
+    restore_interrupts(state);
 }
 
 /* Somebody may always be looking. */

@@ -6,7 +6,8 @@
 // Text of UART0 goes to standard output; a line "#exit N" ends the run with that status. Options:
 //     --board NAME     the row of boards.h [breakout]
 //     --frames N       ends after N frames on the panel; prints the CRC of each
-//     --keys N:MASK,.. keys (enum display_key) that are held from frame N on
+//     --keys N:MASK,.. keys (enum display_key) that are held from frame N on: when the program has looked at them before the
+//                      first frame, and then N times
 //     --cost FILE      writes what each frame took: cycles of each core, misses of the flash cache, bytes sent
 //     --shot FILE      the panel's last picture, PPM
 //     --profile FILE   by address, of both cores: cycles, instructions, cycles that waited for code from flash
@@ -64,7 +65,7 @@ const panel = new Panel(chip, board);
 
 const keys = (options.keys ?? '').split(',').filter(Boolean).map(pair => pair.split(':').map(Number));
 const wanted = Number(options.frames ?? Infinity), cost = [];
-let frames = 0, status = null, line = '', before = null;
+let frames = 0, looks = 0, status = null, line = '', before = null;
 
 function reading() {
     const [a, b] = chip.cores;
@@ -72,11 +73,17 @@ function reading() {
         instructions: [a.instructions, b.instructions] };
 }
 
-function hold_keys() {
+function hold_keys(frame) {
     for (const [from, mask] of keys)
-        if (from === frames)
+        if (from === frame)
             panel.press(mask);
 }
+
+// A program looks at the keys once before its loop and once for each frame, while the frame before may still be on its way.
+chip.on_look = () => {
+    if (++looks > 2)
+        hold_keys(looks - 2);
+};
 
 panel.on_frame = () => {
     const now = reading();
@@ -88,11 +95,10 @@ panel.on_frame = () => {
     if (options.frames !== undefined)
         console.log(`${frames} ${panel.crc()}`);
     frames++;
-    hold_keys();
     if (frames >= wanted)
         status = 0;
 };
-hold_keys();
+hold_keys(0);
 
 chip.mcu.uart[0].onByte = value => {
     if (value !== 10) {
