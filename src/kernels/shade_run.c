@@ -16,15 +16,20 @@ struct shaded8 {
     lanes8i depth;
 };
 
+static inline SMEAR_AVX2_FUNCTION lanes8 pixels8_of(const struct shade8 *p, bool linear)
+{
+    if (linear)
+        return lanes8_encode(p->r >> 12 & 4095u) << 16 | lanes8_encode(p->g >> 12 & 4095u) << 8 | lanes8_encode(p->b >> 12 & 4095u);
+    return (p->r & 0xff0000u) | (p->g >> 8 & 0xff00u) | (p->b >> 16 & 255u);
+}
+
 static inline SMEAR_AVX2_FUNCTION struct shaded8 shaded8_over(struct shaded8 old, const struct shade8 *p, bool linear)
 {
     const lanes8i code = (lanes8i)(p->z >> 16), seen = code > old.depth;
     if (linear && !lanes8_any((lanes8)seen))
         return old;
-    const lanes8 pixel = linear ? lanes8_encode(p->r >> 12 & 4095u) << 16 | lanes8_encode(p->g >> 12 & 4095u) << 8
-                                      | lanes8_encode(p->b >> 12 & 4095u)
-                                : (p->r & 0xff0000u) | (p->g >> 8 & 0xff00u) | (p->b >> 16 & 255u);
-    return (struct shaded8){ lanes8_choose(seen, pixel, old.color), (lanes8i)_mm256_max_epi32((__m256i)code, (__m256i)old.depth) };
+    return (struct shaded8){ lanes8_choose(seen, pixels8_of(p, linear), old.color),
+                             (lanes8i)_mm256_max_epi32((__m256i)code, (__m256i)old.depth) };
 }
 
 static inline SMEAR_AVX2_FUNCTION struct shaded8 shaded8_of(const uint32_t *color, const uint16_t *depth, const struct shade8 *p,
@@ -110,5 +115,68 @@ SMEAR_AVX2_FUNCTION void smear_shade_run_avx2(uint32_t *color, uint16_t *depth, 
         shade_few(color, depth, n, z, dz, k, true);
     else
         shade_few(color, depth, n, z, dz, k, false);
+}
+
+/* ------------------------------------------------------------------ boxes */
+
+/* rgb565_nearest */
+static inline SMEAR_AVX2_FUNCTION lanes8 pixels8_narrow(lanes8 p)
+{
+    const lanes8 products = lanes8_mul16(p & 0xff00ffu, lanes8_all(0xf900f9u));
+    const lanes8 rb = lanes8_right16(lanes8_add16(products, lanes8_all(0x3f603f6)), 11);
+    const lanes8 g = (lanes8_mul16(p >> 8 & 255u, lanes8_all(253)) + 505u) >> 10;
+    return rb >> 5 | g << 5 | (rb & 31u);
+}
+
+SMEAR_AVX2_INLINE void shade_box_rows(const struct shade_box *b, bool linear, bool narrow)
+{
+    const lanes8 n = lanes8_numbers();
+    struct shade8 p = shade8_make(b->z, b->dz, &b->k, n);
+    lanes8 e0 = lanes8_ramp((uint32_t)b->e[0], (uint32_t)b->e_right[0], n);
+    lanes8 e1 = lanes8_ramp((uint32_t)b->e[1], (uint32_t)b->e_right[1], n);
+    lanes8 e2 = lanes8_ramp((uint32_t)b->e[2], (uint32_t)b->e_right[2], n);
+    const lanes8 down0 = lanes8_all((uint32_t)b->e_down[0]), down1 = lanes8_all((uint32_t)b->e_down[1]);
+    const lanes8 down2 = lanes8_all((uint32_t)b->e_down[2]), z_down = lanes8_all(b->dz_down);
+    const lanes8 r_down = lanes8_all(b->k_down[0]), g_down = lanes8_all(b->k_down[1]), b_down = lanes8_all(b->k_down[2]);
+    uint16_t *depth = b->depth;
+    void *pixels = b->pixels;
+    for (int32_t rows = b->rows; rows > 0; rows--) {
+        const lanes8i old = lanes8i_load_halves(depth), outside = (lanes8i)(e0 | e1 | e2) >> 31;
+        const lanes8i code = (lanes8i)(p.z >> 16) & ~outside, seen = code > old;
+        if (lanes8_any((lanes8)seen)) {
+            const struct shaded8 out = { pixels8_of(&p, linear), (lanes8i)_mm256_max_epi32((__m256i)code, (__m256i)old) };
+            _mm_storeu_si128((__m128i *)(void *)depth, shaded8_depths(&out));
+            if (narrow) {
+                const __m256i half = (__m256i)pixels8_narrow(out.color), nearer = (__m256i)seen;
+                const __m128i color = _mm_packus_epi32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
+                const __m128i mask = _mm_packs_epi32(_mm256_castsi256_si128(nearer), _mm256_extracti128_si256(nearer, 1));
+                __m128i *const to = (__m128i *)pixels;
+                _mm_storeu_si128(to, _mm_blendv_epi8(_mm_loadu_si128(to), color, mask));
+            } else {
+                lanes8_store((uint32_t *)pixels, lanes8_choose(seen, out.color, lanes8_load((uint32_t *)pixels)));
+            }
+        }
+        depth += b->stride;
+        pixels = pixel_after(pixels, b->stride, narrow);
+        e0 += down0;
+        e1 += down1;
+        e2 += down2;
+        p.z += z_down;
+        p.r += r_down;
+        p.g += g_down;
+        p.b += b_down;
+    }
+}
+
+SMEAR_AVX2_FUNCTION void smear_shade_box_avx2(const struct shade_box *b)
+{
+    if (b->narrow && b->linear)
+        shade_box_rows(b, true, true);
+    else if (b->narrow)
+        shade_box_rows(b, false, true);
+    else if (b->linear)
+        shade_box_rows(b, true, false);
+    else
+        shade_box_rows(b, false, false);
 }
 #endif

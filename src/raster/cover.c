@@ -9,6 +9,7 @@
 
 #include "kernels/edge_walk.h"
 #include "kernels/flat_run.h"
+#include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/span.h"
 #include "raster/texture_rows.h"
@@ -513,6 +514,38 @@ static void cover_small(const struct setup *s, const struct pixel_box *box, smea
     }
 }
 
+#if SMEAR_AVX2 && SMEAR_WITH_GOURAUD
+/* Draws one with colours of vertices by a kernel; false where that does not do. The kernel's columns begin where all of them lie
+ * in the target: those beside the box have no covered centres. */
+static bool cover_small_shaded(const struct setup *s, const struct pixel_box *box)
+{
+    const struct smear_raster_target *t = s->target;
+    const int32_t rows = box->bottom - box->top, ring_row = t->window_rows.ring_row + (box->top - t->y0);
+    if (s->flat || !segment_gouraud(s->segment) || segment_textured(s->segment) || s->perspective_color || s->slope == SLOPE_BOTH
+        || s->writes_velocity || !draw_is_opaque(s->draw) || fog_of(s) != FOG_NONE || t->x1 - t->x0 < SHADE_BOX
+        || ring_row + rows > t->window_rows.ring || !smear_has_avx2())
+        return false;
+    const int32_t x = min_i32(max_i32(box->left, t->x0), t->x1 - SHADE_BOX), y = box->top;
+    const int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0;
+    struct tiny_edges e;
+    edges_start(&e, s, s->x1 * s->y2 - s->x2 * s->y1, x, y);
+    struct shade_box b = {
+        .pixels = target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, .depth = t->depth + at,
+        .stride = t->window_rows.stride, .rows = rows, .z = code_from_units(plane_at(&s->depth, x, y), s->slope),
+        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .e = { e.e0, e.e1, e.e2 }, .e_right = { e.right0, e.right1, e.right2 }, .e_down = { e.down0, e.down1, e.down2 },
+        .linear = frame_is_linear(s->frame), .narrow = target_is_direct(t)
+    };
+    for (int i = 0; i < 3; i++) {
+        b.k.c[i] = (uint32_t)plane_at(&s->channel[i], x, y);
+        b.k.d[i] = (uint32_t)s->channel[i].dx;
+        b.k_down[i] = (uint32_t)s->channel[i].dy;
+    }
+    smear_shade_box_avx2(&b);
+    return true;
+}
+#endif
+
 /* ------------------------------------------------------------------ any triangle */
 
 void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
@@ -540,6 +573,10 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
             return;
         }
     }
+#endif
+#if SMEAR_AVX2 && SMEAR_WITH_GOURAUD
+    if (small && cover_small_shaded(s, box))
+        return;
 #endif
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
