@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_rows.c - places of eight blocks at once, then sixteen pixels of a block, or eight. */
-#include "kernels/texel_rows.h"
+#include "kernels/texel_lanes.h"
 
 #if SMEAR_AVX2
 
@@ -85,71 +85,12 @@ void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct 
 
 /* ------------------------------------------------------------------ pixels */
 
-/* Loads a number from memory wherever it is used: compilers would make it anew, in two or three instructions. */
-SMEAR_AVX2_INLINE __m256i lanes_of(int32_t a)
-{
-    __m256i lanes = _mm256_set1_epi32(a);
-    __asm__("" : "+x"(lanes));
-    return lanes;
-}
-
-/* What all pixels of a triangle have in common. */
-struct texel_lanes {
-    const void *texels;
-    __m256i u_down, v_down, v_mask;     /* an index, or of narrow texels that of a pair: v >> down & mask | u >> down */
-    __m256i odd_down, half;             /* u >> down & 16: of the texels of a pair, the second */
-    int32_t x_most, x_most8;            /* where the last sixteen columns begin, the last eight */
-    void *color;
-    uint16_t *depth;
-    ptrdiff_t stride;
-    bool narrow;
-    struct lit_lanes lit;
-};
-
-/* A row. */
-struct row_lanes {
-    int32_t row;
-    void *color;                        /* of pixel 0 */
-    uint16_t *depth;
-    uint32_t z, dz;
-    __m256i evens, eight;               /* i dz for i = 0 2 .. 14 if texels are copied to narrow pixels, and 0 .. 7 */
-};
-
 /* Coordinates of a block's pixel 0, and how they change. */
 struct block_lanes {
     int32_t u[8], v[8], du[8], dv[8], ddu[8], ddv[8];
 };
 
-/* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn. */
-enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT };
-
-SMEAR_AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
-{
-    return look == LOOK_LIT ? k->narrow : look == LOOK_NARROW;
-}
-
-SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, enum look look)
-{
-    const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look == LOOK_NARROW;
-    k->texels = t->texels;
-    k->narrow = t->narrow;
-    if (look == LOOK_LIT)
-        lit_start(&k->lit, t->lights);
-    k->u_down = _mm256_set1_epi32(32 - t->log2_width + pairs);
-    k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
-    k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));
-    k->odd_down = _mm256_set1_epi32(28 - t->log2_width);
-    k->half = lanes_of(16);
-    k->x_most = t->x1 - 16;
-    k->x_most8 = t->x1 - 8;
-    k->color = t->color;
-    k->depth = t->depth;
-    k->stride = t->stride;
-}
-
 SMEAR_AVX2_INLINE __m256i evens_of_16(void) { return _mm256_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14); }
-SMEAR_AVX2_INLINE __m256i first_8(void) { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
-
 SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i,
                                  enum look look)
 {
@@ -163,18 +104,6 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
     r->eight = _mm256_mullo_epi32(first_8(), dz);
     if (look == LOOK_NARROW)
         r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
-}
-
-/* Texels' indices, or those of pairs. */
-SMEAR_AVX2_INLINE __m256i lanes_index(const struct texel_lanes *k, __m256i u, __m256i v)
-{
-    return _mm256_or_si256(_mm256_srlv_epi32(u, k->u_down),
-                           _mm256_and_si256(_mm256_srlv_epi32(v, k->v_down), k->v_mask));
-}
-
-SMEAR_AVX2_INLINE __m256i lanes_gather(const struct texel_lanes *k, __m256i index)
-{
-    return _mm256_i32gather_epi32((const int *)k->texels, index, 4);
 }
 
 /* a + i da + i (i - 1) / 2 dda. */
@@ -244,68 +173,6 @@ SMEAR_AVX2_INLINE void draw_narrow_16(const struct texel_lanes *k, const struct 
                                           _mm256_andnot_si256(_mm256_srlv_epi32(u1, k->odd_down), k->half));
     const __m256i texels = _mm256_blend_epi16(even, odd, 0xaa);
     _mm256_storeu_si256(color, _mm256_blendv_epi8(texels, _mm256_loadu_si256(color), hidden));
-}
-
-/* Takes the lower halves of eight words. */
-SMEAR_AVX2_INLINE __m128i lower_halves(__m256i a)
-{
-    return _mm_packus_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
-}
-
-/* The first of a pair of narrow texels in the lower half, or the second. */
-SMEAR_AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
-{
-    return _mm256_srlv_epi32(pairs, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
-}
-
-/* Eight texels in their light. */
-SMEAR_AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v)
-{
-    const __m256i index = lanes_index(k, u, v);
-    struct lit_pairs t;
-    if (k->lit.format == SMEAR_TEXEL_565) {
-        t = lit_pairs_of_565(lanes_of_pairs(k, lanes_gather(k, index), u));
-    } else if (k->lit.format == SMEAR_TEXEL_8888) {
-        t = lit_pairs_of_8888(lanes_gather(k, index));
-    } else {
-        const __m256i bits = _mm256_and_si256(_mm256_slli_epi32(index, 3), _mm256_set1_epi32(24));
-        const __m256i byte = _mm256_srlv_epi32(lanes_gather(k, _mm256_srli_epi32(index, 2)), bits);
-        t = lit_pairs_of_8888(_mm256_i32gather_epi32((const int *)(const void *)k->lit.palette,
-                                                     _mm256_and_si256(byte, _mm256_set1_epi32(255)), 4));
-    }
-    return lit_in_light(&k->lit, t, x, r->row);
-}
-
-SMEAR_AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
-{
-    __m256i_u *const color = (__m256i_u *)((uint32_t *)r->color + x);
-    _mm256_storeu_si256(color, _mm256_blendv_epi8(pixels, _mm256_loadu_si256(color), _mm256_cvtepi16_epi32(hidden)));
-}
-
-/* Upper halves are 0. */
-SMEAR_AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
-{
-    __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
-    _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(pixels), _mm_loadu_si128(color), hidden));
-}
-
-/* Writes eight pixels with these coordinates where they are not hidden. */
-SMEAR_AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v, __m128i hidden,
-                             enum look look)
-{
-    if (look == LOOK_LIT) {
-        const struct lit_pairs p = lit_8(k, r, x, u, v);
-        if (k->narrow)
-            put_narrow_8(r, x, lit_narrow(p), hidden);
-        else
-            put_wide_8(r, x, lit_wide(p), hidden);
-        return;
-    }
-    const __m256i texels = lanes_gather(k, lanes_index(k, u, v));
-    if (look == LOOK_NARROW)
-        put_narrow_8(r, x, _mm256_blend_epi16(lanes_of_pairs(k, texels, u), _mm256_setzero_si256(), 0xaa), hidden);
-    else
-        put_wide_8(r, x, texels, hidden);
 }
 
 /* Tests eight depths from x on, of which those of a mask are drawn. Which are hidden; false if all. */

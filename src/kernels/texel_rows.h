@@ -4,6 +4,7 @@
 #define SMEAR_KERNELS_TEXEL_ROWS_H
 
 #include "kernels/avx2.h"
+#include "kernels/span_side.h"
 #include "kernels/texel_lit.h"
 #include "kernels/texel_places.h"
 #include "kernels/texel_run.h"
@@ -52,6 +53,18 @@ struct texel_curves {
 
 void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p);
 void smear_texel_rows_curves_avx2(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p);
+
+/* Rows of a triangle one below the other, from row 0 on, that lie in columns [x0, x1) where there are any; columns are below 2^15.
+ * Depth codes 16.16 at column 0 are z + row dz_down. */
+struct texel_sides {
+    const struct span_side *side;
+    int32_t count;
+    uint32_t z, dz, dz_down;
+};
+
+/* The same of whole rows: columns of eight pixels are stepped down, which takes half the instructions where rows are short. */
+void smear_texel_columns_reference(const struct texel_rows *t, const struct texel_sides *s, const struct texel_curves *p);
+void smear_texel_columns_avx2(const struct texel_rows *t, const struct texel_sides *s, const struct texel_curves *p);
 
 #endif
 

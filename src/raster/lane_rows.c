@@ -138,11 +138,31 @@ static struct texel_curve curve_from(const struct curve *c)
                                  (uint32_t)c->dxx, (uint32_t)c->dxy, (uint32_t)c->dyy };
 }
 
+/* Draws whole rows by columns. */
+SMEAR_INLINE void draw_columns(const struct setup *s, const struct span_rows *r, const struct texel_curves *p, bool lit)
+{
+    const struct texel_sides sides = {
+        r->side, r->count, code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
+        (uint32_t)step_from_units(s->depth.dx, s->slope), (uint32_t)step_from_units(s->depth.dy, s->slope)
+    };
+    struct texel_rows t;
+    struct texel_lights lights;
+    texel_rows_start(&t, s, r);
+    if (lit) {
+        lights_start(&lights, s, r->y);
+        t.lights = &lights;
+    }
+    smear_texel_columns_avx2(&t, &sides, p);
+}
+
 SMEAR_INLINE void curves_draw(const struct setup *s, const struct span_rows *r, bool lit)
 {
     const struct texture_setup *t = &s->texture;
     const struct texel_curves p = { t->x0, t->y0 - r->y, curve_from(&t->curve[0]), curve_from(&t->curve[1]) };
-    draw_rows(s, r, &p, draw_curves, lit);
+    if (rows_are_whole(s, r))
+        draw_columns(s, r, &p, lit);
+    else
+        draw_rows(s, r, &p, draw_curves, lit);
 }
 
 static void lane_places(const struct setup *s, const struct span_rows *r) { places_draw(s, r, false); }

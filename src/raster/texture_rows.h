@@ -6,6 +6,7 @@
 #include "raster/span.h"
 
 #include "kernels/avx2.h"
+#include "kernels/span_side.h"
 
 /* Flat colours and copied texels in rows of their own: twice to four times as
  * fast, of the same bits, and 3.4 kB larger. */
@@ -19,11 +20,6 @@
 
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 16 };
-
-struct span_side {
-    int32_t left, right;        /* as the frame shows them; there may be none */
-    int32_t edge;               /* right, wherever that is */
-};
 
 struct span_rows {
     int32_t y, count;

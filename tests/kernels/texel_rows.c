@@ -116,7 +116,32 @@ static void call_curves(struct kernel_call *c, enum texels texels,
     draw(&t, &s, &p);
 }
 
-#define CALLS(FORM, PLACES, CURVES) \
+/* Rows of the same memory once more: those of a triangle lie in columns that may be written. */
+static void call_columns(struct kernel_call *c, enum texels texels,
+                         void draw(const struct texel_rows *, const struct texel_sides *, const struct texel_curves *))
+{
+    struct span_side side[SPANS];
+    const struct texel_curves p = {
+        (int32_t)(c->word[SHAPE] & 255u), 3,
+        { c->word[U], c->word[DU], c->word[Q], c->word[DQ], c->word[SLOPE], c->word[SEED] },
+        { c->word[V] | 8u, c->word[DV] & ~15u, c->word[U] & ~15u, c->word[SEED] & ~15u, c->word[DU] & ~15u, c->word[Q] & ~15u }
+    };
+    const struct texel_sides sides = { side, SPANS, c->word[Z], c->word[DZ], c->word[SLOPE] };
+    struct texel_rows t;
+    struct texel_lights lights;
+    struct texel_spans s;
+    rows_make(&t, c, texels, &lights);
+    spans_make(&s, c);
+    for (int i = 0; i < SPANS; i++)     /* some have none */
+        side[i] = (struct span_side){ s.a[i], (s.z[i] & 7u) == 0 ? s.a[i] - 20 : s.b[i], s.right[i] };
+    draw(&t, &sides, &p);
+}
+
+#define CALLS(FORM, PLACES, CURVES, COLUMNS) \
+    static void wide_columns_##FORM(struct kernel_call *c) { call_columns(c, WIDE, COLUMNS); } \
+    static void narrow_columns_##FORM(struct kernel_call *c) { call_columns(c, NARROW, COLUMNS); } \
+    static void lit_columns_##FORM(struct kernel_call *c) { call_columns(c, LIT, COLUMNS); } \
+    static void lit_narrow_columns_##FORM(struct kernel_call *c) { call_columns(c, LIT_NARROW, COLUMNS); } \
     static void wide_places_##FORM(struct kernel_call *c) { call_places(c, WIDE, PLACES); } \
     static void narrow_places_##FORM(struct kernel_call *c) { call_places(c, NARROW, PLACES); } \
     static void lit_places_##FORM(struct kernel_call *c) { call_places(c, LIT, PLACES); } \
@@ -137,8 +162,13 @@ static void curves(const struct texel_rows *t, const struct texel_spans *s, cons
     (smear_has_avx2() ? smear_texel_rows_curves_avx2 : smear_texel_rows_curves_reference)(t, s, p);
 }
 
-CALLS(reference, smear_texel_rows_places_reference, smear_texel_rows_curves_reference)
-CALLS(avx2, places, curves)
+static void columns(const struct texel_rows *t, const struct texel_sides *s, const struct texel_curves *p)
+{
+    (smear_has_avx2() ? smear_texel_columns_avx2 : smear_texel_columns_reference)(t, s, p);
+}
+
+CALLS(reference, smear_texel_rows_places_reference, smear_texel_rows_curves_reference, smear_texel_columns_reference)
+CALLS(avx2, places, curves, columns)
 
 #define KERNEL(NAME, CALL, SIZE) \
     { .name = NAME, .least = TEXEL_ROWS_LEAST, .most = 67, .size = { SIZE, 2, 4, 4 }, .prepare = prepare, .timed = 240, \
@@ -156,5 +186,9 @@ const struct kernel kernels_texel_rows[] = {
     KERNEL("texel_rows_curves (narrow)", narrow_curves, 2),
     KERNEL("texel_rows_curves (lit)", lit_curves, 4),
     KERNEL("texel_rows_curves (lit, narrow)", lit_narrow_curves, 2),
+    KERNEL("texel_columns", wide_columns, 4),
+    KERNEL("texel_columns (narrow)", narrow_columns, 2),
+    KERNEL("texel_columns (lit)", lit_columns, 4),
+    KERNEL("texel_columns (lit, narrow)", lit_narrow_columns, 2),
     { .name = NULL }
 };
