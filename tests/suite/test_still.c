@@ -5,6 +5,8 @@
 #include "tests/rig.h"
 #include "tests/test.h"
 
+#include <pthread.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -278,7 +280,9 @@ static int put_band(void *user, const smear_band *band)
 static bool display_begin(struct display *d, smear_desc desc, int buffers)
 {
     *d = (struct display){ .buffers = buffers };
-    bool ok = rig_begin(&d->all, &desc, false);
+    smear_desc alone = desc;
+    alone.workers = 1;
+    bool ok = rig_begin(&d->all, &alone, false);
     desc.flush = put_band;
     desc.reuse.buffer_age = (uint8_t)buffers;
     ok = rig_begin(&d->sends, &desc, false) && ok;
@@ -442,6 +446,86 @@ static void test_the_display_is_right_after_other_methods_and_failures(void)
     }
 }
 
+enum { SQUARES = 12, CORNERS = SQUARES + 1 };
+
+/* Squares beside each other, of side 1 / SQUARES of the mesh that it stands for. */
+static smear_mesh grid_of(smear_transform *pose)
+{
+    static int16_t corner[CORNERS * CORNERS * 3];
+    static uint16_t side[SQUARES * SQUARES * 6];
+    for (int y = 0; y < CORNERS; y++)
+        for (int x = 0; x < CORNERS; x++) {
+            corner[3 * (y * CORNERS + x)] = (int16_t)((2 * x - SQUARES) * 256);
+            corner[3 * (y * CORNERS + x) + 1] = (int16_t)((2 * y - SQUARES) * 256);
+        }
+    for (int i = 0; i < SQUARES * SQUARES; i++) {
+        const int from = i / SQUARES * CORNERS + i % SQUARES;
+        const int four[6] = { from, from + 1, from + CORNERS + 1, from, from + CORNERS + 1, from + CORNERS };
+        for (int k = 0; k < 6; k++)
+            side[6 * i + k] = (uint16_t)four[k];
+    }
+    for (int k = 0; k < 9; k++)
+        pose->basis[k] /= SQUARES;
+    return (smear_mesh){ .position = corner, .vertex_count = CORNERS * CORNERS, .index = side,
+                         .triangle_count = SQUARES * SQUARES * 2 };
+}
+
+enum { CORE_FRAMES = 14 };
+
+struct core {
+    smear_context *ctx;
+    int number;
+    pthread_t thread;
+};
+
+static void *core_main(void *argument)
+{
+    const struct core *core = argument;
+    for (int i = 0; i < CORE_FRAMES; i++)
+        smear_work(core->ctx, core->number);
+    return NULL;
+}
+
+static void yield(void *user)
+{
+    (void)user;
+    sched_yield();
+}
+
+/* So many triangles that cores assemble parts of them; in the end some that moved stand still. */
+static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
+{
+    for (int workers = 2; workers <= 5; workers++)
+        for (int buffers = 1; buffers <= 2; buffers++) {
+            struct display d;
+            struct set s;
+            set_up(&s, buffers == 2 ? SMEAR_SUBFRAMES : SMEAR_AUTO);
+            s.material[FLOOR].texture = NULL;
+            s.mesh[FLOOR] = grid_of(&s.pose[FLOOR]);
+            smear_desc desc = desc_of(workers == 5 ? 500 : 2000, true);
+            desc.workers = (uint8_t)workers;
+            desc.idle = yield;
+            if (display_begin(&d, desc, buffers)) {
+                struct core core[8];
+                for (int i = 1; i < workers; i++) {
+                    core[i] = (struct core){ .ctx = d.sends.ctx, .number = i };
+                    CHECK_EQ(pthread_create(&core[i].thread, NULL, core_main, &core[i]), 0);
+                }
+                for (int i = 0; i < CORE_FRAMES; i++) {
+                    move_on(&s, i < 10 ? i : 9);
+                    if (i == 12)
+                        s.mesh[MOVER] = grid_of(&s.pose[MOVER]);
+                    const uint32_t kept = shown(&d, &s);
+                    if (i > 1 + buffers && i < 10)
+                        CHECK(kept >= 8);
+                }
+                for (int i = 1; i < workers; i++)
+                    pthread_join(core[i].thread, NULL);
+            }
+            display_end(&d);
+        }
+}
+
 void suite_still(void)
 {
     RUN(test_pictures_are_the_same_and_the_still_layer_is_drawn_once);
@@ -454,5 +538,6 @@ void suite_still(void)
     RUN(test_what_creeps_is_sent_all_the_same);
     RUN(test_what_creeps_stays_behind_what_came_before_it);
     RUN(test_the_display_is_right_after_other_methods_and_failures);
+    RUN(test_cores_assemble_parts_of_what_a_display_is_sent);
     RUN(test_only_contexts_with_temporal_methods_reuse);
 }
