@@ -43,7 +43,7 @@ export LOOPS_FRAMES := 144
 export LOOPS_KEYS   := 22:16,23:0,28:16,29:0,80:8,81:0,100:4,101:0,104:4,105:0,110:8,111:0,120:32,121:0,123:32,124:0
 
 # Chooses again what lies in RAM: HOT_BYTES of the functions that win most there, by profiles of blurred and of sharp frames, of
-# which the latter count twice: both cores share them best where none waits for flash. With more, 200 kB do not hold the demo.
+# which the latter count four times: both cores share them best where none waits for flash. With more, 200 kB do not hold the demo.
 HOT_BYTES ?= 36400
 
 .PHONY: pico-hot
@@ -55,5 +55,5 @@ pico-hot: build/demo/props.c
 	for kind in 0:0 1:16; do \
 	    $(RUN) --exact 1 --frames 5 --keys $$kind --profile $(BUILD)/hot/$$kind $(BUILD)/hot/build/demo.elf show $(DEMO_SCREEN) || exit 1; \
 	done
-	sh platform/pico/hot.sh $(BUILD)/hot/build/demo.elf $(HOT_BYTES) $(BUILD)/hot/0:0 $(BUILD)/hot/1:16 $(BUILD)/hot/1:16 > $(BUILD)/hot/hot.ld
+	sh platform/pico/hot.sh $(BUILD)/hot/build/demo.elf $(HOT_BYTES) $(BUILD)/hot/0:0 $(foreach n,1 2 3 4,$(BUILD)/hot/1:16) > $(BUILD)/hot/hot.ld
 	mv $(BUILD)/hot/hot.ld platform/pico/hot.ld
