@@ -123,13 +123,13 @@ static SMEAR_NOINLINE void color_point(const struct batch *b, struct smear_trian
         point->color = smear_assemble_face(b, triangle, back);
 }
 
-SMEAR_AVX2_INLINE struct smear_triangle *add_point(struct assemble8 *s, const struct smear_points *points, int n, uint32_t k)
+SMEAR_AVX2_INLINE struct smear_triangle *add_point(struct assemble8 *s, const struct smear_points8 *points, int n, uint32_t k)
 {
     return ends_add(s, s->opaque + points->row[n][k], _mm_loadu_si128((const __m128i *)(const void *)points->entry[n][k]));
 }
 
 /* Adds triangle k, whose indices are the given ones: as one or two points if `points` has it, else to the list. */
-SMEAR_AVX2_INLINE void add_one(struct assemble8 *s, const struct smear_triangles8 *eight, const struct smear_points *points,
+SMEAR_AVX2_INLINE void add_one(struct assemble8 *s, const struct smear_triangles8 *eight, const struct smear_points8 *points,
                                uint32_t k, const uint16_t *corner, const struct triangles_setup *setup, uint32_t triangle,
                                uint32_t color)
 {
@@ -169,7 +169,7 @@ static uint32_t only_damaged(const struct batch *b, const struct smear_triangles
 
 /* Adds those of eight triangles whose bits `all` has. Returns false where there is no room. */
 SMEAR_AVX2_INLINE bool add_some(struct assemble8 *s, const struct places *r, const struct smear_triangles8 *eight,
-                                const struct smear_points *points, const uint32_t color[8], const uint16_t *index,
+                                const struct smear_points8 *points, const uint32_t color[8], const uint16_t *index,
                                 uint32_t triangle, uint32_t all)
 {
     if (assembler_has_damage(s->b->a))
@@ -232,7 +232,7 @@ SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct p
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
     struct smear_triangles8 eight;
-    struct smear_points points = { .first = 0 };
+    struct smear_points8 points = { .first = 0 };
     uint32_t color[8];
     __builtin_memset(color, 0xff, sizeof color);
     struct assemble8 s;

@@ -76,7 +76,7 @@ static inline SMEAR_AVX2_FUNCTION uint32_t places_avx2(struct smear_place out[8]
     place_vertices8(&xy, &yz, v);
     const lanes8i w = place_row8_of(&rows->row[2], xy, yz), zeros = lanes8i_zeros(w);
     const lanes8i down = 21 - zeros, shift = zeros + s->depth_shift;
-    const lanes8i left_out = (w < s->near_distance) | (w > s->far_distance) | (down < 1) | (shift > PLACES_UP_MOST);
+    const lanes8i left_out = (w < s->near_distance) | (w > s->far_distance) | (down < 1) | (shift > (int32_t)PLACES_UP_MOST);
     const uint32_t found = lanes8i_signs(left_out) ^ 255u;
     const lanes8i r = (lanes8i)lanes8_recip_norm(lanes8_left((lanes8)w, zeros));
     const lanes8 half = lanes8_left(lanes8_all(1), down - 1);

@@ -7,7 +7,7 @@
 #include "kernels/triangles8.h"
 
 /* Pixels of tiny triangles that cover one or two centres. */
-struct smear_points {
+struct smear_points8 {
     uint32_t first, second;             /* bit k: triangle k has that pixel; elements of others are undefined */
     uint32_t row[2][8];                 /* the tile row it is in */
     uint32_t entry[2][8][4];            /* x and y in halves; depth code, below 0xffff; 0; the triangle's colour */
@@ -20,11 +20,11 @@ struct points_setup {
 };
 
 /* Finds the pixels of those of eight triangles that are seen, tiny, and cover no more than two centres. */
-typedef void points_fn(struct smear_points *out, const struct smear_triangles8 *t, const uint32_t color[8],
+typedef void points_fn(struct smear_points8 *out, const struct smear_triangles8 *t, const uint32_t color[8],
                        const struct points_setup *s);
 
 /* Makes a pixel of triangle k of the centre that bit i of `covered` stands for. */
-static inline void point_make(struct smear_points *out, int n, int k, const struct smear_triangles8 *t, int i, uint32_t color,
+static inline void point_make(struct smear_points8 *out, int n, int k, const struct smear_triangles8 *t, int i, uint32_t color,
                               uint32_t row_recip)
 {
     const struct tiny_scale scale = tiny_scale_make(t->area[k]);
@@ -41,7 +41,7 @@ static inline void point_make(struct smear_points *out, int n, int k, const stru
     out->w2[n][k] = w2;
 }
 
-static inline void points_reference(struct smear_points *out, const struct smear_triangles8 *t, const uint32_t color[8],
+static inline void points_reference(struct smear_points8 *out, const struct smear_triangles8 *t, const uint32_t color[8],
                                     const struct points_setup *s)
 {
     out->first = out->second = 0;
@@ -79,7 +79,7 @@ SMEAR_AVX2_INLINE lanes8 points8_weight(const struct points8 *p, lanes8 e)
 SMEAR_AVX2_INLINE lanes8 points8_times(lanes8 a, lanes8 w) { return (lanes8)((lanes8i)a >> 16) * w + ((a & 0xffffu) * w >> 16); }
 
 /* Makes the n-th pixels: `at` is 1 for the one on the right, 2 for the one below, or both. */
-static inline SMEAR_AVX2_FUNCTION void points8_make(struct smear_points *out, int n, const struct smear_triangles8 *t,
+static inline SMEAR_AVX2_FUNCTION void points8_make(struct smear_points8 *out, int n, const struct smear_triangles8 *t,
                                                     const struct points8 *p, lanes8 at, const struct points_setup *s)
 {
     const lanes8 right = (lanes8)((lanes8i)(at << 31) >> 31), down = (lanes8)((lanes8i)(at << 30) >> 31);
@@ -97,7 +97,7 @@ static inline SMEAR_AVX2_FUNCTION void points8_make(struct smear_points *out, in
 }
 
 /* In scene D of the peers it takes 30 instructions a pixel where one after the other they take 130. */
-static inline SMEAR_AVX2_FUNCTION void points_avx2(struct smear_points *out, const struct smear_triangles8 *t,
+static inline SMEAR_AVX2_FUNCTION void points_avx2(struct smear_points8 *out, const struct smear_triangles8 *t,
                                                    const uint32_t color[8], const struct points_setup *s)
 {
     const lanes8 covered = lanes8_load(t->covered);

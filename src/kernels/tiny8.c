@@ -6,6 +6,7 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
+#include "kernels/tiny_weights.h"
 
 
 /* An element for each triangle. Pairs of halves have the first in the lower one. */
@@ -39,12 +40,6 @@ SMEAR_AVX2_INLINE __m256i v8_of(const int32_t *p, __m256i triangle) { return _mm
 /* All ones where a is not less than b, as numbers without a sign. */
 SMEAR_AVX2_INLINE __m256i v8_at_least(__m256i a, __m256i b) { return _mm256_cmpeq_epi32(_mm256_max_epu32(a, b), a); }
 SMEAR_AVX2_INLINE __m256i v8_fits_half(__m256i a) { return _mm256_cmpeq_epi32(_mm256_srai_epi32(_mm256_slli_epi32(a, 16), 16), a); }
-
-SMEAR_AVX2_INLINE __m256i v8_mulh(__m256i a, __m256i b)
-{
-    const __m256i even = _mm256_mul_epi32(a, b), odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32));
-    return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
-}
 
 /* ------------------------------------------------------------------ triangles */
 
@@ -186,8 +181,8 @@ SMEAR_AVX2_INLINE __m256i tiny8_make_texture(struct tiny8 *s, const struct tiny8
     good =
         _mm256_and_si256(good, _mm256_and_si256(v8_at_least(twice, v8_add(to1, eighth)), v8_at_least(twice, v8_add(to2, eighth))));
     const __m256i recip = tiny8_recip_of(s->q, s->zeros_q, s->seed_q), up = v8_sub(v8_load(s->zeros_q), v8_all(1));
-    const __m256i e1 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to1, up), recip), 13);
-    const __m256i e2 = _mm256_srai_epi32(v8_mulh(_mm256_sllv_epi32(to2, up), recip), 13);
+    const __m256i e1 = _mm256_srai_epi32((__m256i)lanes8i_mulh((lanes8i)_mm256_sllv_epi32(to1, up), (lanes8i)recip), 13);
+    const __m256i e2 = _mm256_srai_epi32((__m256i)lanes8i_mulh((lanes8i)_mm256_sllv_epi32(to2, up), (lanes8i)recip), 13);
     v8_store(s->e, v8_pair(e1, e2));
     const __m256i curve = v8_range(e1, e2), square = _mm256_srli_epi32(_mm256_mullo_epi32(curve, curve), 15),
                   limit = v8_all(1 << 12);
@@ -321,13 +316,8 @@ SMEAR_AVX2_INLINE __m256i tiny8_weights_at(const struct tiny8 *s, __m256i triang
     return _mm256_add_epi16(_mm256_add_epi16(high, high), _mm256_srli_epi16(_mm256_mullo_epi16(e, recip), 15));
 }
 
-/* The nearest depth code of units q11: tiny_code. */
-SMEAR_AVX2_INLINE __m256i tiny8_code_of(__m256i units)
-{
-    const __m256i far = _mm256_srli_epi32(v8_add(units, v8_all(0x400)), 11);
-    const __m256i near = _mm256_srli_epi32(v8_add(units, v8_all((int32_t)(((32768u - 2048u) << 15) + 0x4000u))), 15);
-    return _mm256_blendv_epi8(near, far, _mm256_cmpgt_epi32(v8_all(32768 << 11), units));
-}
+/* The nearest depth code of units q11. */
+SMEAR_AVX2_INLINE __m256i tiny8_code_of(__m256i units) { return (__m256i)tiny_code8((lanes8)units); }
 
 SMEAR_AVX2_INLINE __m256i tiny8_code_at(const struct tiny8 *s, __m256i triangle, __m256i weight, bool fifteen)
 {

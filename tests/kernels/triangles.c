@@ -94,7 +94,7 @@ static uint32_t sum_up_eight(uint32_t sum, const struct smear_triangles8 *t)
     return sum;
 }
 
-static uint32_t sum_up_points(uint32_t sum, const struct smear_points *p)
+static uint32_t sum_up_points(uint32_t sum, const struct smear_points8 *p)
 {
     sum = (sum * 31u + p->first) * 31u + p->second;
     for (int n = 0; n < 2; n++)
@@ -112,7 +112,7 @@ static void many_eights(struct kernel_call *c, triangles8_fn *look, points_fn *f
     const uint32_t color[8] = { 1, 2, 3, 4, 5, 6, 7, 0xffffffffu };
     struct fours f;
     struct smear_triangles8 t;
-    struct smear_points p;
+    struct smear_points8 p;
     uint32_t seed = c->word[SEED], sum = 0, found = 0;
     for (int i = 0; i < FOURS; i++) {
         make(&f, &seed);
@@ -167,7 +167,7 @@ SMEAR_AVX2_FUNCTION static void look_by_avx2(struct smear_triangles8 *out, const
     triangles8_avx2(out, place, index, s);
 }
 
-SMEAR_AVX2_FUNCTION static void find_by_avx2(struct smear_points *out, const struct smear_triangles8 *t, const uint32_t color[8],
+SMEAR_AVX2_FUNCTION static void find_by_avx2(struct smear_points8 *out, const struct smear_triangles8 *t, const uint32_t color[8],
                                              const struct points_setup *s)
 {
     points_avx2(out, t, color, s);
