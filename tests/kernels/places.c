@@ -5,7 +5,7 @@
 
 #include "tests/kernels/kernels.h"
 
-enum { ROW = 0, SHIFT = 9, NEAR, FAR };
+enum { ROW = 0, SHIFT = 9, NEAR, FAR, CLOSE = 6 };
 
 static void prepare(struct kernel_call *c)
 {
@@ -27,6 +27,10 @@ static void make(struct place_setup *s, int32_t m[3][4], const struct kernel_cal
         for (int j = 0; j < 3; j++)
             m[r][j] = (int32_t)c->word[ROW + 3 * r + j] & ~3;
         m[r][3] = r < 2 ? m[r][0] >> 2 : (int32_t)(c->word[ROW + 6] >> 7 | 1u << 21);
+    }
+    if ((c->word[CLOSE] & 3u) == 0) {       /* as close as may be, all of them */
+        m[2][0] = m[2][1] = m[2][2] = 0;
+        m[2][3] = (int32_t)(c->word[CLOSE] >> 2 & 1u ? c->word[NEAR] : 1u + (c->word[CLOSE] >> 3) % 8192u);
     }
     *s = (struct place_setup){ (const int32_t(*)[4])m, (int32_t)c->word[NEAR], (int32_t)c->word[FAR], 0x2aaaaaaa,
                                (int32_t)c->word[SHIFT] - 26, 4096, 1 << 27, 160 << 8, 120 << 8 };

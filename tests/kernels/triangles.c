@@ -22,16 +22,22 @@ static uint32_t next(uint32_t *seed)
 
 static void make(struct fours *f, uint32_t *seed)
 {
-    const uint32_t bits = 7 + next(seed) % 14u, flags = next(seed) >> 8;
+    const uint32_t bits = 2 + next(seed) % 19u, flags = next(seed) >> 8;
     const int32_t x = (int32_t)(next(seed) % 5000u) * 16, y = (int32_t)(next(seed) % 5000u) * 16;
     for (int i = 0; i < VERTICES; i++) {
         struct smear_screen *s = &f->place[i].screen;
         const uint32_t mask = (1u << bits) - 1u;
         const uint32_t coarse = (flags & 8u) != 0 ? 127u : 0u;       /* edges go through centres of pixels */
         *s = (struct smear_screen){ x + (int32_t)(next(seed) & mask & ~coarse), y + (int32_t)(next(seed) & mask & ~coarse), 0 };
+        if ((flags & 0x1c00u) == 0) {           /* about the corners of two by two pixels */
+            s->x = x + (int32_t)(next(seed) >> 4 & 1u) * 440 + (int32_t)(next(seed) & 63u);
+            s->y = y + (int32_t)(next(seed) >> 4 & 1u) * 440 + (int32_t)(next(seed) & 63u);
+        }
         s->depth = (int32_t)(next(seed) % 0x7ffffffu >> (flags >> 5 & 3u) * 3u) + 4096;
         if (i > 0 && (flags & 512u) != 0)       /* even ones */
             s->depth = f->place[0].screen.depth + (s->depth >> 12);
+        if (i > 0 && (flags & 0x6000u) == 0)    /* and just even */
+            s->depth = f->place[0].screen.depth + (next(seed) & 256u ? f->place[0].screen.depth >> 5 : 0);
         f->place[i].first = place_first(s->x, s->y);
     }
     for (int i = 0; i < 24; i++)
