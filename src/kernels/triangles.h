@@ -64,7 +64,7 @@ static inline void triangle_cover(struct smear_triangles *out, int k, const stru
     }
 }
 
-static inline bool edge_is_far(int32_t d) { return d > TRIANGLES_EDGE_MOST || d <= -TRIANGLES_EDGE_MOST - 1; }
+static inline bool edge_is_far(int32_t d) { return d > TRIANGLES_EDGE_MOST || d < -TRIANGLES_EDGE_MOST - 1; }
 
 /* Looks at triangle k; false where it is not seen. */
 static inline bool triangle_look(struct smear_triangles *out, int k, const struct smear_place *const p[3],
