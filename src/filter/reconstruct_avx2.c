@@ -254,7 +254,7 @@ SMEAR_AVX2_INLINE lanes8 lanes_mean(const struct lanes_taps *s, bool linear)
 SMEAR_AVX2_INLINE lanes8 lanes_gather(const struct lanes_tile *t, const struct lanes_direction *top, const struct lanes_motion *m,
                                       struct lanes_depth *own, lanes8 pixel, int32_t x, int32_t y, lanes8 noise)
 {
-    struct lanes_taps s = { (lanes8i)own->code, m->background, m->over, m->slow, .weight = lanes8_all(0) };
+    struct lanes_taps s = { .near_code = (lanes8i)own->code, .background = m->background, .over = m->over, .fence = m->slow };
     const lanes8i offset = ((lanes8i)noise - 32768) * top->spacing >> 16, shift = top->length * offset;
     const lanes8i x20 = ((lanes8i_numbers() + x) << 20) + (1 << 19), y20 = lanes8i_all((y << 20) + (1 << 19));
     const struct lanes_place base = { x20 + top->x * offset, y20 + top->y * offset };

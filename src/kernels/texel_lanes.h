@@ -9,7 +9,7 @@
 #if SMEAR_AVX2
 
 /* Loads a number from memory wherever it is used: compilers would make it anew, in two or three instructions. */
-SMEAR_AVX2_INLINE __m256i lanes_of(int32_t a)
+SMEAR_AVX2_INLINE __m256i texels_all(int32_t a)
 {
     __m256i lanes = _mm256_set1_epi32(a);
     __asm__("" : "+x"(lanes));
@@ -57,7 +57,7 @@ SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_row
     k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
     k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));
     k->odd_down = _mm256_set1_epi32(28 - t->log2_width);
-    k->half = lanes_of(16);
+    k->half = texels_all(16);
     k->x_most = t->x1 - 16;
     k->x_most8 = t->x1 - 8;
     k->color = t->color;

@@ -290,15 +290,15 @@ SMEAR_AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_p
     k->up = _mm_cvtsi32_si128(p->up);
     k->divided = p->divided;
     k->parabolic = p->parabolic;
-    k->least_q = lanes_of(1 << 11);
-    k->exponent = lanes_of(158);
-    k->first_up = lanes_of(157);
-    k->seed = lanes_of(255);
-    k->half = lanes_of(16);
-    k->low = lanes_of(0xffff);
-    k->one = lanes_of(INT32_MIN);
-    k->turns = lanes_of(~255);
-    k->center = lanes_of(128);
+    k->least_q = texels_all(1 << 11);
+    k->exponent = texels_all(158);
+    k->first_up = texels_all(157);
+    k->seed = texels_all(255);
+    k->half = texels_all(16);
+    k->low = texels_all(0xffff);
+    k->one = texels_all(INT32_MIN);
+    k->turns = texels_all(~255);
+    k->center = texels_all(128);
 }
 
 SMEAR_AVX2_INLINE __m256i plane_lanes_at(const struct plane_lanes *p, __m256i x, __m256i row)

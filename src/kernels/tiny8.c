@@ -408,9 +408,9 @@ SMEAR_AVX2_INLINE struct tiny8_looks tiny8_texel_looks(__m256i t, const struct t
                                      _mm256_and_si256(_mm256_srli_epi32(t, 8), v8_all(255)) };
     const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, v8_all(31)), _mm256_slli_epi32(_mm256_srli_epi32(t, 11), 16));
     const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), v8_all(63));
-    return (
-        struct tiny8_looks){ _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6),
-                             _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(g, v8_all(259)), v8_all(33)), 6) };
+    const __m256i rb8 = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6);
+    const __m256i g8 = _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(g, v8_all(259)), v8_all(33)), 6);
+    return (struct tiny8_looks){ rb8, g8 };
 }
 
 SMEAR_AVX2_INLINE __m256i tiny8_light_at(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
