@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [edges] [targets FILE...]
+ *     bench [peers] [defaults] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [edges] [targets FILE...]
  *     bench chart [options]
  *     bench promise [options]
  *
- * Without arguments, the first nine. `targets` reads what target_bench printed, from files named
+ * Without arguments, all but `targets`. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "kernels/avx2.h"
@@ -30,6 +30,8 @@ bool group_take(const char *group, int index, struct take *out)
         return filters_take(index, out);
     if (strcmp(group, "blur") == 0)
         return blur_take(index, out);
+    if (strcmp(group, "defaults") == 0)
+        return defaults_take(index, out);
     if (strcmp(group, "edges") == 0)
         return edges_take(index, out);
     if (strcmp(group, "chart") == 0)
@@ -45,9 +47,9 @@ struct report {
 };
 
 static const struct report reports[] = {
-    { "peers", peers_report }, { "accuracy", accuracy_report }, { "methods", methods_report },
-    { "filters", filters_report }, { "threads", threads_report }, { "memory", memory_report },
-    { "formats", formats_report }, { "blur", blur_report }, { "edges", edges_report },
+    { "peers", peers_report }, { "defaults", defaults_report }, { "accuracy", accuracy_report },
+    { "methods", methods_report }, { "filters", filters_report }, { "threads", threads_report },
+    { "memory", memory_report }, { "formats", formats_report }, { "blur", blur_report }, { "edges", edges_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

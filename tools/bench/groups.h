@@ -16,5 +16,6 @@ bool threads_take(int index, struct take *out);
 bool filters_take(int index, struct take *out);
 bool blur_take(int index, struct take *out);
 bool edges_take(int index, struct take *out);
+bool defaults_take(int index, struct take *out);
 
 #endif
