@@ -7,6 +7,7 @@
 #define SMEAR_KERNELS_PIXEL_ROWS_H
 
 #include "base/pixel.h"
+#include "kernels/avx2.h"
 #include "kernels/kernels.h"
 
 /* ------------------------------------------------------------------ levels */
@@ -99,9 +100,19 @@ void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, en
 /* Stores eight pixels a round. */
 void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
 #endif
+#if SMEAR_AVX2
+/* Stores sixteen pixels a round, in two fifths of the instructions. */
+void smear_row_nearest_avx2(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
+#endif
 
 static inline void row_nearest(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        smear_row_nearest_avx2(out, in, n, format);
+        return;
+    }
+#endif
 #ifdef __OPTIMIZE_SIZE__
     row_nearest_reference(out, in, n, format);
 #elif SMEAR_VECTORS
@@ -145,10 +156,21 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
 void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                int32_t mask, enum row_16bit format);
 #endif
+#if SMEAR_AVX2
+/* Stores sixteen pixels a round; mask is 7 or 31. */
+void smear_row_dithered_avx2(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                             int32_t mask, enum row_16bit format);
+#endif
 
 static inline void row_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                 int32_t mask, enum row_16bit format)
 {
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        smear_row_dithered_avx2(out, in, n, x, threshold, mask, format);
+        return;
+    }
+#endif
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     smear_row_dithered_vector(out, in, n, x, threshold, mask, format);
 #else

@@ -31,6 +31,13 @@ static void nearest_vector(struct kernel_call *c)
     smear_row_nearest_vector(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
 }
 #endif
+
+#if SMEAR_AVX2
+static void nearest_avx2(struct kernel_call *c)
+{
+    smear_row_nearest_avx2(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
+}
+#endif
 #endif
 
 static void prepare_dithered(struct kernel_call *c)
@@ -62,6 +69,14 @@ static void dithered_vector(struct kernel_call *c)
                               (enum row_16bit)c->word[LAYOUT]);
 }
 
+#if SMEAR_AVX2
+static void dithered_avx2(struct kernel_call *c)
+{
+    smear_row_dithered_avx2(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
+                            (enum row_16bit)c->word[LAYOUT]);
+}
+#endif
+
 /* Thresholds of any kind, 32 of them. */
 static const uint8_t *many_thresholds(const struct kernel_call *c)
 {
@@ -88,6 +103,14 @@ static void blue_vector(struct kernel_call *c)
     smear_row_dithered_vector(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], many_thresholds(c), 31,
                               (enum row_16bit)c->word[LAYOUT]);
 }
+
+#if SMEAR_AVX2
+static void blue_avx2(struct kernel_call *c)
+{
+    smear_row_dithered_avx2(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], many_thresholds(c), 31,
+                            (enum row_16bit)c->word[LAYOUT]);
+}
+#endif
 #endif
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. */
@@ -134,6 +157,9 @@ const struct kernel kernels_pixel_rows[] = {
 #if SMEAR_VECTORS
                 { "vector", nearest_vector },
 #endif
+#if SMEAR_AVX2
+                { "avx2", nearest_avx2 },
+#endif
 #endif
       } },
     { .name = "row_dithered", .most = 67, .size = { 2, 4 }, .prepare = prepare_dithered,
@@ -143,11 +169,18 @@ const struct kernel kernels_pixel_rows[] = {
 #if SMEAR_VECTORS
                 { "vector", dithered_vector },
 #endif
+#if SMEAR_AVX2
+                { "avx2", dithered_avx2 },
+#endif
 #endif
       } },
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     { .name = "row_dithered_blue", .most = 67, .size = { 2, 4 }, .prepare = prepare_blue,
-      .form = { { "reference", blue_reference }, { "vector", blue_vector } } },
+      .form = { { "reference", blue_reference }, { "vector", blue_vector },
+#if SMEAR_AVX2
+                { "avx2", blue_avx2 },
+#endif
+      } },
 #endif
     { .name = "row_l4", .most = 67, .size = { 1, 4 }, .prepare = prepare_l4,
       .form = { { "reference", l4_reference },
