@@ -8,7 +8,7 @@
 #include "raster/cover.h"
 
 #include "kernels/edge_walk.h"
-#include "kernels/flat_run.h"
+#include "kernels/flat_face.h"
 #include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/span.h"
@@ -427,32 +427,26 @@ static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 }
 
 #if SMEAR_AVX2
-/* The same rows by vectors, whatever cuts them off. */
-static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s)
+/* The same rows by vectors, whatever cuts them off: those of one stretch of the ring after the other. */
+static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct pixel_box *box)
 {
     const struct smear_raster_target *t = s->target;
-    struct sides d;
-    if (!sides_start(&d, s))
-        return;
-    struct flat_rows rows = {
-        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1, .z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope),
-        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
-        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
-    };
-    int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
-    if (ring_row >= t->window_rows.ring)
-        ring_row -= t->window_rows.ring;
-    for (; y < d.end; y += rows.rows) {
-        if (y == knee)
-            knee = sides_part(&d, y);
-        const int32_t at = ring_row * rows.stride - t->window_rows.x0;
-        rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
-        rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
-        rows.depth = t->depth + at;
-        smear_flat_rows_avx2(&rows, &d.left, &d.right);
-        rows.z += rows.dz_down * (uint32_t)rows.rows;
-        ring_row += rows.rows;
-        if (ring_row == t->window_rows.ring)
+    const struct smear_plane_rows *w = &t->window_rows;
+    struct flat_area a = { .stride = w->stride, .x0 = t->x0, .x1 = t->x1, .narrow = target_is_direct(t) };
+    struct flat_face f = { .corner = { s->v[0], s->v[1], s->v[2] }, .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
+                           .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope), .color = target_pixel(t, s->color) };
+    int32_t ring_row = w->ring_row + (box->top - t->y0);
+    if (ring_row >= w->ring)
+        ring_row -= w->ring;
+    for (a.y0 = box->top; a.y0 < box->bottom; a.y0 = a.y1) {
+        const int32_t at = ring_row * w->stride - w->x0;
+        a.y1 = min_i32(a.y0 + min_i32(w->ring - ring_row, FLAT_FACE_ROWS), box->bottom);
+        a.pixels = a.narrow ? (void *)(t->direct + at) : t->color + at;
+        a.depth = t->depth + at;
+        f.z = code_from_units(plane_at(&s->depth, 0, a.y0), s->slope);
+        smear_flat_face_avx2(&a, &f);
+        ring_row += a.y1 - a.y0;
+        if (ring_row == w->ring)
             ring_row = 0;
     }
 }
@@ -466,8 +460,8 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         return;
     }
 #if SMEAR_AVX2
-    if (t->x1 - t->x0 >= FLAT_ROWS_LEAST && smear_has_avx2()) {
-        cover_flat_lanes(s);
+    if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
+        cover_flat_lanes(s, box);
         return;
     }
 #endif

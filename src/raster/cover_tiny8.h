@@ -17,58 +17,6 @@ static inline bool tiny8_suit(const struct smear_raster_target *t)
         && smear_has_avx2();
 }
 
-/* False where the texture's bits are not told by shifts of mesh units. */
-static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sampler *m)
-{
-    if (!m->turns || m->levels != 0)
-        return false;
-    l->texels = m->texels;
-    l->palette = m->palette;
-    l->format = m->format;
-    l->from_u = 15 + m->uv_shift - m->log2_width;
-    l->from_v = l->from_u - m->log2_height;
-    l->mask_u = (1u << m->log2_width) - 1u;
-    l->mask_v = ((1u << m->log2_height) - 1u) << m->log2_width;
-    l->width = (uint32_t)m->width;
-    l->height = (uint32_t)m->height;
-    l->span = ((uint32_t)max_i32(m->width, m->height) << 16 >> m->uv_shift) + 1u;
-    l->uv_shift = m->uv_shift;
-    return l->from_v >= 0;
-}
-
-/* Tells what triangles of a segment have in common. False where they are drawn one by one. */
-static SMEAR_NOINLINE bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *frame,
-                                      const struct smear_raster_target *t, const struct smear_segment *segment)
-{
-    const struct smear_raster_draw *draw = &frame->draw[segment->draw];
-    const struct smear_plane_rows *rows = &t->window_rows;
-    if (!draw_is_opaque(draw) || segment_moves(segment) != 0)
-        return false;
-    l->vertex = bins_vertex(frame->bins, segment, 0);
-    l->color = segment_gouraud(segment) ? segment->color : 0;
-    l->perspective = !segment_flat_depth(segment);
-    l->even = l->perspective && segment_by_vertices(segment);
-    l->linear = frame_is_linear(frame);
-    l->narrow = target_is_direct(t);
-    l->x0 = t->x0;
-    l->y0 = t->y0;
-    l->x1 = t->x1;
-    l->y1 = t->y1;
-    l->at = target_row(rows, t, t->y0) - t->y0 * rows->stride;
-    l->stride = rows->stride;
-    l->most = SMALL_PX;
-    l->kind = segment_gouraud(segment) ? TINY8_SHADED : TINY8_FLAT;
-    if (!segment_textured(segment))
-        return true;
-    l->most = SMALL_TEXTURED_PX;
-    l->white = segment->shade == SHADE_NONE;
-    l->linear = l->linear && !l->white;
-    l->kind = TINY8_LIT;
-    if (l->white && draw->sampler.format == (l->narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
-        l->kind = TINY8_COPIED;
-    return tiny8_texture(l, &draw->sampler);
-}
-
 /* Draws pixels [i, end) that are nearer than what is there. */
 SMEAR_INLINE void tiny8_put_kind(const struct smear_raster_target *t, const struct tiny8_look *l, const struct tiny8_pixels *p,
                                  int32_t i, int32_t end, bool copied, bool narrow)

@@ -318,7 +318,7 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
         }
         if (t->segment != segment) {
             segment = t->segment;
-            suits = tiny8_look(&look, frame, target, &frame->bins->segment[segment]);
+            suits = smear_raster_look(&look, frame, target, &frame->bins->segment[segment]);
         }
         if (suits) {
             head = draw_tiny8(frame, target, head, &look, &moved);
@@ -368,58 +368,3 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
     else
         draw_triangle(frame, target, segment, color, SMEAR_NO_TRIANGLE, v, bounds, &moved);
 }
-
-#if SMEAR_AVX2
-bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                       const struct smear_segment *segment)
-{
-    return !frame_has_fog(frame) && tiny8_suit(target) && tiny8_look(look, frame, target, segment);
-}
-
-/* Makes the pixels of tiny ones, in their order. */
-static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], const struct poses *poses,
-                      uint32_t tiny)
-{
-    struct tiny8_look l = *look;
-    uint16_t vertex[8][4];
-    uint32_t colors[8];
-    int n = 0;
-    for (; tiny != 0; tiny &= tiny - 1, n++) {
-        const int k = __builtin_ctz(tiny);
-        for (int i = 0; i < 3; i++)
-            vertex[n][i] = (uint16_t)((3 * k + i) * POSES_RECORD);
-        colors[n] = color[k];
-    }
-    for (int k = n; k < 8; k++) {
-        __builtin_memcpy(vertex[k], vertex[0], sizeof vertex[0]);
-        colors[k] = colors[0];
-    }
-    l.vertex = poses->record[0][0];
-    smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
-}
-
-void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
-                        const struct poses *poses)
-{
-    struct tiny8_pixels pixels;
-    const uint32_t tiny = look != NULL && (poses->tiny & (poses->tiny - 1)) != 0 ? poses->tiny : 0;    /* one costs less alone */
-    int32_t start = 0, n = 0;
-    if (tiny != 0)
-        make_tiny(&pixels, look, color, poses, tiny);
-    for (uint32_t all = poses->seen; all != 0; all &= all - 1) {
-        const int k = __builtin_ctz(all);
-        if ((tiny >> k & 1u) != 0) {
-            const int32_t from = start, i = n++;
-            start = pixels.end[i];
-            if ((pixels.taken >> i & 1u) != 0) {
-                tiny8_put(target, look, &pixels, from, start);
-                continue;
-            }
-        }
-        const int32_t *const v[3] = { poses->record[k][0], poses->record[k][1], poses->record[k][2] }, *const b = poses->bounds[k];
-        const struct bounds bounds = { b[0], b[1], b[2], b[3] };
-        smear_raster_triangle(frame, target, segment, color[k], v, &bounds);
-    }
-}
-#endif

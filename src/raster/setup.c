@@ -536,10 +536,8 @@ static bool is_flat(struct setup *s)
     return true;
 }
 
-void smear_setup(struct setup *s, uint64_t area)
+static inline void setup_looks(struct setup *s)
 {
-    setup_area(s, area);
-    setup_depth(s);
     s->flat = is_flat(s);
     s->has_velocity = false;
     if (!ALWAYS_FLAT && !s->flat)
@@ -551,3 +549,17 @@ void smear_setup(struct setup *s, uint64_t area)
     if (SMEAR_WITH_TEXTURE && s->segment->uv != 0)
         setup_texture(s);
 }
+
+void smear_setup(struct setup *s, uint64_t area)
+{
+    setup_area(s, area);
+    setup_depth(s);
+    setup_looks(s);
+}
+
+#if SMEAR_AVX2
+void smear_setup_looks(struct setup *s)
+{
+    setup_looks(s);
+}
+#endif

@@ -10,6 +10,7 @@
 
 #include "base/fixmath.h"
 #include "base/tables.h"
+#include "kernels/avx2.h"
 
 struct plane {
     int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
@@ -216,6 +217,11 @@ static inline uint64_t setup_edges(struct setup *s)
 
 /* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */
 void smear_setup(struct setup *s, uint64_t area);
+
+#if SMEAR_AVX2
+/* Does that where edges, the area and the depth plane are known (kernels/planes8.h). */
+void smear_setup_looks(struct setup *s);
+#endif
 
 /* Finds the level of a texture that has some: so many times smaller that there is still a texel for each pixel. Of the whole
  * triangle, so that it is the same in every tile row and band. Then smear_setup_shrink. */

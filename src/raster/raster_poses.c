@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* raster_poses.c - eight triangles at an instant: tiny ones together, edges and depth planes of the others together, too. */
+#include "raster/raster.h"
+
+#include "kernels/flat_face.h"
+#include "kernels/planes8.h"
+#include "raster/cover_tiny8.h"
+
+#if SMEAR_AVX2
+
+/* False where the texture's bits are not told by shifts of mesh units. */
+static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sampler *m)
+{
+    if (!m->turns || m->levels != 0)
+        return false;
+    l->texels = m->texels;
+    l->palette = m->palette;
+    l->format = m->format;
+    l->from_u = 15 + m->uv_shift - m->log2_width;
+    l->from_v = l->from_u - m->log2_height;
+    l->mask_u = (1u << m->log2_width) - 1u;
+    l->mask_v = ((1u << m->log2_height) - 1u) << m->log2_width;
+    l->width = (uint32_t)m->width;
+    l->height = (uint32_t)m->height;
+    l->span = ((uint32_t)max_i32(m->width, m->height) << 16 >> m->uv_shift) + 1u;
+    l->uv_shift = m->uv_shift;
+    return l->from_v >= 0;
+}
+
+/* Tells what triangles of a segment have in common. False where they are drawn one by one. */
+static bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *frame,
+                                      const struct smear_raster_target *t, const struct smear_segment *segment)
+{
+    const struct smear_raster_draw *draw = &frame->draw[segment->draw];
+    const struct smear_plane_rows *rows = &t->window_rows;
+    if (!draw_is_opaque(draw) || segment_moves(segment) != 0)
+        return false;
+    l->vertex = bins_vertex(frame->bins, segment, 0);
+    l->color = segment_gouraud(segment) ? segment->color : 0;
+    l->perspective = !segment_flat_depth(segment);
+    l->even = l->perspective && segment_by_vertices(segment);
+    l->linear = frame_is_linear(frame);
+    l->narrow = target_is_direct(t);
+    l->x0 = t->x0;
+    l->y0 = t->y0;
+    l->x1 = t->x1;
+    l->y1 = t->y1;
+    l->at = target_row(rows, t, t->y0) - t->y0 * rows->stride;
+    l->stride = rows->stride;
+    l->most = SMALL_PX;
+    l->kind = segment_gouraud(segment) ? TINY8_SHADED : TINY8_FLAT;
+    if (!segment_textured(segment))
+        return true;
+    l->most = SMALL_TEXTURED_PX;
+    l->white = segment->shade == SHADE_NONE;
+    l->linear = l->linear && !l->white;
+    l->kind = TINY8_LIT;
+    if (l->white && draw->sampler.format == (l->narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
+        l->kind = TINY8_COPIED;
+    return tiny8_texture(l, &draw->sampler);
+}
+
+bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                       const struct smear_segment *segment)
+{
+    return !frame_has_fog(frame) && tiny8_suit(target) && tiny8_look(look, frame, target, segment);
+}
+
+/* Makes the pixels of tiny ones, in their order. */
+static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], const struct poses *poses,
+                      uint32_t tiny)
+{
+    struct tiny8_look l = *look;
+    uint16_t vertex[8][4];
+    uint32_t colors[8];
+    int n = 0;
+    for (; tiny != 0; tiny &= tiny - 1, n++) {
+        const int k = __builtin_ctz(tiny);
+        for (int i = 0; i < 3; i++)
+            vertex[n][i] = (uint16_t)((3 * k + i) * POSES_RECORD);
+        colors[n] = color[k];
+    }
+    for (int k = n; k < 8; k++) {
+        __builtin_memcpy(vertex[k], vertex[0], sizeof vertex[0]);
+        colors[k] = colors[0];
+    }
+    l.vertex = poses->record[0][0];
+    smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
+}
+
+/* What triangles of an eight have in common. */
+struct eight {
+    const struct smear_raster_frame *frame;
+    const struct smear_raster_target *target;
+    const struct smear_segment *segment;
+    const struct poses *poses;
+    const uint32_t *color;
+    struct planes8 planes;
+    struct flat_area area;          /* where those of one colour are drawn, if they are by flat_face */
+};
+
+static inline enum depth_slope slope_of(const struct planes8 *p, int k)
+{
+    return (p->far >> k & 1u) != 0 ? SLOPE_FAR : (p->near >> k & 1u) != 0 ? SLOPE_NEAR : SLOPE_BOTH;
+}
+
+/* Draws triangle k, which has one colour and lies in one slope of the depth code. */
+static inline void draw_flat(const struct eight *e, int k, uint32_t color, enum depth_slope slope)
+{
+    const struct planes8 *const p = &e->planes;
+    const int32_t (*const v)[POSES_RECORD] = e->poses->record[k];
+    const int32_t units = add_wrap(p->at[k], mul_wrap(p->dy[k], e->area.y0));
+    const struct flat_face face = { { v[0], v[1], v[2] }, code_from_units(units, slope), (uint32_t)step_from_units(p->dx[k], slope),
+                                    (uint32_t)step_from_units(p->dy[k], slope), target_pixel(e->target, color) };
+    smear_flat_face_avx2(&e->area, &face);
+}
+
+/* Draws triangle k; false where its size has it drawn otherwise. */
+static bool draw_known(const struct eight *e, int k)
+{
+    const struct smear_raster_target *const target = e->target;
+    const struct planes8 *const planes = &e->planes;
+    const struct smear_segment *const segment = e->segment;
+    const int32_t *const b = e->poses->bounds[k];
+    const struct pixel_box whole = { (b[0] + 127) >> 8, (b[2] + 127) >> 8, (b[1] + 127) >> 8, (b[3] + 127) >> 8 };
+    const int32_t width = whole.right - whole.left, height = whole.bottom - whole.top;
+    const bool textured = segment_textured(segment);
+    const bool small = max_i32(width, height) <= (textured ? SMALL_TEXTURED_PX : SMALL_PX);
+    if (small && (textured || width * height <= TINY_PIXELS))
+        return false;
+    struct setup s;
+    s.frame = e->frame;
+    s.target = target;
+    s.segment = segment;
+    s.draw = &e->frame->draw[segment->draw];
+    for (int i = 0; i < 3; i++)
+        s.v[i] = e->poses->record[k][i];
+    s.bounds = (struct bounds){ b[0], b[1], b[2], b[3] };
+    s.x1 = planes->x1[k];
+    s.y1 = planes->y1[k];
+    s.x2 = planes->x2[k];
+    s.y2 = planes->y2[k];
+    s.area_recip = planes->area_recip[k];
+    s.area_zeros = planes->area_zeros[k];
+    s.slope = slope_of(planes, k);
+    s.depth = (struct plane){ planes->at[k], planes->dx[k], planes->dy[k] };
+    s.color = e->color[k];
+    s.writes_velocity = s.velocity_unknown = false;
+#if SMEAR_WITH_FOG
+    s.fog = FOG_NONE;
+#endif
+    const struct pixel_box box = { whole.left, whole.right, max_i32(whole.top, target->y0), min_i32(whole.bottom, target->y1) };
+    smear_setup_looks(&s);
+    if (s.flat && e->area.pixels != NULL && s.slope != SLOPE_BOTH)
+        draw_flat(e, k, s.color, s.slope);
+    else
+        smear_cover(&s, &box, small);
+    return true;
+}
+
+/* Makes an eight ready. Flat faces are drawn by a kernel where the target's rows lie one behind the other. */
+static void eight_start(struct eight *e, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                        const struct smear_segment *segment, const uint32_t color[8], const struct poses *poses)
+{
+    const struct smear_plane_rows *const w = &target->window_rows;
+    const int32_t rows = target->y1 - target->y0, at = w->ring_row * w->stride - w->x0;
+    e->frame = frame;
+    e->target = target;
+    e->segment = segment;
+    e->poses = poses;
+    e->color = color;
+    e->area = (struct flat_area){ .stride = w->stride, .x0 = target->x0, .x1 = target->x1, .y0 = target->y0, .y1 = target->y1,
+                                  .narrow = target_is_direct(target) };
+    if (target->x1 - target->x0 >= FLAT_FACE_LEAST && rows <= FLAT_FACE_ROWS && w->ring_row + rows <= w->ring) {
+        e->area.pixels = e->area.narrow ? (void *)(target->direct + at) : target->color + at;
+        e->area.depth = target->depth + at;
+    }
+    smear_planes8_avx2(&e->planes, poses, SLOPE_BREAK);
+}
+
+/* Whether triangles of a segment may be drawn by draw_known. */
+static bool suits(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_segment *segment)
+{
+    return !frame_has_fog(frame) && !target_has_velocity(target) && segment_moves(segment) == 0
+        && !(SMEAR_WITH_BOUNDS && segment_textured(segment) && frame->draw[segment->draw].sampler.levels != 0);
+}
+
+void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
+                        const struct poses *poses)
+{
+    struct tiny8_pixels pixels;
+    struct eight eight;
+    const uint32_t tiny = look != NULL && (poses->tiny & (poses->tiny - 1)) != 0 ? poses->tiny : 0;    /* one costs less alone */
+    const uint32_t alone = suits(frame, target, segment) ? poses->tiny : poses->seen;
+    int32_t start = 0, n = 0;
+    if (tiny != 0)
+        make_tiny(&pixels, look, color, poses, tiny);
+    bool flat = false;
+    if ((poses->seen & ~alone) != 0) {
+        eight_start(&eight, frame, target, segment, color, poses);
+        flat = look != NULL && look->kind == TINY8_FLAT && eight.area.pixels != NULL;
+    }
+    for (uint32_t all = poses->seen; all != 0; all &= all - 1) {
+        const int k = __builtin_ctz(all);
+        if ((tiny >> k & 1u) != 0) {
+            const int32_t from = start, i = n++;
+            start = pixels.end[i];
+            if ((pixels.taken >> i & 1u) != 0) {
+                tiny8_put(target, look, &pixels, from, start);
+                continue;
+            }
+        }
+        if ((alone >> k & 1u) == 0) {
+            if (flat && slope_of(&eight.planes, k) != SLOPE_BOTH) {
+                draw_flat(&eight, k, color[k], slope_of(&eight.planes, k));
+                continue;
+            }
+            if (draw_known(&eight, k))
+                continue;
+        }
+        const int32_t *const v[3] = { poses->record[k][0], poses->record[k][1], poses->record[k][2] }, *const b = poses->bounds[k];
+        const struct bounds bounds = { b[0], b[1], b[2], b[3] };
+        smear_raster_triangle(frame, target, segment, color[k], v, &bounds);
+    }
+}
+
+#endif
