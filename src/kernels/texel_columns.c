@@ -78,12 +78,13 @@ SMEAR_AVX2_INLINE void columns_of(const struct texel_rows *t, const struct texel
                                   enum look look)
 {
     struct texel_lanes k;
+    struct light_lanes blocks;
     int32_t x = INT32_MAX, right = INT32_MIN;
     for (int32_t i = 0; i < s->count; i++) {
         x = min_i32(x, s->side[i].left);
         right = max_i32(right, s->side[i].right);
     }
-    lanes_start(&k, t, look);
+    lanes_start(&k, t, &blocks, look);
     for (; x < right; x += 8) {
         const int32_t first = min_i32(x, k.x_most8);        /* what is drawn again is hidden by itself */
         int32_t i = 0, end = s->count;

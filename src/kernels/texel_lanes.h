@@ -46,13 +46,13 @@ SMEAR_AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look loo
     return look == LOOK_LIT ? k->narrow : look == LOOK_NARROW;
 }
 
-SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, enum look look)
+SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, struct light_lanes *blocks, enum look look)
 {
     const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look == LOOK_NARROW;
     k->texels = t->texels;
     k->narrow = t->narrow;
     if (look == LOOK_LIT)
-        lit_start(&k->lit, t->lights);
+        lit_start(&k->lit, t->lights, blocks);
     k->u_down = _mm256_set1_epi32(32 - t->log2_width + pairs);
     k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
     k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));

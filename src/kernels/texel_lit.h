@@ -5,25 +5,26 @@
 
 #include "base/pixel.h"
 #include "kernels/avx2.h"
-#include "kernels/texel_places.h"
+#include "kernels/light_planes.h"
 
 #if SMEAR_AVX2
 
-/* Texels of any format, and the light on them: red, green and blue of pixel x in a row, q16 codes, or linear light with 8 bits
- * more. */
+/* Texels of any format, and the light on them. Its blocks, if there are any, are those of coordinates that follow chords, or
+ * single pixels of rows that have SHORT_SPAN of them at most. */
 struct texel_lights {
     const uint32_t *palette;
     int format;                         /* smear_texel_format */
     bool linear;
     bool plain;                         /* white: texels keep their codes */
-    struct texel_plane c[3];
+    struct light_planes planes;
 };
 
-static inline uint32_t lit_texel_reference(const struct texel_lights *k, uint32_t t, int32_t x, int32_t row)
+/* light: as light_planes_at() finds it. */
+static inline uint32_t lit_texel_reference(const struct texel_lights *k, uint32_t t, const uint32_t light_of[3])
 {
     uint32_t code[3];
     for (int i = 0; i < 3; i++) {
-        const uint32_t of_texel = t >> (16 - 8 * i) & 255u, light = (uint32_t)texel_plane_at(&k->c[i], x, row);
+        const uint32_t of_texel = t >> (16 - 8 * i) & 255u, light = light_of[i];
         code[i] = k->plain ? of_texel : k->linear ? code_times_linear(of_texel, light >> 8 & 0xffffu)
                                                   : code_times(of_texel, light >> 16 & 255u);
     }
@@ -44,6 +45,7 @@ struct lit_lanes {
     uint32_t at[3], dx[3], dy[3];
     __m256i step[3];                    /* i dx for i = 0 .. 7 */
     struct lit_light light;             /* if even */
+    struct light_lanes *blocks;         /* or null */
 };
 
 SMEAR_AVX2_INLINE bool lit_planes_equal(const struct texel_plane *a, const struct texel_plane *b)
@@ -68,19 +70,23 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i 
                                  _mm256_setzero_si256() } };
 }
 
-SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *l)
+/* `blocks`: where to keep those of a row. */
+SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *lights, struct light_lanes *blocks)
 {
+    const struct light_planes *const l = &lights->planes;
     const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    k->palette = l->palette;
-    k->format = l->format;
-    k->linear = l->linear;
-    k->plain = l->plain;
-    k->even = (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
+    k->palette = lights->palette;
+    k->format = lights->format;
+    k->linear = lights->linear;
+    k->plain = lights->plain;
+    k->blocks = l->block != 0 ? blocks : NULL;
+    blocks->p = l;
+    k->even = l->block == 0 && (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
     k->white = lit_planes_equal(&l->c[0], &l->c[1]) && lit_planes_equal(&l->c[0], &l->c[2]);
     k->light.c[0] = k->light.c[1] = k->light.c[2] = _mm256_setzero_si256();
     if (k->even) {
         k->light = lit_light_from(_mm256_set1_epi32(l->c[0].at), _mm256_set1_epi32(l->c[1].at), _mm256_set1_epi32(l->c[2].at),
-                                  l->linear);
+                                  lights->linear);
         return;
     }
     for (int i = 0; i < (k->white ? 1 : 3); i++) {
@@ -101,6 +107,10 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32
 {
     if (k->even)
         return k->light;
+    if (k->blocks != NULL) {
+        const struct light8 c = light8_at(k->blocks, x);
+        return lit_light_from((__m256i)c.c[0], (__m256i)c.c[1], (__m256i)c.c[2], k->linear);
+    }
     const __m256i r = lit_channel(k, 0, x, row);
     if (k->white)
         return lit_light_from(r, r, r, k->linear);

@@ -6,7 +6,7 @@
 
 /* ------------------------------------------------------------------ references */
 
-static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, uint32_t z, uint64_t uv)
+static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, uint32_t z, uint64_t uv, const uint32_t light[3])
 {
     const ptrdiff_t at = row * t->stride + x;
     void *const color = t->narrow ? (void *)((uint16_t *)t->color + at) : (uint32_t *)t->color + at;
@@ -16,7 +16,7 @@ static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, 
     } else if (z >> 16 > t->depth[at]) {
         const uint32_t index = packed_index(uv, t->log2_width, t->log2_height);
         const uint32_t pixel = lit_texel_reference(
-            t->lights, texel_fetch(t->texels, t->lights->palette, index, t->lights->format), x, row);
+            t->lights, texel_fetch(t->texels, t->lights->palette, index, t->lights->format), light);
         t->depth[at] = (uint16_t)(z >> 16);
         if (t->narrow)
             *(uint16_t *)color = (uint16_t)rgb565_nearest(pixel);
@@ -25,13 +25,16 @@ static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, 
     }
 }
 
-/* Pixels [a, b) of a row, of which `c` are the coordinates of pixel x. */
+/* Pixels [a, b) of a row, of which `c` are the coordinates of pixel x; `single`: the row has no blocks. */
 static void draw_reference(const struct texel_rows *t, const struct texel_spans *s, int32_t i, struct texcoord c, int32_t x,
-                           int32_t a, int32_t b)
+                           int32_t a, int32_t b, bool single)
 {
+    uint32_t light[3] = { 0, 0, 0 };
     for (; x < b; x++) {
+        if (x >= a && t->lights != NULL)
+            light_planes_at(light, &t->lights->planes, s->left[i], s->right[i], single ? 1 : t->lights->planes.block, x, s->row[i]);
         if (x >= a)
-            pixel_reference(t, s->row[i], x, s->z[i] + s->dz[i] * (uint32_t)x, packed_uv(c.u, c.v));
+            pixel_reference(t, s->row[i], x, s->z[i] + s->dz[i] * (uint32_t)x, packed_uv(c.u, c.v), light);
         c.u += c.du;
         c.v += c.dv;
         c.du -= c.curvature_u;
@@ -53,7 +56,7 @@ void smear_texel_rows_places_reference(const struct texel_rows *t, const struct 
             for (int32_t x = s->a[i]; x < s->b[i]; x++) {
                 const struct place here = place_reference(p, x, row);
                 const struct texcoord c = { (uint32_t)here.u << p->up, (uint32_t)here.v << p->up, 0, 0, 0, 0 };
-                draw_reference(t, s, i, c, x, x, x + 1);
+                draw_reference(t, s, i, c, x, x, x + 1, true);
             }
             continue;
         }
@@ -61,7 +64,7 @@ void smear_texel_rows_places_reference(const struct texel_rows *t, const struct 
             n = block_next(p->block, last - x);
             const struct texcoord c = places_between(place_reference(p, x, row), place_reference(p, x + n, row), n, p->up,
                                                      p->parabolic, true);
-            draw_reference(t, s, i, c, x, s->a[i], min_i32(x + n + (x + n == last), s->b[i]));
+            draw_reference(t, s, i, c, x, s->a[i], min_i32(x + n + (x + n == last), s->b[i]), false);
         }
     }
 }
@@ -80,7 +83,7 @@ static struct texcoord curve_reference(const struct texel_curves *p, int32_t col
 void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p)
 {
     for (int32_t i = 0; i < s->count; i++)
-        draw_reference(t, s, i, curve_reference(p, s->a[i], s->row[i]), s->a[i], s->a[i], s->b[i]);
+        draw_reference(t, s, i, curve_reference(p, s->a[i], s->row[i]), s->a[i], s->a[i], s->b[i], false);
 }
 
 /* ------------------------------------------------------------------ pixels */
@@ -104,6 +107,13 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
     r->eight = _mm256_mullo_epi32(first_8(), dz);
     if (look == LOOK_NARROW)
         r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
+}
+
+/* Begins the blocks of light, if there are any. */
+SMEAR_AVX2_INLINE void row_light(const struct texel_lanes *k, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
+{
+    if (look == LOOK_LIT && k->lit.blocks != NULL)
+        light_row(k->lit.blocks, s->left[i], s->right[i], block, s->row[i]);
 }
 
 /* a + i da + i (i - 1) / 2 dda. */
@@ -458,16 +468,19 @@ SMEAR_AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct r
 SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p, enum look look)
 {
     struct texel_lanes k;
+    struct light_lanes blocks;
     struct planes_lanes planes;
     struct block_lanes c;
-    lanes_start(&k, t, look);
+    lanes_start(&k, t, &blocks, look);
     planes_start(&planes, p);
     store_lanes(c.ddu, _mm256_setzero_si256());
     store_lanes(c.ddv, _mm256_setzero_si256());
     for (int32_t i = 0; i < s->count; i++) {
         struct row_lanes r;
+        const bool single = p->block == 1 || s->right[i] - s->left[i] <= SHORT_SPAN;
         row_start(&r, &k, s, i, look);
-        if (p->block == 1 || s->right[i] - s->left[i] <= SHORT_SPAN)
+        row_light(&k, s, i, single ? 1 : p->block, look);
+        if (single)
             row_of_places(&k, &r, &planes, s->row[i], s->a[i], s->b[i], look);
         else
             row_of_blocks(&k, &r, &planes, &c, s, i, p->block, look);
@@ -514,9 +527,10 @@ SMEAR_AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i 
 SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, enum look look)
 {
     struct texel_lanes k;
+    struct light_lanes blocks;
     struct curve_lanes u, v;
     struct block_lanes c;
-    lanes_start(&k, t, look);
+    lanes_start(&k, t, &blocks, look);
     curve_start(&u, &p->u);
     curve_start(&v, &p->v);
     store_lanes(c.ddu, _mm256_add_epi32(u.dxx, u.dxx));
@@ -530,6 +544,8 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
         for (int32_t j = 0; j < count; j++) {
             struct row_lanes r;
             row_start(&r, &k, s, i + j, look);
+            if (look == LOOK_LIT)
+                row_light(&k, s, i + j, t->lights->planes.block, look);
             draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], look, look != LOOK_NARROW);
         }
     }

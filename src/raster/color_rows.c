@@ -6,7 +6,9 @@
 
 #include "kernels/flat_run.h"
 #include "kernels/hidden_run.h"
+#include "kernels/shade_rows.h"
 #include "kernels/shade_run.h"
+#include "raster/lane_spans.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS && (SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG)
@@ -116,74 +118,6 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
     }
 }
 
-#if SMEAR_AVX2
-#define COLORS_INLINE SMEAR_INLINE_ALWAYS SMEAR_AVX2_FUNCTION
-
-/* Planes of red, green and blue, which are value / w, and of depth: in a row, and per pixel. */
-struct color_planes {
-    __m128i at, dx;
-};
-
-COLORS_INLINE __m128i colors_gather(int32_t r, int32_t g, int32_t b, int32_t q) { return _mm_setr_epi32(r, g, b, q); }
-
-COLORS_INLINE struct color_planes color_planes_at(const struct setup *s, int32_t y)
-{
-    const struct plane *const r = &s->channel[0], *const g = &s->channel[1], *const b = &s->channel[2], *const q = &s->depth;
-    const __m128i at = colors_gather(r->at, g->at, b->at, q->at), dy = colors_gather(r->dy, g->dy, b->dy, q->dy);
-    return (struct color_planes){ _mm_add_epi32(at, _mm_mullo_epi32(dy, _mm_set1_epi32(y))), colors_gather(r->dx, g->dx, b->dx, q->dx) };
-}
-
-/* Does what colors_at does without fog. */
-COLORS_INLINE __m128i colors_at_once(const struct color_planes *p, int32_t x)
-{
-    const __m128i here = _mm_add_epi32(p->at, _mm_mullo_epi32(p->dx, _mm_set1_epi32(x)));
-    const uint32_t q = (uint32_t)max_i32(_mm_extract_epi32(here, 3), 1);
-    const int zeros = count_leading_zeros(q);
-    const __m128i over_w = _mm_sll_epi32(_mm_srai_epi32(here, 1), _mm_cvtsi32_si128(zeros - 1));
-    const __m128i recip = _mm_set1_epi32((int32_t)recip_norm(q << zeros));
-    const __m128i even = _mm_mul_epi32(over_w, recip), odd = _mm_mul_epi32(_mm_srli_epi64(over_w, 32), recip);
-    const __m128i value = _mm_srai_epi32(_mm_blend_epi16(_mm_srli_epi64(even, 32), odd, 0xcc), 3);
-    return _mm_max_epi32(_mm_min_epi32(value, _mm_set1_epi32(0xffffff)), _mm_setzero_si128());
-}
-
-/* Does what part_of does. */
-COLORS_INLINE __m128i colors_part(__m128i a, int32_t n)
-{
-    const __m128i part = _mm_set1_epi32(inverse[n]);
-    const __m128i even = _mm_mul_epi32(a, part), odd = _mm_mul_epi32(_mm_srli_epi64(a, 32), part);
-    return _mm_blend_epi16(_mm_srli_epi64(even, 16), _mm_slli_epi64(odd, 16), 0xcc);
-}
-
-/* Does what draw_blocks does without fog: three colours at once, in half the instructions. */
-SMEAR_AVX2_FUNCTION static SMEAR_NOINLINE void draw_blocks_avx2(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
-                                                                int32_t left, int32_t right)
-{
-    const struct color_planes planes = color_planes_at(s, y);
-    const int32_t last = right - 1;
-    int32_t x = block_start(left, last, p->a, s->color_block);
-    __m128i from = colors_at_once(&planes, x);
-    for (;;) {
-        const int32_t n = block_next(s->color_block, last - x), end = x + n + (x + n == last);
-        const int32_t a = max_i32(x, p->a);
-        struct {
-            struct shade shade;
-            uint32_t spare;             /* is written, too */
-        } k;
-        const __m128i to = n > 0 ? colors_at_once(&planes, x + n) : from, step = colors_part(_mm_sub_epi32(to, from), n);
-        if (end > a) {
-            const __m128i first = _mm_add_epi32(from, _mm_mullo_epi32(step, _mm_set1_epi32(a - x)));
-            _mm_storeu_si128((__m128i *)(void *)k.shade.c, first);
-            _mm_storeu_si128((__m128i *)(void *)k.shade.d, step);
-            draw(s, p, at, a, min_i32(end, p->b), &k.shade);
-        }
-        from = to;
-        if (end >= p->b)
-            return;
-        x += n;
-    }
-}
-#endif
-
 /* Pixels [p->a, p->b) from the first that is seen on: those of rows that are hidden need no colours. */
 static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32_t y, const struct span_side *side)
 {
@@ -195,10 +129,6 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
         if (SMEAR_WITH_FOG && fog_row_is_even(s, side->left, side->right))
             draw_flat(s, p->z + p->dz * (uint32_t)p->a, p->dz, at + p->a, p->b - p->a,
                       target_pixel(s->target, smear_fog_row_color(s, side->left, side->right, y)));
-#if SMEAR_AVX2
-        else if (fog_of(s) == FOG_NONE && smear_has_avx2())
-            draw_blocks_avx2(s, p, at, y, side->left, side->right);
-#endif
         else
             draw_blocks(s, p, at, y, side->left, side->right);
         return;
@@ -210,8 +140,46 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
     draw(s, p, at, p->a, p->b, &k);
 }
 
+#if SMEAR_AVX2
+/* All rows together. */
+static SMEAR_NOINLINE void draw_lanes(const struct setup *s, const struct span_rows *r)
+{
+    const struct smear_raster_target *const t = s->target;
+    const bool narrow = target_is_direct(t);
+    struct shade_rows k = { narrow ? (void *)(t->direct + r->at) : t->color + r->at, t->depth + r->at, t->window_rows.stride,
+                            t->x0, t->x1, { .block = s->perspective_color ? s->color_block : 0, .q = plane_from(&s->depth, r->y) },
+                            frame_is_linear(s->frame), narrow };
+    struct texel_spans spans;
+    for (int i = 0; i < 3; i++)
+        k.light.c[i] = plane_from(&s->channel[i], r->y);
+    if (rows_are_plain(s)) {
+        spans_of_rows(&spans, s, r);
+        smear_shade_rows_avx2(&k, &spans);
+        return;
+    }
+    spans.count = 0;
+    for (int32_t row = 0; row < r->count; row++) {
+        struct row_run p = { 0, r->side[row].left, 0, 0 };
+        while (p.b < r->side[row].right && smear_row_run_next(&p, s, r, row, p.b)) {
+            if (spans.count == TEXEL_SPANS) {
+                smear_shade_rows_avx2(&k, &spans);
+                spans.count = 0;
+            }
+            spans_add(&spans, r, row, &p);
+        }
+    }
+    smear_shade_rows_avx2(&k, &spans);
+}
+#endif
+
 void smear_rows_shade(const struct setup *s, const struct span_rows *r)
 {
+#if SMEAR_AVX2
+    if (fog_of(s) == FOG_NONE && s->target->x1 - s->target->x0 >= SHADE_ROWS_LEAST && smear_has_avx2()) {
+        draw_lanes(s, r);
+        return;
+    }
+#endif
     const bool whole = rows_are_whole(s, r);
     int32_t at = r->at;
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {

@@ -60,10 +60,10 @@ static void lights_make(struct texel_lights *l, const struct kernel_call *c)
                                 .linear = (seed >> 28 & 1u) != 0, .plain = seed >> 29 == 0 };
     for (int i = 0; i < 3; i++) {
         const uint32_t word = white ? seed : seed * (uint32_t)(i + 3), step = word * 69069u;
-        l->c[i] = (struct texel_plane){ (int32_t)(word >> 6 & 0xffffffu), 0, 0 };
+        l->planes.c[i] = (struct texel_plane){ (int32_t)(word >> 6 & 0xffffffu), 0, 0 };
         if (!even) {
-            l->c[i].dx = (int32_t)step >> 12;
-            l->c[i].dy = (int32_t)(step << 8) >> 10;
+            l->planes.c[i].dx = (int32_t)step >> 12;
+            l->planes.c[i].dy = (int32_t)(step << 8) >> 10;
         }
     }
 }
