@@ -51,7 +51,7 @@ struct light_lanes {
     lanes8i from[3], step[3];
 };
 
-struct light8 {
+struct planes_light {
     lanes8i c[3];
 };
 
@@ -109,13 +109,13 @@ SMEAR_AVX2_INLINE lanes8i light_channel8(const struct light_lanes *k, int i, lan
 }
 
 /* The colours of eight pixels from x on; of those beyond the row any numbers. */
-SMEAR_AVX2_INLINE struct light8 light8_at(struct light_lanes *k, int32_t x)
+SMEAR_AVX2_INLINE struct planes_light planes_light_at(struct light_lanes *k, int32_t x)
 {
     if (x < k->from_x || x + 7 >= k->until_x)
         light_find(k, x);
     const lanes8i column = lanes8i_all(x - k->left) + lanes8i_numbers(), number = lanes8i_min(column, k->most) >> k->log2_block;
     const lanes8i beyond = column - (number << k->log2_block), at = number - k->first;
-    return (struct light8){ { light_channel8(k, 0, at, beyond), light_channel8(k, 1, at, beyond), light_channel8(k, 2, at, beyond) } };
+    return (struct planes_light){ { light_channel8(k, 0, at, beyond), light_channel8(k, 1, at, beyond), light_channel8(k, 2, at, beyond) } };
 }
 #endif
 

@@ -11,7 +11,7 @@ SMEAR_AVX2_INLINE lanes8 shade_code(lanes8 light)
     return (lanes8)_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, (__m256i)at, 1) & 255u;
 }
 
-SMEAR_AVX2_INLINE lanes8 shades_of(const struct light8 *c, bool linear)
+SMEAR_AVX2_INLINE lanes8 shades_of(const struct planes_light *c, bool linear)
 {
     const lanes8 r = (lanes8)c->c[0], g = (lanes8)c->c[1], b = (lanes8)c->c[2];
     if (linear)
@@ -47,10 +47,10 @@ struct shade_planes {
     lanes8 c[3];
 };
 
-SMEAR_AVX2_INLINE struct light8 shades_at(const struct shade_planes *k, const struct light_planes *p, int32_t x, int32_t row)
+SMEAR_AVX2_INLINE struct planes_light shades_at(const struct shade_planes *k, const struct light_planes *p, int32_t x, int32_t row)
 {
     const uint32_t column = (uint32_t)x, down = (uint32_t)row;
-    return (struct light8){ { (lanes8i)(k->c[0] + lanes8_all((uint32_t)p->c[0].dx * column + (uint32_t)p->c[0].dy * down)),
+    return (struct planes_light){ { (lanes8i)(k->c[0] + lanes8_all((uint32_t)p->c[0].dx * column + (uint32_t)p->c[0].dy * down)),
                               (lanes8i)(k->c[1] + lanes8_all((uint32_t)p->c[1].dx * column + (uint32_t)p->c[1].dy * down)),
                               (lanes8i)(k->c[2] + lanes8_all((uint32_t)p->c[2].dx * column + (uint32_t)p->c[2].dy * down)) } };
 }
@@ -80,7 +80,7 @@ SMEAR_AVX2_INLINE void shade_rows_of(const struct shade_rows *t, const struct te
             const lanes8i old = lanes8i_load_halves(depth + x), seen = code > old;
             if (!lanes8i_any(seen))
                 continue;
-            const struct light8 c = blocks ? light8_at(&light, x) : shades_at(&planes, &t->light, x, row);
+            const struct planes_light c = blocks ? planes_light_at(&light, x) : shades_at(&planes, &t->light, x, row);
             const __m256i most = (__m256i)lanes8i_max(code, old);
             _mm_storeu_si128((__m128i *)(void *)(depth + x), _mm_packus_epi32(_mm256_castsi256_si128(most),
                                                                               _mm256_extracti128_si256(most, 1)));

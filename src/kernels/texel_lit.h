@@ -108,7 +108,7 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32
     if (k->even)
         return k->light;
     if (k->blocks != NULL) {
-        const struct light8 c = light8_at(k->blocks, x);
+        const struct planes_light c = planes_light_at(k->blocks, x);
         return lit_light_from((__m256i)c.c[0], (__m256i)c.c[1], (__m256i)c.c[2], k->linear);
     }
     const __m256i r = lit_channel(k, 0, x, row);

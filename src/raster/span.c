@@ -7,6 +7,7 @@
 #include "base/pixel.h"
 #include "kernels/flat_run.h"
 #include "kernels/linear_runs.h"
+#include "kernels/wrapped_run.h"
 
 /* Loops of their own for what is common. */
 #ifdef __OPTIMIZE_SIZE__
@@ -286,13 +287,7 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
                 *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
         return;
     }
-    for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
-        uint32_t code = z >> 16;
-        if (code > *depth) {
-            *depth = (uint16_t)code;
-            *color = *in & 0xffffffu;
-        }
-    }
+    nearer_run(color, depth, in, n, z, (uint32_t)dz);
 }
 
 /* n colours of a block, in fog. */
