@@ -97,7 +97,7 @@ SMEAR_AVX2_INLINE void light_find(struct light_lanes *k, int32_t at)
     const lanes8i part = (lanes8i)lanes8_gather(inverse, lanes8i_permute(x, next) - x);
     k->first = first;
     k->from_x = first == 0 ? INT32_MIN : start;
-    k->until_x = until >= k->last ? INT32_MAX : until;
+    k->until_x = until >= k->last + (k->block == 1) ? INT32_MAX : until;
     light_find_channel(k, 0, x, next, zeros, recip, part);
     light_find_channel(k, 1, x, next, zeros, recip, part);
     light_find_channel(k, 2, x, next, zeros, recip, part);
@@ -113,9 +113,11 @@ SMEAR_AVX2_INLINE struct planes_light planes_light_at(struct light_lanes *k, int
 {
     if (x < k->from_x || x + 7 >= k->until_x)
         light_find(k, x);
-    const lanes8i column = lanes8i_all(x - k->left) + lanes8i_numbers(), number = lanes8i_min(column, k->most) >> k->log2_block;
+    const lanes8i column = lanes8i_all(x - k->left) + lanes8i_numbers();
+    const lanes8i number = lanes8i_min(column, k->most) >> k->log2_block;
     const lanes8i beyond = column - (number << k->log2_block), at = number - k->first;
-    return (struct planes_light){ { light_channel8(k, 0, at, beyond), light_channel8(k, 1, at, beyond), light_channel8(k, 2, at, beyond) } };
+    const lanes8i r = light_channel8(k, 0, at, beyond), g = light_channel8(k, 1, at, beyond), b = light_channel8(k, 2, at, beyond);
+    return (struct planes_light){ { r, g, b } };
 }
 #endif
 

@@ -50,9 +50,10 @@ struct shade_planes {
 SMEAR_AVX2_INLINE struct planes_light shades_at(const struct shade_planes *k, const struct light_planes *p, int32_t x, int32_t row)
 {
     const uint32_t column = (uint32_t)x, down = (uint32_t)row;
-    return (struct planes_light){ { (lanes8i)(k->c[0] + lanes8_all((uint32_t)p->c[0].dx * column + (uint32_t)p->c[0].dy * down)),
-                              (lanes8i)(k->c[1] + lanes8_all((uint32_t)p->c[1].dx * column + (uint32_t)p->c[1].dy * down)),
-                              (lanes8i)(k->c[2] + lanes8_all((uint32_t)p->c[2].dx * column + (uint32_t)p->c[2].dy * down)) } };
+    const lanes8 r = k->c[0] + lanes8_all((uint32_t)p->c[0].dx * column + (uint32_t)p->c[0].dy * down);
+    const lanes8 g = k->c[1] + lanes8_all((uint32_t)p->c[1].dx * column + (uint32_t)p->c[1].dy * down);
+    const lanes8 b = k->c[2] + lanes8_all((uint32_t)p->c[2].dx * column + (uint32_t)p->c[2].dy * down);
+    return (struct planes_light){ { (lanes8i)r, (lanes8i)g, (lanes8i)b } };
 }
 
 SMEAR_AVX2_INLINE void shade_rows_of(const struct shade_rows *t, const struct texel_spans *s, bool linear, bool narrow, bool blocks)

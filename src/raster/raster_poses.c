@@ -29,7 +29,7 @@ static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sample
 
 /* Tells what triangles of a segment have in common. False where they are drawn one by one. */
 static bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *frame,
-                                      const struct smear_raster_target *t, const struct smear_segment *segment)
+                       const struct smear_raster_target *t, const struct smear_segment *segment)
 {
     const struct smear_raster_draw *draw = &frame->draw[segment->draw];
     const struct smear_plane_rows *rows = &t->window_rows;

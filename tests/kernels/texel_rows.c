@@ -50,14 +50,18 @@ static void spans_make(struct texel_spans *s, const struct kernel_call *c)
     }
 }
 
-/* Light of all kinds: white or not, even or not. */
-static void lights_make(struct texel_lights *l, const struct kernel_call *c)
+/* Light of all kinds: white or not, even or not; with blocks of so many pixels, or none. */
+static void lights_make(struct texel_lights *l, const struct kernel_call *c, int32_t block)
 {
     static const int formats[4] = { SMEAR_TEXEL_8888, SMEAR_TEXEL_565, SMEAR_TEXEL_PALETTE8, SMEAR_TEXEL_565 };
     const uint32_t seed = c->word[SEED];
     const bool white = (seed >> 24 & 1u) != 0, even = (seed >> 25 & 1u) != 0;
     *l = (struct texel_lights){ .palette = (const uint32_t *)c->plane[PALETTE], .format = formats[seed >> 26 & 3u],
                                 .linear = (seed >> 28 & 1u) != 0, .plain = seed >> 29 == 0 };
+    if ((c->word[SHAPE] >> 16 & 1u) != 0) {
+        l->planes.block = block;
+        l->planes.q = (struct texel_plane){ (int32_t)c->word[Q], (int32_t)c->word[DQ], 5 };
+    }
     for (int i = 0; i < 3; i++) {
         const uint32_t word = white ? seed : seed * (uint32_t)(i + 3), step = word * 69069u;
         l->planes.c[i] = (struct texel_plane){ (int32_t)(word >> 6 & 0xffffffu), 0, 0 };
@@ -69,10 +73,10 @@ static void lights_make(struct texel_lights *l, const struct kernel_call *c)
 }
 
 /* Rows all lie in the same memory. */
-static void rows_make(struct texel_rows *t, const struct kernel_call *c, enum texels texels, struct texel_lights *lights)
+static void rows_make(struct texel_rows *t, const struct kernel_call *c, enum texels texels, int32_t block, struct texel_lights *lights)
 {
     const bool narrow = texels == NARROW || texels == LIT_NARROW;
-    lights_make(lights, c);
+    lights_make(lights, c, block);
     *t = (struct texel_rows){
         .texels = c->plane[TEXTURE], .lights = texels >= LIT ? lights : NULL,
         .log2_width = LOG2_WIDTH, .log2_height = LOG2_HEIGHT, .x0 = FIRST, .x1 = FIRST + c->n,
@@ -95,7 +99,7 @@ static void call_places(struct kernel_call *c, enum texels texels,
     struct texel_rows t;
     struct texel_lights lights;
     struct texel_spans s;
-    rows_make(&t, c, texels, &lights);
+    rows_make(&t, c, texels, p.block <= COLOR_BLOCK_MAX ? p.block : 0, &lights);
     spans_make(&s, c);
     draw(&t, &s, &p);
 }
@@ -111,7 +115,7 @@ static void call_curves(struct kernel_call *c, enum texels texels,
     struct texel_rows t;
     struct texel_lights lights;
     struct texel_spans s;
-    rows_make(&t, c, texels, &lights);
+    rows_make(&t, c, texels, 4 << c->word[SEED] % 3u, &lights);
     spans_make(&s, c);
     draw(&t, &s, &p);
 }
@@ -130,7 +134,7 @@ static void call_columns(struct kernel_call *c, enum texels texels,
     struct texel_rows t;
     struct texel_lights lights;
     struct texel_spans s;
-    rows_make(&t, c, texels, &lights);
+    rows_make(&t, c, texels, 0, &lights);
     spans_make(&s, c);
     for (int i = 0; i < SPANS; i++)     /* some have none */
         side[i] = (struct span_side){ s.a[i], (s.z[i] & 7u) == 0 ? s.a[i] - 20 : s.b[i], s.right[i] };

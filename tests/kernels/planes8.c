@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/* planes8.c - how check_kernels calls kernels/planes8.h: eights of random triangles, and one after the other by raster/setup.h,
+ * which is what defines the result. Each call makes many from one number. */
+#include "kernels/planes8.h"
+
+#include "geometry/transform.h"
+#include "raster/setup.h"
+
+#include "tests/kernels/kernels.h"
+
+#if SMEAR_AVX2
+
+enum { EIGHTS = 40, SEED = 0 };
+
+static uint32_t next(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 8 ^ *seed << 24;
+}
+
+static int32_t between(uint32_t *seed, int32_t low, int32_t high)
+{
+    return low + (int32_t)(next(seed) % (uint32_t)(high - low + 1));
+}
+
+static uint64_t area_of(int32_t (*const v)[POSES_RECORD])
+{
+    return (uint64_t)((int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
+}
+
+/* Triangles of any size within the guard band, many of them slivers; depths near the break of their code, or any. */
+static void make(struct poses *p, uint32_t *seed)
+{
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    p->seen = 0;
+    for (int k = 0; k < 8; k++) {
+        const int32_t reach = 1 << between(seed, 2, 19), step = 1 << between(seed, 0, 25);
+        const int32_t middle = (next(seed) & 1u) != 0 ? SLOPE_BREAK : between(seed, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+        for (int i = 0; i < 3; i++)
+            for (int axis = 0; axis < 3; axis++) {
+                int32_t *const out = &p->record[k][i][axis];
+                if (axis == 2)
+                    *out = clamp_i32(middle + between(seed, -step, step), SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+                else
+                    *out = clamp_i32((i == 0 ? between(seed, -3000, 90000) : p->record[k][0][axis]) + between(seed, -reach, reach),
+                                     -guard, guard);
+            }
+        p->seen |= (uint32_t)((int64_t)area_of(p->record[k]) > 0) << k;
+    }
+}
+
+static void one_by_one(struct planes8 *out, const struct poses *p)
+{
+    const struct smear_segment segment = { .shade = SHADE_FLAT };
+    const struct smear_raster_draw draw = { .alpha = SMEAR_OPAQUE };
+    const struct smear_raster_frame frame = { .width = 320, .height = 240 };
+    out->far = out->near = 0;
+    for (int k = 0; k < 8; k++) {
+        if ((p->seen >> k & 1u) == 0)
+            continue;
+        struct setup s = { .frame = &frame, .segment = &segment, .draw = &draw,
+                           .v = { p->record[k][0], p->record[k][1], p->record[k][2] } };
+        smear_setup(&s, setup_edges(&s));
+        out->far |= (uint32_t)(s.slope == SLOPE_FAR) << k;
+        out->near |= (uint32_t)(s.slope == SLOPE_NEAR) << k;
+        out->x1[k] = s.x1;
+        out->y1[k] = s.y1;
+        out->x2[k] = s.x2;
+        out->y2[k] = s.y2;
+        out->area_recip[k] = s.area_recip;
+        out->area_zeros[k] = s.area_zeros;
+        out->at[k] = s.depth.at;
+        out->dx[k] = s.depth.dx;
+        out->dy[k] = s.depth.dy;
+    }
+}
+
+static void by_eight(struct planes8 *out, const struct poses *p) { smear_planes8_avx2(out, p, SLOPE_BREAK); }
+
+static void many(struct kernel_call *c, void (*find)(struct planes8 *, const struct poses *))
+{
+    struct poses poses;
+    struct planes8 p;
+    uint32_t seed = c->word[SEED], sum = 0;
+    for (int i = 0; i < EIGHTS; i++) {
+        make(&poses, &seed);
+        find(&p, &poses);
+        sum = (sum * 31u + (p.far & poses.seen)) * 31u + (p.near & poses.seen);
+        for (int k = 0; k < 8; k++) {
+            const uint32_t of[9] = { (uint32_t)p.x1[k], (uint32_t)p.y1[k], (uint32_t)p.x2[k], (uint32_t)p.y2[k], p.area_recip[k],
+                                     (uint32_t)p.area_zeros[k], (uint32_t)p.at[k], (uint32_t)p.dx[k], (uint32_t)p.dy[k] };
+            for (int j = 0; j < 9 && (poses.seen >> k & 1u) != 0; j++)
+                sum = sum * 31u + of[j];
+        }
+    }
+    c->word[1] = sum;
+}
+
+static void reference(struct kernel_call *c) { many(c, one_by_one); }
+static void by_eights(struct kernel_call *c) { many(c, smear_has_avx2() ? by_eight : one_by_one); }
+#endif
+
+extern const struct kernel kernels_planes8[];
+const struct kernel kernels_planes8[] = {
+#if SMEAR_AVX2
+    /* Each length is another call, whose data are other triangles. */
+    { .name = "planes8 (made, found, summed up)", .least = 8 * EIGHTS - 60, .most = 8 * EIGHTS, .size = { 1 }, .timed = 8 * EIGHTS,
+      .form = { { "one by one", reference }, { "eights", by_eights } } },
+#endif
+    { .name = NULL }
+};
