@@ -127,7 +127,7 @@ SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct flat_ar
     }
 }
 
-/* Half the instructions of flat_rows and of the loops around it. */
+/* A third of the instructions of the loops that call flat_run. */
 SMEAR_AVX2_FUNCTION void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f)
 {
     struct flat_corners c;

@@ -5,7 +5,6 @@
 
 #include "base/pixel.h"
 #include "kernels/avx2.h"
-#include "kernels/edge_walk.h"
 #include "kernels/kernels.h"
 
 /* Pixel i: where its depth code is greater, that is nearer. */
@@ -151,35 +150,5 @@ SMEAR_INLINE void flat_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z,
     flat_run_unrolled(pixels, depth, n, z, dz, color, narrow);
 #endif
 }
-
-/* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
-struct flat_rows {
-    void *pixels;                   /* pixel 0 of the first row, which may lie outside the memory */
-    uint16_t *depth;
-    int32_t stride, rows;           /* pixels from row to row; how many rows */
-    int32_t x0, x1;
-    uint32_t z, dz, dz_down;        /* depth codes 16.16 at that pixel, and their steps */
-    uint32_t color;
-    bool narrow;
-};
-
-/* Draws pixels from one edge to before the other, if there are any, like flat_run. The edges go on by so many rows. */
-static inline void flat_rows_reference(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
-{
-    for (int32_t i = 0; i < r->rows; i++, edge_step(left), edge_step(right)) {
-        const int32_t a = max_i32(edge_pixel(left), r->x0), b = min_i32(edge_pixel(right), r->x1);
-        const int32_t at = i * r->stride + a;
-        if (a < b)
-            flat_run_reference(pixel_after(r->pixels, at, r->narrow), r->depth + at, b - a,
-                               r->z + r->dz_down * (uint32_t)i + r->dz * (uint32_t)a, r->dz, r->color, r->narrow);
-    }
-}
-
-#if SMEAR_AVX2
-/* The same where columns [x0, x1) are FLAT_ROWS_LEAST at least: they may be written as they are. A third of the instructions
- * of flat_run for rows of a few pixels. */
-enum { FLAT_ROWS_LEAST = 32 };
-void smear_flat_rows_avx2(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right);
-#endif
 
 #endif

@@ -61,15 +61,4 @@ void smear_wrapped_run_avx2(uint32_t *out, const struct wrapped_texels *t, const
 void smear_nearer_run_avx2(uint32_t *color, uint16_t *depth, const uint32_t *in, int32_t n, uint32_t z, uint32_t dz);
 #endif
 
-static inline void nearer_run(uint32_t *color, uint16_t *depth, const uint32_t *in, int32_t n, uint32_t z, uint32_t dz)
-{
-#if SMEAR_AVX2
-    if (n >= 8 && smear_has_avx2()) {
-        smear_nearer_run_avx2(color, depth, in, n, z, dz);
-        return;
-    }
-#endif
-    nearer_run_reference(color, depth, in, n, z, dz);
-}
-
 #endif

@@ -287,7 +287,19 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
                 *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
         return;
     }
-    nearer_run(color, depth, in, n, z, (uint32_t)dz);
+#if SMEAR_AVX2
+    if (n >= 8 && smear_has_avx2()) {
+        smear_nearer_run_avx2(color, depth, in, n, z, (uint32_t)dz);
+        return;
+    }
+#endif
+    for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
+        uint32_t code = z >> 16;
+        if (code > *depth) {
+            *depth = (uint16_t)code;
+            *color = *in & 0xffffffu;
+        }
+    }
 }
 
 /* n colours of a block, in fog. */

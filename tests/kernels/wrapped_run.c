@@ -49,7 +49,13 @@ static void nearer_by_reference(struct kernel_call *c)
 
 static void nearer_best(struct kernel_call *c)
 {
-    nearer_run(c->plane[0], c->plane[1], c->plane[2], c->n, c->word[0], c->word[1]);
+#if SMEAR_AVX2
+    if (c->n >= 8 && smear_has_avx2()) {
+        smear_nearer_run_avx2(c->plane[0], c->plane[1], c->plane[2], c->n, c->word[0], c->word[1]);
+        return;
+    }
+#endif
+    nearer_by_reference(c);
 }
 
 extern const struct kernel kernels_wrapped_run[];
