@@ -112,7 +112,8 @@ SMEAR_AVX2_FUNCTION void smear_planes8_avx2(struct planes8 *out, const struct po
     const lanes8i d1 = v1.of[2] - q, d2 = v2.of[2] - q;
     lanes8i dx = gradient8(wide8_cross(d1, y2, d2, y1), (lanes8i)recip, area.zeros);
     lanes8i dy = gradient8(wide8_cross(d2, x1, d1, x2), (lanes8i)recip, area.zeros);
-    const lanes8i gentle = ~((lanes8i_abs(dx) > STEEP) | (lanes8i_abs(dy) > STEEP));
+    const lanes8i steep = lanes8i_all(STEEP);
+    const lanes8i gentle = ~((lanes8i_abs(dx) > steep) | (lanes8i_abs(dy) > steep));
     dx &= gentle;
     dy &= gentle;
     const lanes8 here = (lanes8)q + (lanes8)part8(dx, 128 - (x & 255)) + (lanes8)part8(dy, 128 - (y & 255));

@@ -110,7 +110,7 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
 }
 
 /* Begins the blocks of light, if there are any. */
-SMEAR_AVX2_INLINE void row_light(const struct texel_lanes *k, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
+SMEAR_AVX2_INLINE void texels_row_light(const struct texel_lanes *k, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
 {
     if (look == LOOK_LIT && k->lit.blocks != NULL)
         light_row(k->lit.blocks, s->left[i], s->right[i], block, s->row[i]);
@@ -479,7 +479,7 @@ SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct t
         struct row_lanes r;
         const bool single = p->block == 1 || s->right[i] - s->left[i] <= SHORT_SPAN;
         row_start(&r, &k, s, i, look);
-        row_light(&k, s, i, single ? 1 : p->block, look);
+        texels_row_light(&k, s, i, single ? 1 : p->block, look);
         if (single)
             row_of_places(&k, &r, &planes, s->row[i], s->a[i], s->b[i], look);
         else
@@ -545,7 +545,7 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
             struct row_lanes r;
             row_start(&r, &k, s, i + j, look);
             if (look == LOOK_LIT)
-                row_light(&k, s, i + j, t->lights->planes.block, look);
+                texels_row_light(&k, s, i + j, t->lights->planes.block, look);
             draw_block(&k, &r, &c, j, s->a[i + j], s->a[i + j], s->b[i + j], look, look != LOOK_NARROW);
         }
     }

@@ -9,7 +9,7 @@
 #if SMEAR_AVX2
 
 /* False where the texture's bits are not told by shifts of mesh units. */
-static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sampler *m)
+static inline bool find_look_of_texture(struct tiny8_look *l, const struct smear_sampler *m)
 {
     if (!m->turns || m->levels != 0)
         return false;
@@ -28,8 +28,8 @@ static inline bool tiny8_texture(struct tiny8_look *l, const struct smear_sample
 }
 
 /* Tells what triangles of a segment have in common. False where they are drawn one by one. */
-static bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *frame,
-                       const struct smear_raster_target *t, const struct smear_segment *segment)
+static bool find_look(struct tiny8_look *l, const struct smear_raster_frame *frame, const struct smear_raster_target *t,
+                      const struct smear_segment *segment)
 {
     const struct smear_raster_draw *draw = &frame->draw[segment->draw];
     const struct smear_plane_rows *rows = &t->window_rows;
@@ -57,13 +57,13 @@ static bool tiny8_look(struct tiny8_look *l, const struct smear_raster_frame *fr
     l->kind = TINY8_LIT;
     if (l->white && draw->sampler.format == (l->narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
         l->kind = TINY8_COPIED;
-    return tiny8_texture(l, &draw->sampler);
+    return find_look_of_texture(l, &draw->sampler);
 }
 
 bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        const struct smear_segment *segment)
 {
-    return !frame_has_fog(frame) && tiny8_suit(target) && tiny8_look(look, frame, target, segment);
+    return !frame_has_fog(frame) && tiny8_suit(target) && find_look(look, frame, target, segment);
 }
 
 /* Makes the pixels of tiny ones, in their order. */
