@@ -88,8 +88,8 @@ void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed
 #define PACKED_ASM_ARMV6M SMEAR_ASM_ARMV6M
 #endif
 
-/* Sums are set by the first instant rather than emptied before, where memory is slow and nothing faster adds. */
-#define PACKED_SETS (!SMEAR_VECTORS && !PACKED_ASM_ARMV6M)
+/* Sums are set by the first instant rather than emptied before, where nothing faster adds. */
+#define PACKED_SETS (!SMEAR_VECTORS)
 
 #if PACKED_SETS
 /* Does what smear_packed_add does for sums that are not yet begun, whatever they hold. */

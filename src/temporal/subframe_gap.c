@@ -89,11 +89,6 @@ static inline int32_t pairs_within(int32_t pairs, const int8_t *offset, int32_t 
     return pairs;
 }
 
-/* Pixels of a row from index `at` on, all with the same pairs. */
-struct stretch {
-    int32_t at, n, pairs;
-};
-
 static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
 {
     return i + 1 == gap->pairs ? gap->last : gap->unit;
@@ -105,7 +100,7 @@ static enum gap_cover cover_of(const struct subframes *f, const struct subframe_
 {
     if (f->highest == f->lowest)
         return COVER_NONE;
-    if (f->highest <= f->nearest)
+    if (!SMEAR_VECTORS || f->highest <= f->nearest)         /* one pixel after the other is not told apart further */
         return COVER_FEW;
     return smear_subframe_depths(f, b, GAP_PAIRS_MAX).most > f->nearest ? COVER_ALL : COVER_FEW;
 }
@@ -125,19 +120,19 @@ static const union gap_mean *mean_of(struct gap *gap, const struct subframes *f,
     return mean;
 }
 
-static void average(const struct subframes *f, const struct gap_planes *planes, const struct stretch *s, struct gap *gap,
-                    enum gap_cover cover)
+/* The taps of pixels that have so many pairs, and the mean of them. */
+struct gap_part {
+    int32_t pairs;
+    const union gap_mean *mean;
+    struct gap_taps taps;
+};
+
+static void part_make(struct gap_part *part, struct gap *gap, const struct subframes *f, int32_t pairs)
 {
-    const union gap_mean *mean = mean_of(gap, f, s->pairs);
-    if (sums_light(f)) {
-        const struct gap_pairs taps = { gap->offset, s->pairs, smear_light_most(f->instants) };
-        smear_light_means(planes, s->at, s->n, &taps, &mean->light, cover);
-        return;
-    }
-    const struct gap_taps taps = {
-        { gap->offset, s->pairs, 1 }, gap->unit_log2, pair_weight(gap, s->pairs - 1), &mean->packed
-    };
-    smear_gap_means(planes, s->at, s->n, &taps, cover);
+    const struct gap_pairs at = { gap->offset, pairs, sums_light(f) ? smear_light_most(f->instants) : 1 };
+    part->pairs = pairs;
+    part->mean = mean_of(gap, f, pairs);
+    part->taps = (struct gap_taps){ at, gap->unit_log2, pair_weight(gap, pairs - 1), &part->mean->packed };
 }
 
 /* Averages a box that has one gap: rows, cut where fewer pairs count. */
@@ -146,15 +141,23 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     const struct smear_raster_target *s = &f->t->background;
     const enum gap_cover cover = cover_of(f, b);
     const struct gap_planes planes = { f->work.color, f->work.depth, f->sums, f->nearest };
-    for (int32_t y = b->y0; y < b->y1; y++) {
-        const int32_t row_pairs = pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
-        const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
-        struct stretch stretch = { work_row(f, b, y), 0, 0 };
-        for (int32_t x = b->x0; x < b->x1; x += stretch.n, stretch.at += stretch.n) {
-            const int32_t near = min_i32(x - s->x0, s->x1 - 1 - x);
-            stretch.n = near < reach ? 1 : min_i32(b->x1, s->x1 - reach) - x;
-            stretch.pairs = pairs_within(row_pairs, gap->x, near);
-            average(f, &planes, &stretch, gap, cover);
+    const int32_t last_y = gap->pairs > 0 ? abs_i32(gap->y[gap->pairs - 1]) : 0;
+    struct gap_part part = { .pairs = -1 };
+    int32_t row = work_row(f, b, b->y0);
+    for (int32_t y = b->y0; y < b->y1; y++, row += f->t->pitch) {
+        const int32_t near_y = min_i32(y - s->y0, s->y1 - 1 - y);
+        const int32_t row_pairs = near_y >= last_y ? gap->pairs : pairs_within(gap->pairs, gap->y, near_y);
+        const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0, right = s->x1 - reach;
+        for (int32_t x = b->x0, n; x < b->x1; x += n) {
+            const bool all = x - s->x0 >= reach && x < right;
+            const int32_t pairs = all ? row_pairs : pairs_within(row_pairs, gap->x, min_i32(x - s->x0, s->x1 - 1 - x));
+            n = all ? min_i32(b->x1, right) - x : 1;
+            if (pairs != part.pairs)
+                part_make(&part, gap, f, pairs);
+            if (sums_light(f))
+                smear_light_means(&planes, row + x - b->x0, n, &part.taps.at, &part.mean->light, cover);
+            else
+                smear_gap_means(&planes, row + x - b->x0, n, &part.taps, cover);
         }
     }
 }

@@ -23,42 +23,62 @@ static inline uint32_t squared(uint32_t a, uint32_t b)
     return (uint32_t)(r * r + g * g + u * u);
 }
 
-/* Whether an edge between two pixels moves: what is static must lie behind, else it hides the edge. */
-static inline bool edge_moves(bool moves, uint32_t depth, bool moves_there, uint32_t depth_there)
-{
-    return moves ? moves_there || depth_there < depth : moves_there && depth < depth_there;
-}
+/* Rows of the tiles: pixels at an instant, and what is static behind them. */
+struct pixels {
+    const uint32_t *color, *behind;
+    const uint16_t *depth, *deep;
+};
 
-/* Returns the differences of a row's pixels to those that lie (dx, dy) farther, or nearer where those are not in the
- * tiles. */
-static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t y, int32_t dx, int32_t dy,
-                           uint32_t *moving)
+static inline struct pixels pixels_at(const struct subframes *f, int32_t x, int32_t y)
 {
     const struct smear_raster_target *s = &f->t->background;
-    if (y + dy < s->y0 || y + dy >= s->y1) {
-        dx = -dx;
-        dy = -dy;
-    }
-    if (y + dy < s->y0 || y + dy >= s->y1)
-        return 0;
-    const int32_t first = max_i32(l->x, s->x0 - min_i32(dx, 0)), n = min_i32(l->x1, s->x1 - max_i32(dx, 0)) - first;
-    const int32_t at = (y - s->y0) * f->t->pitch - s->x0 + first, there = dy * f->t->pitch + dx;
-    const int32_t behind = target_row(&s->color_rows, s, y) + first, deep = target_row(&s->window_rows, s, y) + first;
-    const int32_t behind_there = target_row(&s->color_rows, s, y + dy) + dx + first,
-                  deep_there = target_row(&s->window_rows, s, y + dy) + dx + first;
+    const int32_t at = (y - s->y0) * f->t->pitch - s->x0 + x;
+    return (struct pixels){ f->work.color + at, s->color + target_row(&s->color_rows, s, y) + x, f->work.depth + at,
+                            s->depth + target_row(&s->window_rows, s, y) + x };
+}
+
+/* Returns the differences of n pixels to those that lie there. An edge between two of them counts where it moves: what is
+ * static must lie behind, else it hides the edge. */
+static inline uint32_t differences_to(const struct pixels *at, const struct pixels *there, int32_t n, uint32_t *moving)
+{
     uint32_t sum = 0, count = 0;
-    const uint32_t *color = f->work.color + at;
-    const uint16_t *depth = f->work.depth + at;
-    for (int32_t i = 0; i < n; i++, color++, depth++) {
-        const uint32_t here = *color, next = color[there];
-        const bool moves = *depth != s->depth[deep + i] || here != s->color[behind + i];
-        count += moves;
-        if (here != next
-            && edge_moves(moves, *depth, depth[there] != s->depth[deep_there + i] || next != s->color[behind_there + i],
-                          depth[there]))
-            sum += squared(here, next);
+    for (int32_t i = 0; i < n; i++) {
+        const uint32_t here = at->color[i], next = there->color[i], depth = at->depth[i];
+        if (depth != at->deep[i] || here != at->behind[i]) {
+            count++;
+            if (here == next)
+                continue;
+            const uint32_t beyond = there->depth[i];
+            if (beyond >= depth && beyond == there->deep[i] && next == there->behind[i])
+                continue;
+        } else if (here == next || there->depth[i] <= depth
+                   || (there->depth[i] == there->deep[i] && next == there->behind[i])) {
+            continue;
+        }
+        sum += squared(here, next);
     }
     *moving += count;
+    return sum;
+}
+
+/* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
+ * the tiles. */
+static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
+{
+    const struct smear_raster_target *s = &f->t->background;
+    uint32_t sum = 0;
+    for (int32_t y = l->y; y < l->y1; y += 2) {
+        int32_t x = dx, there_y = y + dy;
+        if (there_y < s->y0 || there_y >= s->y1) {
+            x = -dx;
+            there_y = y - dy;
+            if (there_y < s->y0 || there_y >= s->y1)
+                continue;
+        }
+        const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
+        const struct pixels at = pixels_at(f, first, y), there = pixels_at(f, first + x, there_y);
+        sum += differences_to(&at, &there, n, moving);
+    }
     return sum;
 }
 
@@ -68,11 +88,9 @@ static struct differences differences_of(const struct subframes *f, const struct
 {
     struct differences d = { 0, 0, 0 };
     uint32_t ignored = 0;
-    for (int32_t y = l->y; y < l->y1; y += 2) {
-        d.along += look_along(f, l, y, l->dx, l->dy, &d.moving);
-        if (is_slant(l))
-            d.beside += look_along(f, l, y, -l->dy, l->dx, &ignored);
-    }
+    d.along = look_along(f, l, l->dx, l->dy, &d.moving);
+    if (is_slant(l))
+        d.beside = look_along(f, l, -l->dy, l->dx, &ignored);
     return d;
 }
 
