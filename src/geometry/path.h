@@ -7,6 +7,7 @@
 #define SMEAR_PATH_H
 
 #include "geometry/bins.h"
+#include "kernels/vertex_path.h"
 
 /* Time in the exposure is q16: 0 is open, SHUTTER_CLOSE is close. */
 #define SHUTTER_CLOSE 65536
@@ -59,13 +60,28 @@ static inline int32_t path_depth(int32_t open, int32_t middle, int32_t close, in
     return middle + phase_times((((close - open) >> 3) + phase_times(curvature, u)) * 4, u) * 4;
 }
 
-/* Finds x, y and depth of a vertex at a time of the exposure. */
-static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
+/* Finds x, y and depth of a vertex at a phase; `open`: its place at open, which that at close follows. */
+static inline void path_place_reference(int32_t out[3], const int32_t *record, const int32_t *open, int32_t u)
 {
-    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS, u = path_phase(time);
+    const int32_t *close = open + PATH_POSE_WORDS;
     out[PATH_X] = path_coordinate(open[PATH_X], record[VERTEX_X], close[PATH_X], u);
     out[PATH_Y] = path_coordinate(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], u);
     out[PATH_DEPTH] = path_depth(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], u);
+}
+
+static inline void path_place(int32_t out[3], const int32_t *record, const int32_t *open, int32_t u)
+{
+#if PATH_ASM_ARMV6M
+    vertex_path_armv6m(out, record, open, u >> 15);
+#else
+    path_place_reference(out, record, open, u);
+#endif
+}
+
+/* Finds x, y and depth of a vertex at a time of the exposure. */
+static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
+{
+    path_place(out, record, record + s->motion, path_phase(time));
 }
 
 /* Turns a time of the exposure into one of the interval for which a triangle's places hold (struct

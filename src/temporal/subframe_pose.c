@@ -29,25 +29,26 @@ static inline bool is_shifted(const int32_t *open, int axis)
     return along < 512 || along < abs_i32(close[1 - axis] - open[1 - axis]);
 }
 
-/* Sets coordinate VERTEX_X or VERTEX_Y of all three vertices and returns their range. Between places within the guard
- * band a parabola may leave it. `middle`: of the frame. */
-static inline struct range place(struct posed *p, const struct subframes *f, int axis, int32_t u, int32_t middle)
+static inline struct range range_along(const struct posed *p, int axis)
+{
+    return range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+}
+
+/* Shifts the vertices along an axis and returns their range. Between places within the guard band a parabola may leave it.
+ * `middle`: of the frame. */
+static inline struct range place_along(struct posed *p, const struct subframes *f, int axis, int32_t middle)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
-    const int open = p->segment->motion + axis;
-    for (int i = 0; i < 3; i++)
-        p->record[i][axis] = path_coordinate(p->v[i][open], p->v[i][axis], p->v[i][open + PATH_POSE_WORDS],
-                                             u);
     if (SMEAR_EDGES && f->shift[axis] != 0)
         for (int i = 0; i < 3; i++)
             if (is_shifted(p->v[i] + p->segment->motion, axis))
                 p->record[i][axis] += f->shift[axis];
-    struct range r = range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+    struct range r = range_along(p, axis);
     if (r.low >= middle - guard && r.high <= middle + guard)
         return r;
     for (int i = 0; i < 3; i++)
         p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
-    return range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+    return range_along(p, axis);
 }
 
 static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)
@@ -78,15 +79,18 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     const int32_t u = path_phase(time);
     /* In the middle, vertices are where their records say. */
     const bool moves = s->path && (u != 0 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0));
-    const struct range x = moves ? place(p, f, VERTEX_X, u, frame->width << 7)
-                                 : range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
-    const struct range columns = pixels_of(x, tile->x0, tile->x1);
-    if (columns.low >= columns.high)
-        return false;
-    const struct range y = moves ? place(p, f, VERTEX_Y, u, frame->height << 7)
-                                 : range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
-    const struct range rows = pixels_of(y, tile->y0, tile->y1);
-    if (rows.low >= rows.high)
+    struct range x, y;
+    if (moves) {
+        for (int i = 0; i < 3; i++)
+            path_place(p->record[i], p->v[i], p->v[i] + s->motion, u);
+        x = place_along(p, f, VERTEX_X, frame->width << 7);
+        y = place_along(p, f, VERTEX_Y, frame->height << 7);
+    } else {
+        x = range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
+        y = range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    }
+    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
+    if (columns.low >= columns.high || rows.low >= rows.high)
         return false;
     p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
     p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
@@ -97,12 +101,11 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     if (is_turned_away(p->record[0], p->record[1], p->record[2]))
         return false;
     for (int i = 0; i < 3; i++) {
-        const int32_t *v = p->v[i], *open = v + s->motion, *close = open + PATH_POSE_WORDS;
-        int32_t depth = path_depth(open[PATH_DEPTH], v[VERTEX_DEPTH], close[PATH_DEPTH], u);
-        p->record[i][VERTEX_DEPTH] = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+        int32_t *record = p->record[i];
+        record[VERTEX_DEPTH] = clamp_i32(record[VERTEX_DEPTH], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
         for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
-            p->record[i][k] = v[k];
-        p->v[i] = p->record[i];
+            record[k] = p->v[i][k];
+        p->v[i] = record;
     }
     return true;
 }
