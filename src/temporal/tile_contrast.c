@@ -2,6 +2,7 @@
 /* tile_contrast.c - see tile_contrast.h. */
 #include "temporal/tile_contrast.h"
 
+#include "kernels/differences.h"
 #include "temporal/tile_method.h"
 
 /* A block [x, x1) x [y, y1) of pixels, its displacement, and the same to the next pixels that are looked at: 2 px. */
@@ -16,68 +17,29 @@ struct differences {
     uint32_t along, beside, moving;
 };
 
-static inline uint32_t squared(uint32_t a, uint32_t b)
-{
-    const int32_t r = (int32_t)pixel_red(a) - (int32_t)pixel_red(b), g = (int32_t)pixel_green(a) - (int32_t)pixel_green(b),
-                  u = (int32_t)pixel_blue(a) - (int32_t)pixel_blue(b);
-    return (uint32_t)(r * r + g * g + u * u);
-}
-
-/* Rows of the tiles: pixels at an instant, and what is static behind them. */
-struct pixels {
-    const uint32_t *color, *behind;
-    const uint16_t *depth, *deep;
-};
-
-static inline struct pixels pixels_at(const struct subframes *f, int32_t x, int32_t y)
-{
-    const struct smear_raster_target *s = &f->t->background;
-    const int32_t at = (y - s->y0) * f->t->pitch - s->x0 + x;
-    return (struct pixels){ f->work.color + at, s->color + target_row(&s->color_rows, s, y) + x, f->work.depth + at,
-                            s->depth + target_row(&s->window_rows, s, y) + x };
-}
-
-/* Returns the differences of n pixels to those that lie there. An edge between two of them counts where it moves: what is
- * static must lie behind, else it hides the edge. */
-static inline uint32_t differences_to(const struct pixels *at, const struct pixels *there, int32_t n, uint32_t *moving)
-{
-    uint32_t sum = 0, count = 0;
-    for (int32_t i = 0; i < n; i++) {
-        const uint32_t here = at->color[i], next = there->color[i], depth = at->depth[i];
-        if (depth != at->deep[i] || here != at->behind[i]) {
-            count++;
-            if (here == next)
-                continue;
-            const uint32_t beyond = there->depth[i];
-            if (beyond >= depth && beyond == there->deep[i] && next == there->behind[i])
-                continue;
-        } else if (here == next || there->depth[i] <= depth
-                   || (there->depth[i] == there->deep[i] && next == there->behind[i])) {
-            continue;
-        }
-        sum += squared(here, next);
-    }
-    *moving += count;
-    return sum;
-}
-
 /* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
  * the tiles. */
 static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
 {
     const struct smear_raster_target *s = &f->t->background;
+    const int32_t pitch = f->t->pitch;
     uint32_t sum = 0;
     for (int32_t y = l->y; y < l->y1; y += 2) {
-        int32_t x = dx, there_y = y + dy;
-        if (there_y < s->y0 || there_y >= s->y1) {
-            x = -dx;
-            there_y = y - dy;
-            if (there_y < s->y0 || there_y >= s->y1)
+        int32_t x = dx, down = dy;
+        if (y + down < s->y0 || y + down >= s->y1) {
+            x = -x;
+            down = -down;
+            if (y + down < s->y0 || y + down >= s->y1)
                 continue;
         }
         const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
-        const struct pixels at = pixels_at(f, first, y), there = pixels_at(f, first + x, there_y);
-        sum += differences_to(&at, &there, n, moving);
+        const int32_t at = (y - s->y0) * pitch - s->x0 + first, behind = target_row(&s->color_rows, s, y) + first;
+        if (n <= 0)
+            continue;
+        const struct difference_rows rows = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
+                                              down * pitch + x,
+                                              target_row(&s->color_rows, s, y + down) + first + x - behind };
+        sum += differences(&rows, n, moving);
     }
     return sum;
 }

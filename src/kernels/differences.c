@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+/* differences.c - see differences.h. */
+#include "kernels/differences.h"
+
+#if DIFFERENCES_ASM_ARMV6M
+/* clang-format off */
+/* Adds the squared difference of r2 and r3 to the sum. */
+#define DIFFERENCE_ADD          \
+    "uxtb r4, r2\n\t"           \
+    "uxtb r5, r3\n\t"           \
+    "subs r4, r4, r5\n\t"       \
+    "muls r4, r4\n\t"           \
+    "add %[sum], r4\n\t"        \
+    "lsrs r2, r2, #8\n\t"       \
+    "lsrs r3, r3, #8\n\t"       \
+    "uxtb r4, r2\n\t"           \
+    "uxtb r5, r3\n\t"           \
+    "subs r4, r4, r5\n\t"       \
+    "muls r4, r4\n\t"           \
+    "add %[sum], r4\n\t"        \
+    "lsrs r2, r2, #8\n\t"       \
+    "lsrs r3, r3, #8\n\t"       \
+    "uxtb r2, r2\n\t"           \
+    "uxtb r3, r3\n\t"           \
+    "subs r2, r2, r3\n\t"       \
+    "muls r2, r2\n\t"           \
+    "add %[sum], r2\n\t"
+
+/* The depth there, to r5. */
+#define DEPTH_THERE                     \
+    "mov r5, %[there]\n\t"              \
+    "asrs r5, r5, #1\n\t"               \
+    "ldrh r5, [%[depth], r5]\n\t"
+
+/* Goes to 3 where it, or the pixel there, is not as what is static; r4 is used up. */
+#define MOVES_THERE(way)                        \
+    "mov r4, %[deep_there]\n\t"                 \
+    "ldrh r4, [%[depth], r4]\n\t"               \
+    "cmp r4, r5\n\t"                            \
+    "bne " way "\n\t"                           \
+    "ldr r4, [%[from_color], #4]\n\t"           \
+    "ldr r4, [%[color], r4]\n\t"                \
+    "cmp r4, r3\n\t"                            \
+    "bne " way "\n\t"
+
+uint32_t smear_differences_armv6m(const struct difference_rows *r, int32_t n, uint32_t *moving)
+{
+    /* Bytes from a pixel's colour, or from its depth, to all else. */
+    const uint32_t *color = r->color, *end = color + n;
+    const uint16_t *depth = r->depth;
+    const uint32_t from_color[2] = { (uint32_t)r->behind - (uint32_t)color,
+                                     (uint32_t)(r->behind + r->there_behind) - (uint32_t)color };
+    uint32_t sum = 0, still = 0;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "b 1f\n"
+        "0:\n\t"                       /* the next pixel */
+        "adds %[depth], #2\n\t"
+        "adds %[color], #4\n\t"
+        "cmp %[color], %[end]\n\t"
+        "beq 9f\n"
+        "1:\n\t"
+        "ldr r2, [%[color]]\n\t"
+        "mov r3, %[there]\n\t"
+        "ldr r3, [%[color], r3]\n\t"
+        "ldrh r4, [%[depth]]\n\t"
+        "mov r5, %[deep]\n\t"
+        "ldrh r5, [%[depth], r5]\n\t"
+        "cmp r4, r5\n\t"
+        "beq 4f\n"
+        "2:\n\t"                       /* it moves */
+        "cmp r2, r3\n\t"
+        "beq 0b\n\t"
+        DEPTH_THERE
+        "cmp r5, r4\n\t"
+        "blo 3f\n\t"
+        MOVES_THERE("3f")
+        "b 0b\n"
+        "3:\n\t"                       /* the squared difference */
+        DIFFERENCE_ADD
+        "b 0b\n"
+        "4:\n\t"                       /* as deep as what is static: it is that, or moves */
+        "ldr r5, [%[from_color]]\n\t"
+        "ldr r5, [%[color], r5]\n\t"
+        "cmp r5, r2\n\t"
+        "bne 2b\n\t"
+        "adds %[still], #1\n\t"
+        "cmp r2, r3\n\t"
+        "beq 0b\n\t"
+        DEPTH_THERE
+        "cmp r4, r5\n\t"
+        "bhs 0b\n\t"
+        MOVES_THERE("3b")
+        "b 0b\n"
+        "9:"
+        : [color] "+&l"(color), [depth] "+&l"(depth), [still] "+&l"(still), [sum] "+&h"(sum)
+        : [from_color] "l"(from_color), [end] "h"(end), [there] "h"(4 * r->there),
+          [deep] "h"((uint32_t)r->deep - (uint32_t)depth), [deep_there] "h"((uint32_t)(r->deep + r->there_behind) - (uint32_t)depth)
+        : "r2", "r3", "r4", "r5", "cc", "memory");
+    *moving += (uint32_t)n - still;
+    return sum;
+}
+/* clang-format on */
+#endif
