@@ -52,10 +52,39 @@ static inline struct depth_range depth_range_vector(const uint16_t *depth, int32
 }
 #endif
 
+#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+/* Four codes a round: 6 instructions a code of a Cortex-M0+ in place of 9. */
+static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
+{
+    uint32_t least = UINT16_MAX, most = 0;
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        const uint16_t *code = depth;
+        for (int32_t left = width; left >= 4; left -= 4, code += 4) {
+            const uint32_t a = code[0], b = code[1], c = code[2], d = code[3];
+            least = min_u32(least, a);
+            most = max_u32(most, a);
+            least = min_u32(least, b);
+            most = max_u32(most, b);
+            least = min_u32(least, c);
+            most = max_u32(most, c);
+            least = min_u32(least, d);
+            most = max_u32(most, d);
+        }
+        for (int32_t left = width & 3; left > 0; left--, code++) {
+            least = min_u32(least, *code);
+            most = max_u32(most, *code);
+        }
+    }
+    return (struct depth_range){ least, most };
+}
+#endif
+
 static inline struct depth_range depth_range(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
 {
 #if SMEAR_VECTORS
     return depth_range_vector(depth, pitch, width, height);
+#elif !defined(__OPTIMIZE_SIZE__)
+    return depth_range_unrolled(depth, pitch, width, height);
 #else
     return depth_range_reference(depth, pitch, width, height);
 #endif

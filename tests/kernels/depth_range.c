@@ -32,12 +32,21 @@ static void vector(struct kernel_call *c)
 }
 #endif
 
+#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+static void unrolled(struct kernel_call *c)
+{
+    store(c, depth_range_unrolled(c->plane[0], (int32_t)c->word[PITCH], c->n, (int32_t)c->word[HEIGHT]));
+}
+#endif
+
 extern const struct kernel kernels_depth_range[];
 const struct kernel kernels_depth_range[] = {
     { .name = "depth_range (four rows)", .most = 35, .size = { 2 }, .prepare = prepare, .timed = 128,
       .form = { { "reference", reference },
 #if SMEAR_VECTORS
                 { "vector", vector },
+#elif !defined(__OPTIMIZE_SIZE__)
+                { "unrolled", unrolled },
 #endif
       } },
     { .name = NULL }
