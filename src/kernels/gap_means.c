@@ -149,30 +149,33 @@ void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n
 
 /* Sums of some pixels, then their means: each loop alone needs few registers. Where what moves is seen throughout, at all
  * taps, the background hides nothing, and where it is seen nowhere there is nothing to hide: no depth matters. */
-void smear_gap_means_two_passes(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+void smear_gap_means_two_passes(const struct gap_planes *p, const struct gap_rows *r, const struct gap_taps *taps,
                                 enum gap_cover cover)
 {
-    struct packed_sum sums[16];
+    enum { ONCE = 16 };
+    struct packed_sum sums[ONCE];
+    const struct packed_mean *mean = taps->mean;
+    int32_t at = r->at;
+    for (int32_t row = GAP_ROWS ? r->rows : 1; row > 0; row--, at += r->pitch) {
 #if !SMEAR_VECTORS
-    if (taps->at.pairs == 0 && taps->unit_log2 == 0 && n > 0) {         /* a pixel's own sum, whatever hides */
-        smear_packed_means(p->color + at, p->sums.pair + at, n, taps->mean);
-        return;
-    }
+        if (taps->at.pairs == 0 && taps->unit_log2 == 0) {      /* a pixel's own sum, whatever hides */
+            smear_packed_means(p->color + at, p->sums.pair + at, r->n, mean);
+            continue;
+        }
 #endif
-    while (n > 0) {
-        const int32_t count = min_i32(n, 16);
+        for (int32_t done = 0, n; done < r->n; done += n) {
+            n = min_i32(r->n - done, ONCE);
 #if PACKED_ASM_ARMV6M
-        if (taps->at.pairs > 0)
-            sums_armv6m(sums, p->sums.pair + at, count, taps);
-        else
+            if (taps->at.pairs > 0)
+                sums_armv6m(sums, p->sums.pair + at + done, n, taps);
+            else
 #endif
-            sums_uncovered(sums, &p->sums, at, count, taps);
-        for (int32_t i = 0; i < count && cover != COVER_NONE; i++)
-            if (sums[i].gn >> 16 != 0 && sums[i].gn >> 16 != taps->mean->n)
-                sums[i] = sum_seen(p, at + i, taps);
-        smear_packed_means(p->color + at, sums, count, taps->mean);
-        at += count;
-        n -= count;
+                sums_uncovered(sums, &p->sums, at + done, n, taps);
+            for (int32_t i = 0; i < n && cover != COVER_NONE; i++)
+                if (sums[i].gn >> 16 != 0 && sums[i].gn >> 16 != mean->n)
+                    sums[i] = sum_seen(p, at + done + i, taps);
+            smear_packed_means(p->color + at + done, sums, n, mean);
+        }
     }
 }
 
@@ -255,7 +258,8 @@ void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, c
             mean_uncovered4(p, at, taps);
     for (; at + 4 <= end; at += 4)
         mean_seen4(p, at, taps, cover);
-    smear_gap_means_two_passes(p, at, end - at, taps, cover);
+    const struct gap_rows rest = { at, end - at, 1, 0 };
+    smear_gap_means_two_passes(p, &rest, taps, cover);
 }
 #endif
 

@@ -13,11 +13,23 @@ struct gap_taps {
     const struct packed_mean *mean;     /* of the instants, as often as all taps weigh together */
 };
 
+/* Rows are taken together where it is not size that counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define GAP_ROWS 0
+#else
+#define GAP_ROWS 1
+#endif
+
+/* Rows of n >= 0 pixels each, the first of which begins at index `at`; one without GAP_ROWS. */
+struct gap_rows {
+    int32_t at, n, rows, pitch;
+};
+
 /* Puts the means of n >= 0 pixels from index `at` on in place of the background. A pixel stays as it is where the
  * weighted sum has no instant. */
 void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                                enum gap_cover cover);
-void smear_gap_means_two_passes(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+void smear_gap_means_two_passes(const struct gap_planes *p, const struct gap_rows *rows, const struct gap_taps *taps,
                                 enum gap_cover cover);
 #if SMEAR_VECTORS
 void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
@@ -28,19 +40,21 @@ void smear_gap_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, con
                           enum gap_cover cover);
 #endif
 
-static inline void smear_gap_means(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
+static inline void smear_gap_means(const struct gap_planes *p, const struct gap_rows *r, const struct gap_taps *taps,
                                    enum gap_cover cover)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        smear_gap_means_avx2(p, at, n, taps, cover);
-        return;
-    }
-#endif
 #if SMEAR_VECTORS
-    smear_gap_means_vector(p, at, n, taps, cover);
+    for (int32_t row = 0, at = r->at; row < r->rows; row++, at += r->pitch) {
+#if SMEAR_AVX2
+        if (smear_has_avx2()) {
+            smear_gap_means_avx2(p, at, r->n, taps, cover);
+            continue;
+        }
+#endif
+        smear_gap_means_vector(p, at, r->n, taps, cover);
+    }
 #else
-    smear_gap_means_two_passes(p, at, n, taps, cover);
+    smear_gap_means_two_passes(p, r, taps, cover);
 #endif
 }
 

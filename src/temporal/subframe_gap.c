@@ -89,6 +89,12 @@ static inline int32_t pairs_within(int32_t pairs, const int8_t *offset, int32_t 
     return pairs;
 }
 
+/* Pairs of which both lie in the rows of the tiles, for pixels of row y. */
+static inline int32_t pairs_of_row(const struct gap *gap, const struct smear_raster_target *s, int32_t y)
+{
+    return pairs_within(gap->pairs, gap->y, min_i32(y - s->y0, s->y1 - 1 - y));
+}
+
 static inline uint32_t pair_weight(const struct gap *gap, int32_t i)
 {
     return i + 1 == gap->pairs ? gap->last : gap->unit;
@@ -122,17 +128,20 @@ static const union gap_mean *mean_of(struct gap *gap, const struct subframes *f,
 
 /* The taps of pixels that have so many pairs, and the mean of them. */
 struct gap_part {
-    int32_t pairs;
     const union gap_mean *mean;
     struct gap_taps taps;
 };
 
-static void part_make(struct gap_part *part, struct gap *gap, const struct subframes *f, int32_t pairs)
+static inline void part_make(struct gap_part *part, struct gap *gap, const struct subframes *f, int32_t pairs)
 {
-    const struct gap_pairs at = { gap->offset, pairs, sums_light(f) ? smear_light_most(f->instants) : 1 };
-    part->pairs = pairs;
-    part->mean = mean_of(gap, f, pairs);
-    part->taps = (struct gap_taps){ at, gap->unit_log2, pair_weight(gap, pairs - 1), &part->mean->packed };
+    const union gap_mean *mean = mean_of(gap, f, pairs);
+    part->mean = mean;
+    part->taps.at.offset = gap->offset;
+    part->taps.at.pairs = pairs;
+    part->taps.at.instant = sums_light(f) ? smear_light_most(f->instants) : 1;
+    part->taps.unit_log2 = gap->unit_log2;
+    part->taps.last = pair_weight(gap, pairs - 1);
+    part->taps.mean = &mean->packed;
 }
 
 /* Averages a box that has one gap: rows, cut where fewer pairs count. */
@@ -141,23 +150,29 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     const struct smear_raster_target *s = &f->t->background;
     const enum gap_cover cover = cover_of(f, b);
     const struct gap_planes planes = { f->work.color, f->work.depth, f->sums, f->nearest };
-    const int32_t last_y = gap->pairs > 0 ? abs_i32(gap->y[gap->pairs - 1]) : 0;
-    struct gap_part part = { .pairs = -1 };
-    int32_t row = work_row(f, b, b->y0);
-    for (int32_t y = b->y0; y < b->y1; y++, row += f->t->pitch) {
-        const int32_t near_y = min_i32(y - s->y0, s->y1 - 1 - y);
-        const int32_t row_pairs = near_y >= last_y ? gap->pairs : pairs_within(gap->pairs, gap->y, near_y);
-        const int32_t reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0, right = s->x1 - reach;
-        for (int32_t x = b->x0, n; x < b->x1; x += n) {
-            const bool all = x - s->x0 >= reach && x < right;
-            const int32_t pairs = all ? row_pairs : pairs_within(row_pairs, gap->x, min_i32(x - s->x0, s->x1 - 1 - x));
-            n = all ? min_i32(b->x1, right) - x : 1;
-            if (pairs != part.pairs)
+    struct gap_part part;
+    part.taps.at.pairs = -1;
+    struct gap_rows r = { .pitch = f->t->pitch };
+    for (int32_t y = b->y0; y < b->y1; y += r.rows) {
+        const int32_t row_pairs = pairs_of_row(gap, s, y), reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
+        for (r.rows = 1; GAP_ROWS && y + r.rows < b->y1 && pairs_of_row(gap, s, y + r.rows) == row_pairs;)
+            r.rows++;
+        r.at = work_row(f, b, y);
+        for (int32_t x = b->x0; x < b->x1; x += r.n, r.at += r.n) {
+            const int32_t near = min_i32(x - s->x0, s->x1 - 1 - x);
+            int32_t pairs = row_pairs;
+            r.n = min_i32(b->x1, s->x1 - reach) - x;
+            if (near < reach) {
+                r.n = 1;
+                pairs = pairs_within(row_pairs, gap->x, near);
+            }
+            if (pairs != part.taps.at.pairs)
                 part_make(&part, gap, f, pairs);
-            if (sums_light(f))
-                smear_light_means(&planes, row + x - b->x0, n, &part.taps.at, &part.mean->light, cover);
+            if (!sums_light(f))
+                smear_gap_means(&planes, &r, &part.taps, cover);
             else
-                smear_gap_means(&planes, row + x - b->x0, n, &part.taps, cover);
+                for (int32_t k = 0; k < (GAP_ROWS ? r.rows : 1); k++)
+                    smear_light_means(&planes, r.at + k * r.pitch, r.n, &part.taps.at, &part.mean->light, cover);
         }
     }
 }

@@ -100,9 +100,17 @@ static void reference(struct kernel_call *c)
     call(c, smear_gap_means_reference);
 }
 
+/* In two rows, where there are two of a length. */
+static void call_rows(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps, enum gap_cover cover)
+{
+    const int32_t rows = GAP_ROWS ? 2 - (n & 1) : 1;
+    const struct gap_rows r = { at, n / rows, rows, n / rows };
+    smear_gap_means_two_passes(p, &r, taps, cover);
+}
+
 static void two_passes(struct kernel_call *c)
 {
-    call(c, smear_gap_means_two_passes);
+    call(c, call_rows);
 }
 
 #if SMEAR_VECTORS
