@@ -40,32 +40,48 @@ static int32_t depth_ratio(int32_t a, int32_t b)
                      16, 4096);
 }
 
-static struct displacements displacements_of(const struct smear_bins *g, uint32_t triangle)
+/* Vertices in the middle of the exposure, px; displacements, 1/16 px; and depths. */
+struct corners {
+    int32_t x[3], y[3], dx[3], dy[3], depth[3];
+};
+
+static struct corners corners_of(const struct smear_bins *g, uint32_t triangle)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
-    const struct smear_path_bounds *b = bins_bounds(g, triangle);
-    struct displacements w = { .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN, .curvature = b->curvature };
-    const int32_t *v[3];
+    struct corners c;
     for (int i = 0; i < 3; i++) {
-        v[i] = bins_vertex(g, s, t->vertex[i]);
-        const int32_t *open = v[i] + s->motion, *close = open + PATH_POSE_WORDS;
-        int32_t x = (close[PATH_X] - open[PATH_X]) >> 4, y = (close[PATH_Y] - open[PATH_Y]) >> 4;
-        w.x0 = min_i32(w.x0, x);
-        w.x1 = max_i32(w.x1, x);
-        w.y0 = min_i32(w.y0, y);
-        w.y1 = max_i32(w.y1, y);
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]), *open = v + s->motion, *close = open + PATH_POSE_WORDS;
+        c.x[i] = v[VERTEX_X] >> 8;
+        c.y[i] = v[VERTEX_Y] >> 8;
+        c.dx[i] = (close[PATH_X] - open[PATH_X]) >> 4;
+        c.dy[i] = (close[PATH_Y] - open[PATH_Y]) >> 4;
+        c.depth[i] = v[VERTEX_DEPTH] >> 14;
     }
+    return c;
+}
+
+static struct displacements displacements_of(const struct smear_bins *g, uint32_t triangle, const struct corners *c)
+{
+    const struct smear_path_bounds *b = bins_bounds(g, triangle);
+    struct displacements w = {
+        .x0 = min_i32(c->dx[0], min_i32(c->dx[1], c->dx[2])), .x1 = max_i32(c->dx[0], max_i32(c->dx[1], c->dx[2])),
+        .y0 = min_i32(c->dy[0], min_i32(c->dy[1], c->dy[2])), .y1 = max_i32(c->dy[0], max_i32(c->dy[1], c->dy[2])),
+        .curvature = b->curvature
+    };
     w.large = (b->flags & PATH_LARGE) != 0
            && (w.x1 - w.x0 > ALIKE || w.y1 - w.y0 > ALIKE);
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
     for (int i = 0; w.large && i < 3; i++) {
-        w.x[i] = v[i][VERTEX_X] >> 8;
-        w.y[i] = v[i][VERTEX_Y] >> 8;
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]);
+        w.x[i] = c->x[i];
+        w.y[i] = c->y[i];
         for (int k = 0; k < 2; k++) {
-            const int32_t *pose = v[i] + s->motion + k * PATH_POSE_WORDS;
+            const int32_t *pose = v + s->motion + k * PATH_POSE_WORDS;
             w.pose[k].x[i] = pose[PATH_X] >> 5;
             w.pose[k].y[i] = pose[PATH_Y] >> 5;
-            w.pose[k].weight[i] = depth_ratio(v[i][VERTEX_DEPTH], pose[PATH_DEPTH]);
+            w.pose[k].weight[i] = depth_ratio(v[VERTEX_DEPTH], pose[PATH_DEPTH]);
         }
     }
     return w;
@@ -274,7 +290,8 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = bins_bounds(g, i);
-            const struct displacements d = displacements_of(g, i);
+            const struct corners c = corners_of(g, i);
+            const struct displacements d = displacements_of(g, i, &c);
             add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top, all);
         } else {
             static_columns(g, t, &x0, &x1);
@@ -284,27 +301,6 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
 }
 
 /* ------------------------------------------------------------------ blocks */
-
-/* Vertices in the middle of the exposure, px; displacements, 1/16 px; and depths. */
-struct corners {
-    int32_t x[3], y[3], dx[3], dy[3], depth[3];
-};
-
-static struct corners corners_of(const struct smear_bins *g, uint32_t triangle)
-{
-    const struct smear_triangle *t = bins_triangle(g, triangle);
-    const struct smear_segment *s = &g->segment[t->segment];
-    struct corners c;
-    for (int i = 0; i < 3; i++) {
-        const int32_t *v = bins_vertex(g, s, t->vertex[i]), *open = v + s->motion, *close = open + PATH_POSE_WORDS;
-        c.x[i] = v[VERTEX_X] >> 8;
-        c.y[i] = v[VERTEX_Y] >> 8;
-        c.dx[i] = (close[PATH_X] - open[PATH_X]) >> 4;
-        c.dy[i] = (close[PATH_Y] - open[PATH_Y]) >> 4;
-        c.depth[i] = v[VERTEX_DEPTH] >> 14;
-    }
-    return c;
-}
 
 static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t depth)
 {
@@ -354,31 +350,29 @@ static void put_covering(struct smear_block *b, const struct corners *c, const s
 
 /* Puts a triangle that faces the eye into the wanted blocks whose middle it covers in the middle of the exposure; a small one
  * into that in which it lies. */
-static void add_to_blocks(const struct smear_row_moving *r, const struct smear_bins *g, uint32_t triangle,
-                          const struct displacements *w, const struct smear_window *window, int32_t top, struct range wanted)
+static void add_to_blocks(const struct smear_row_moving *r, const struct corners *c, const struct displacements *w,
+                          const struct smear_window *window, int32_t top, struct range wanted)
 {
-    const struct corners c = corners_of(g, triangle);
-    if (bins_bounds(g, triangle)->interval != 0
-        || (c.x[1] - c.x[0]) * (c.y[2] - c.y[0]) < (c.x[2] - c.x[0]) * (c.y[1] - c.y[0]))
+    if ((c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) < (c->x[2] - c->x[0]) * (c->y[1] - c->y[0]))
         return;
-    const int32_t x0 = min_i32(c.x[0], min_i32(c.x[1], c.x[2])), x1 = max_i32(c.x[0], max_i32(c.x[1], c.x[2])),
-                  y0 = min_i32(c.y[0], min_i32(c.y[1], c.y[2])), y1 = max_i32(c.y[0], max_i32(c.y[1], c.y[2]));
+    const int32_t x0 = min_i32(c->x[0], min_i32(c->x[1], c->x[2])), x1 = max_i32(c->x[0], max_i32(c->x[1], c->x[2])),
+                  y0 = min_i32(c->y[0], min_i32(c->y[1], c->y[2])), y1 = max_i32(c->y[0], max_i32(c->y[1], c->y[2]));
     const int32_t rows = window->tile >> BLOCK_SHIFT;
     if (x1 - x0 < BLOCK_PX && y1 - y0 < BLOCK_PX) {
         const int32_t x = (x0 + x1) >> (1 + BLOCK_SHIFT), y = (((y0 + y1) >> 1) - top) >> BLOCK_SHIFT;
         if (range_has(wanted, x) && y >= 0 && y < rows)
-            put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c.depth[0]);
+            put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c->depth[0]);
         return;
     }
     const int32_t left = max_i32(x0 >> BLOCK_SHIFT, wanted.low), right = min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1);
     const int32_t upper = max_i32((y0 - top) >> BLOCK_SHIFT, 0), lower = min_i32((y1 - top) >> BLOCK_SHIFT, rows - 1);
     struct sides s;
-    sides_at(&s, &c, (left << BLOCK_SHIFT) + BLOCK_PX / 2, top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2);
+    sides_at(&s, c, (left << BLOCK_SHIFT) + BLOCK_PX / 2, top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2);
     for (int32_t y = upper; y <= lower; y++) {
         int32_t e[3] = { s.e[0], s.e[1], s.e[2] };
         for (int32_t x = left; x <= right; x++) {
             if ((e[0] | e[1] | e[2]) >= 0)
-                put_covering(block_at(&r->blocks, x, y), &c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
+                put_covering(block_at(&r->blocks, x, y), c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
                              top + (y << BLOCK_SHIFT) + BLOCK_PX / 2, e);
             for (int i = 0; i < 3; i++)
                 e[i] += s.right[i];
@@ -413,10 +407,11 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *g, 
         const struct smear_path_bounds *b = bins_bounds(g, i);
         if (b->x1 <= left || b->x0 >= right)
             continue;
-        const struct displacements d = displacements_of(g, i);
+        const struct corners c = corners_of(g, i);
+        const struct displacements d = displacements_of(g, i, &c);
         add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top, columns);
-        if (r->blocks.columns != 0)
-            add_to_blocks(r, g, i, &d, w, top, blocks);
+        if (r->blocks.columns != 0 && b->interval == 0)
+            add_to_blocks(r, &c, &d, w, top, blocks);
     }
 }
 
