@@ -81,12 +81,11 @@ SMEAR_INLINE void texel_run_skip(struct texel_run *r, uint32_t n)
 #define TEXELS_PACKED 0
 struct texel_run {              /* the order in which the assembly loads registers */
     uint32_t dz, du, dv, ddu, ddv;
-    const uint16_t *end;        /* of whole pairs: set by texels_draw, as is `count` */
+    int32_t count;              /* set by texels_draw */
     void *color;
     uint16_t *depth;
     uint32_t z, u, v;
     const void *texels;
-    int32_t count;
     struct texel_light *light;
 };
 

@@ -5,10 +5,7 @@
 
 #include "kernels/texels_draw_armv6m.h"
 
-/* The least number of pixels that texels_draw takes. */
-enum { TEXELS_LEAST = SMEAR_ASM_ARMV6M ? 2 : 1 };
-
-/* Draws n >= TEXELS_LEAST pixels of a run. Pixel i has the depth code z >> 16; where it is greater than that in memory,
+/* Draws n >= 1 pixels of a run. Pixel i has the depth code z >> 16; where it is greater than that in memory,
  * which it then replaces, the pixel becomes the texel at the run's coordinates. Then z changes by dz, u and v by du
  * and dv, these by ddu and ddv, all modulo 2^32. Afterwards color, depth and z are those of the next pixel; coordinates
  * and their changes are as before. Sizes are 2 at least; texels, light, colours and depths don't overlap. */
@@ -186,7 +183,6 @@ SMEAR_INLINE void texels_draw_armv6m(struct texel_run *run, int32_t n, int log2_
         return;
     }
     run->count = n;
-    run->end = run->depth + (n & ~1);
     if (texels_are_lit(kind))
         texels_light_armv6m(run, kind);
     else

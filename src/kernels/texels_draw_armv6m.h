@@ -9,10 +9,10 @@
 #if SMEAR_ASM_ARMV6M
 
 /* Where registers are loaded from, and what is stored at the end. */
-SMEAR_STATIC_ASSERT(offsetof(struct texel_run, end) == 20 && offsetof(struct texel_run, color) == 24
+SMEAR_STATIC_ASSERT(offsetof(struct texel_run, count) == 20 && offsetof(struct texel_run, color) == 24
                         && offsetof(struct texel_run, depth) == 28 && offsetof(struct texel_run, z) == 32
-                        && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, count) == 48
-                    && offsetof(struct texel_run, light) == 52, "the assembly knows struct texel_run");
+                        && offsetof(struct texel_run, texels) == 44 && offsetof(struct texel_run, light) == 48,
+                    "the assembly knows struct texel_run");
 SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct texel_light, near) == 4
                         && offsetof(struct texel_light, at_u) == 8 && offsetof(struct texel_light, at_v) == 12
                         && offsetof(struct texel_light, cell) == 16 && offsetof(struct texel_light, from_v) == 20
@@ -37,7 +37,15 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-/* Keeps the run, at r0, and loads the registers of its changes; its end into r6. */
+#define ARMV6M_STEP \
+        "add r3, r9\n\t" \
+        "add r4, r10\n\t"
+
+#define ARMV6M_BEND \
+        "add r9, r11\n\t" \
+        "add r10, r12\n\t"
+
+/* Keeps the run, at r0, and loads the registers of its changes; its count into r6. */
 #define ARMV6M_LOAD_STEPS \
         ".syntax unified\n\t" \
         "push {r0}\n\t" \
@@ -48,53 +56,78 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "mov r11, r4\n\t" \
         "mov r12, r5\n\t"
 
-/* Pairs of pixels, then the odd one. LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes: NEXT in
- * decimal, and STEP for two of them. */
-#define ARMV6M_PAIRS(LOAD, STORE, SIZE, NEXT, STEP) \
-    __asm__ volatile( \
-        ARMV6M_LOAD_STEPS \
-        "mov lr, r6\n\t" \
-        "ldm r0, {r0, r1, r2, r3, r4, r5}\n" \
-        "1:\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "2") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "2", NEXT, "3") \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t" \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t" \
-        "adds r0, #" STEP "\n\t" \
-        "adds r1, #4\n\t" \
-        "cmp r1, lr\n\t" \
-        "bne 1b\n\t" \
-        "ldr r6, [sp]\n\t" \
-        "ldr r6, [r6, #48]\n\t" \
-        "lsrs r6, r6, #1\n\t" \
-        "bcc 5f\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "4") \
-        "adds r0, #" NEXT "\n\t" \
-        "adds r1, #2\n" \
-        "5: pop {r7}\n\t" \
+/* Goes to the last pixels of a round of four where r6, the count, is no multiple of four: to the labels 32, 33 and 34 of its second,
+ * third and fourth. Takes r6 and r7. */
+#define ARMV6M_ENTER(SIZE) \
+        "movs r7, #3\n\t" \
+        "ands r7, r6\n\t" \
+        "beq 31f\n\t" \
+        "subs r7, #4\n\t" \
+        "lsls r6, r7, #" SIZE "\n\t" \
+        "adds r0, r6\n\t" \
+        "lsls r6, r7, #1\n\t" \
+        "adds r1, r6\n\t" \
+        "adds r7, #2\n\t" \
+        "bmi 34f\n\t" \
+        "beq 33f\n\t" \
+        "b 32f\n"
+
+/* Colours, depth and z of the next pixel go into the run. */
+#define ARMV6M_STORE_RUN \
+        "pop {r7}\n\t" \
         "str r0, [r7, #24]\n\t" \
         "str r1, [r7, #28]\n\t" \
-        "str r2, [r7, #32]" \
+        "str r2, [r7, #32]"
+
+/* Four pixels a round. LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes: AT1 .. AT4 are so many times
+ * 1 .. 4. BEND is ARMV6M_BEND or nothing. */
+#define ARMV6M_FOURS(LOAD, STORE, SIZE, AT1, AT2, AT3, AT4, BEND) \
+    __asm__ volatile( \
+        ARMV6M_LOAD_STEPS \
+        "ldm r0, {r0, r1, r2, r3, r4, r5}\n\t" \
+        "lsls r7, r6, #1\n\t" \
+        "add r7, r1\n\t" \
+        "mov lr, r7\n\t" \
+        ARMV6M_ENTER(SIZE) \
+        "31:\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "2") \
+        ARMV6M_STEP BEND \
+        "32:\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "2", AT1, "3") \
+        ARMV6M_STEP BEND \
+        "33:\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "4", AT2, "4") \
+        ARMV6M_STEP BEND \
+        "34:\n\t" \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, "6", AT3, "5") \
+        ARMV6M_STEP BEND \
+        "adds r0, #" AT4 "\n\t" \
+        "adds r1, #8\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 31b\n\t" \
+        ARMV6M_STORE_RUN \
         : "+r"(r0) \
         : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), \
           [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Copied texels: 18 instructions a pixel. The sizes are constants. */
+/* Copied texels: 16 instructions a pixel, 18 where the changes of coordinates change. The sizes are constants. */
 static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texel_run *p, int log2_width,
                                                                      int log2_height, enum texel_kind kind)
 {
+    const bool bends = (p->ddu | p->ddv) != 0;
     register struct texel_run *r0 __asm__("r0") = p;
-    if (kind == TEXELS_NARROW)
-        ARMV6M_PAIRS("ldrh", "strh", "1", "2", "4");
-    else
-        ARMV6M_PAIRS("ldr", "str", "2", "4", "8");
+    if (kind == TEXELS_NARROW) {
+        if (bends)
+            ARMV6M_FOURS("ldrh", "strh", "1", "2", "4", "6", "8", ARMV6M_BEND);
+        else
+            ARMV6M_FOURS("ldrh", "strh", "1", "2", "4", "6", "8", "");
+    } else {
+        if (bends)
+            ARMV6M_FOURS("ldr", "str", "2", "4", "8", "12", "16", ARMV6M_BEND);
+        else
+            ARMV6M_FOURS("ldr", "str", "2", "4", "8", "12", "16", "");
+    }
 }
 
 /* As ARMV6M_PIXEL, for lit texels of any size. u in r3 and v in r4 count from the cell of the last pixel drawn, which is in lr;
@@ -115,43 +148,42 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-#define ARMV6M_STEP \
-        "add r3, r9\n\t" \
-        "add r4, r10\n\t"
-
-#define ARMV6M_BEND \
-        "add r9, r11\n\t" \
-        "add r10, r12\n\t"
-
-/* On the stack from sp on lie the run's end, pointers to the light and to the run. BEND is ARMV6M_BEND or nothing. */
-#define ARMV6M_LIT_PAIRS(STORE, NEXT, STEP, BEND) \
+/* On the stack from sp on lie the run's end, pointers to the light and to the run. As ARMV6M_FOURS. */
+#define ARMV6M_LIT_FOURS(STORE, SIZE, AT1, AT2, AT3, AT4, BEND) \
     __asm__ volatile( \
         ARMV6M_LOAD_STEPS \
-        "ldr r7, [r0, #28]\n\t" \
-        "push {r6, r7}\n\t" \
-        "ldm r7!, {r1, r5, r6}\n\t" \
+        "ldr r1, [r0, #4]\n\t" \
+        "lsls r2, r6, #1\n\t" \
+        "adds r2, r1\n\t" \
+        "ldr r7, [r0, #24]\n\t" \
+        "push {r2, r7}\n\t" \
+        "ldm r7!, {r1, r5}\n\t" \
         "mov lr, r1\n\t" \
         "ldm r0, {r0, r1, r2, r3, r4}\n\t" \
-        "subs r3, r3, r6\n\t" \
-        "ldr r6, [r7]\n\t" \
-        "subs r4, r4, r6\n" \
-        "1:\n\t" \
-        ARMV6M_LIT_PIXEL(STORE, "0", "0", "2", "3") \
+        "ldr r7, [sp, #4]\n\t" \
+        "ldr r7, [r7, #8]\n\t" \
+        "subs r3, r3, r7\n\t" \
+        "ldr r7, [sp, #4]\n\t" \
+        "ldr r7, [r7, #12]\n\t" \
+        "subs r4, r4, r7\n\t" \
+        ARMV6M_ENTER(SIZE) \
+        "31:\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "0", "0", "2", "12") \
         ARMV6M_STEP BEND \
-        ARMV6M_LIT_PIXEL(STORE, "2", NEXT, "4", "5") \
+        "32:\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "2", AT1, "3", "13") \
         ARMV6M_STEP BEND \
-        "adds r0, #" STEP "\n\t" \
-        "adds r1, #4\n\t" \
+        "33:\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "4", AT2, "4", "14") \
+        ARMV6M_STEP BEND \
+        "34:\n\t" \
+        ARMV6M_LIT_PIXEL(STORE, "6", AT3, "5", "15") \
+        ARMV6M_STEP BEND \
+        "adds r0, #" AT4 "\n\t" \
+        "adds r1, #8\n\t" \
         "ldr r7, [sp]\n\t" \
         "cmp r1, r7\n\t" \
-        "bne 1b\n\t" \
-        "ldr r6, [sp, #8]\n\t" \
-        "ldr r6, [r6, #48]\n\t" \
-        "lsrs r6, r6, #1\n\t" \
-        "bcc 9f\n\t" \
-        ARMV6M_LIT_PIXEL(STORE, "0", "0", "6", "7") \
-        "adds r0, #" NEXT "\n\t" \
-        "adds r1, #2\n\t" \
+        "bne 31b\n\t" \
         "b 9f\n" \
         "8: push {r0, r1, r2, lr}\n\t" \
         "mov r6, r12\n\t" \
@@ -190,29 +222,26 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         "mov lr, r6\n\t" \
         "bx r7\n" \
         "9: add sp, #8\n\t" \
-        "pop {r7}\n\t" \
-        "str r0, [r7, #24]\n\t" \
-        "str r1, [r7, #28]\n\t" \
-        "str r2, [r7, #32]" \
+        ARMV6M_STORE_RUN \
         : "+r"(r0) \
         : [find] "i"(smear_texel_light_find) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Lit texels: 18 instructions a pixel, 16 where the changes of coordinates don't change. */
+/* Lit texels: 17 instructions a pixel, 15 where the changes of coordinates don't change. */
 SMEAR_INLINE void texels_light_armv6m(struct texel_run *p, enum texel_kind kind)
 {
     const bool bends = (p->ddu | p->ddv) != 0;
     register struct texel_run *r0 __asm__("r0") = p;
     if (texels_are_narrow(kind)) {
         if (bends)
-            ARMV6M_LIT_PAIRS("strh", "2", "4", ARMV6M_BEND);
+            ARMV6M_LIT_FOURS("strh", "1", "2", "4", "6", "8", ARMV6M_BEND);
         else
-            ARMV6M_LIT_PAIRS("strh", "2", "4", "");
+            ARMV6M_LIT_FOURS("strh", "1", "2", "4", "6", "8", "");
     } else {
         if (bends)
-            ARMV6M_LIT_PAIRS("str", "4", "8", ARMV6M_BEND);
+            ARMV6M_LIT_FOURS("str", "2", "4", "8", "12", "16", ARMV6M_BEND);
         else
-            ARMV6M_LIT_PAIRS("str", "4", "8", "");
+            ARMV6M_LIT_FOURS("str", "2", "4", "8", "12", "16", "");
     }
 }
 

@@ -441,8 +441,6 @@ SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, i
             if (!draw_row_runs(s, r, row, &part, p, side->right - rest, side->right - rest + n))
                 return;
             *run = part;
-        } else if (n < TEXELS_LEAST) {
-            texel_pixel(run->color, run->depth, run->z, run->texels, light, texel_run_uv(run), log2_width, log2_height, kind);
         } else {
             texels_draw(run, n, log2_width, log2_height, kind);
         }

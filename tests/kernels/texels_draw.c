@@ -118,7 +118,7 @@ CALLS(armv6m)
 #endif
 
 #define KERNEL(NAME, KIND, SIZE) \
-    { .name = NAME, .least = TEXELS_LEAST, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
+    { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
       .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) } }
 
 extern const struct kernel kernels_texels_draw[];
