@@ -71,8 +71,8 @@ SMEAR_INLINE struct texcoord places_between(struct place from, struct place to, 
     const int32_t part = inverse_of(n);
     int32_t du = part_by(sub_wrap(to.u, from.u), part), dv = part_by(sub_wrap(to.v, from.v), part);
     if (parabolic) {
-        int32_t rate = (from.nearness + to.nearness) >> 1;                                  /* q'/q, q16 */
-        int32_t bu = mul_wrap(du >> 13, rate) >> 2, bv = mul_wrap(dv >> 13, rate) >> 2;     /* 2 b */
+        int32_t rate = (from.nearness + to.nearness + 2) >> 1;      /* q'/q, q16: each was rounded down */
+        int32_t bu = mul_wrap(du >> 10, rate) >> 5, bv = mul_wrap(dv >> 10, rate) >> 5;     /* 2 b */
         du = add_wrap(du, mul_wrap(bu, n - 1) >> 1);
         dv = add_wrap(dv, mul_wrap(bv, n - 1) >> 1);
         c.curvature_u = (uint32_t)bu << up;
@@ -86,6 +86,23 @@ SMEAR_INLINE struct texcoord places_between(struct place from, struct place to, 
         c.curvature_v = turns_step(c.curvature_v);
     }
     return c;
+}
+
+/* Along a block: its curvature is what changes lose. */
+SMEAR_INLINE void texcoord_run(struct texel_run *r, struct texcoord c)
+{
+#if TEXELS_PACKED
+    r->uv = packed_uv(c.u, c.v);
+    r->duv = packed_step(c.du, c.dv);
+    r->dduv = 0u - packed_step(c.curvature_u, c.curvature_v);
+#else
+    r->u = c.u;
+    r->v = c.v;
+    r->du = c.du;
+    r->dv = c.dv;
+    r->ddu = 0u - c.curvature_u;
+    r->ddv = 0u - c.curvature_v;
+#endif
 }
 
 /* Where the block begins in which pixel a is drawn, of a span from `left` to `last`. */

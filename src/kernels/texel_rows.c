@@ -384,7 +384,7 @@ SMEAR_AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from,
 {
     __m256i d = part_lanes(_mm256_sub_epi32(to, from), part);
     if (k->parabolic) {
-        const __m256i b = _mm256_srai_epi32(_mm256_mullo_epi32(_mm256_srai_epi32(d, 13), rate), 2);
+        const __m256i b = _mm256_srai_epi32(_mm256_mullo_epi32(_mm256_srai_epi32(d, 10), rate), 5);
         const __m256i more = _mm256_mullo_epi32(b, _mm256_sub_epi32(n, _mm256_set1_epi32(1)));
         d = _mm256_add_epi32(d, _mm256_srai_epi32(more, 1));
         store_lanes(change, _mm256_sub_epi32(_mm256_setzero_si256(), _mm256_and_si256(_mm256_sll_epi32(b, k->up), mask)));
@@ -400,7 +400,8 @@ SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_la
                                       lanes_before(before.nearness, to.nearness) };
     const __m256i number = _mm256_min_epi32(n, _mm256_add_epi32(_mm256_srli_epi32(n, 5), k->half));
     const __m256i part = _mm256_i32gather_epi32((const int *)lane_inverse, number, 4);
-    const __m256i rate = _mm256_srai_epi32(_mm256_add_epi32(from.nearness, to.nearness), 1);
+    const __m256i nearness = _mm256_add_epi32(from.nearness, to.nearness);
+    const __m256i rate = _mm256_srai_epi32(_mm256_add_epi32(nearness, _mm256_set1_epi32(2)), 1);
     between_lanes(k, from.u, to.u, n, part, rate, _mm256_set1_epi32(-1), c->du, c->ddu);
     between_lanes(k, from.v, to.v, n, part, rate, k->turns, c->dv, c->ddv);
     store_lanes(c->u, _mm256_sll_epi32(from.u, k->up));

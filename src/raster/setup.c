@@ -189,6 +189,7 @@ static void setup_color(struct setup *s)
 enum {
     TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
                                  * the ends of a block, or affine */
+    PARABOLA_OFF = 4,           /* likewise between the ends of a block that follows a parabola */
     CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
                                  * 0.46 texel in the farthest corner */
 };
@@ -233,12 +234,11 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
     }
 }
 
-/* How long blocks may be whose error over 16 pixels is `off` and grows by so much when their length doubles: half of what
- * short ones may err by, as more pixels come near it and show the next texel. */
+/* How long blocks may be whose error over 16 pixels is `off` and grows by so much when their length doubles. */
 static uint8_t block_longest(uint32_t off, uint32_t growth, uint32_t limit, int32_t width)
 {
     int32_t block = COLOR_BLOCK_MAX;
-    while (block < BLOCK_LONGEST && block < width && off * growth <= limit >> 1) {
+    while (block < BLOCK_LONGEST && block < width && off * growth <= limit) {
         off *= growth;
         block *= 2;
     }
@@ -246,23 +246,27 @@ static uint8_t block_longest(uint32_t off, uint32_t growth, uint32_t limit, int3
 }
 
 /* Chooses the blocks. `chord` is the error of a chord over 16 pixels, in 1/64 texel q14, `width` the longest row
- * there can be; `change` how much q changes over 16 pixels, q12. Errors of chords fall with the square of
- * their length, those of parabolas with its cube. */
+ * there can be; `change` how much q changes over 16 pixels, q12, where it is least. Errors of chords fall with the square of
+ * their length, those of parabolas with its cube.
+ *
+ * Over n pixels, where coordinates change by t texels at the rate they have where q is least, and q by a part r of what it is there,
+ * a chord is off by t r / 4 at most, and a parabola by t r^2 / 12 sqrt(3): of s in [0, 1] it is
+ * t r / (1 + r) s (1 - s) (1 / (1 + r s) - (2 + r) / (2 + 2 r)). It is taken for t r^2 / 16. */
 static void choose_blocks(struct texture_setup *t, uint64_t chord, int32_t width, uint32_t change)
 {
     uint32_t n = (uint32_t)min_i32(width, 16), off = chord >> 46 != 0 ? UINT32_MAX : (uint32_t)(chord >> 14);
     if (off < 1u << 20)
         off = off * (n * n) >> 8;
     t->parabolic = false;
-    if (off <= TEXTURE_OFF) {
-        t->block = block_longest((uint32_t)chord, 4, TEXTURE_OFF << 14, width);
+    if (off <= TEXTURE_OFF) {       /* half of that if long: more pixels come near it and show the next texel */
+        t->block = block_longest((uint32_t)chord, 4, TEXTURE_OFF << 13, width);
         return;
     }
-    uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 13 : UINT32_MAX;
-    t->parabolic = rest <= 64 * TEXTURE_OFF && change <= 4096;
-    t->block = !t->parabolic ? 1 : rest <= 8 * TEXTURE_OFF ? 8 : 4;
-    if (t->parabolic && rest <= TEXTURE_OFF)
-        t->block = block_longest(off * change, 8, TEXTURE_OFF << 13, width);
+    const uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 14 : UINT32_MAX;
+    t->parabolic = rest <= 64 * PARABOLA_OFF && change <= 4096;
+    t->block = !t->parabolic ? 1 : rest <= 8 * PARABOLA_OFF ? 8 : 4;
+    if (t->parabolic && rest <= PARABOLA_OFF)
+        t->block = block_longest(off * change, 8, PARABOLA_OFF << 14, width);
 }
 
 /* A triangle's texture coordinates, mesh units, and depths. */

@@ -64,24 +64,6 @@ SMEAR_INLINE struct smear_texture_run texcoord_packed(struct texcoord c)
                                        0u - packed_step(c.curvature_u, c.curvature_v) };
 }
 
-/* Along a block: its curvature is what changes lose. */
-SMEAR_INLINE void texcoord_run(struct texel_run *r, struct texcoord c)
-{
-#if TEXELS_PACKED
-    const struct smear_texture_run run = texcoord_packed(c);
-    r->uv = run.at;
-    r->duv = run.step;
-    r->dduv = run.curvature;
-#else
-    r->u = c.u;
-    r->v = c.v;
-    r->du = c.du;
-    r->dv = c.dv;
-    r->ddu = 0u - c.curvature_u;
-    r->ddv = 0u - c.curvature_v;
-#endif
-}
-
 /* In blocks of so many pixels: of a span that is short, single ones,
  * which cost less but where polynomials hold. */
 static inline int32_t block_of(const struct texture_setup *t, int32_t left, int32_t right)

@@ -4,6 +4,7 @@
  * a triangle are drawn together, a block of pixels after the other. */
 #include "raster/texture_rows.h"
 
+#include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 #include "raster/fog.h"
 #include "raster/texcoord.h"
@@ -91,25 +92,15 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
     return t;
 }
 
-/* A run, and planes and place where its block ends. */
-struct track {
-    struct texel_run run;
-    int32_t q, u, v;
-    struct place place;
-};
-
-SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
+/* Goes on by n pixels, at most a block. */
+SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
 {
     const struct place from = k->place;
-    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n)), u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
-    const int32_t v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
-    const struct place to = place_at(t, mode, NULL, q, u, v, true);
-    const struct texcoord c = texcoord_between(t, from, to, n, true);
-    k->q = q;
-    k->u = u;
-    k->v = v;
-    k->place = to;
-    texcoord_run(&k->run, c);
+    k->q = add_wrap(k->q, mul_wrap(t->q.dx, n));
+    k->u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
+    k->v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
+    k->place = place_at(t, mode, NULL, k->q, k->u, k->v, true);
+    texcoord_run(&k->run, texcoord_between(t, from, k->place, n, true));
 }
 
 /* With few registers functions of their own: the loops over pixels take them all. */
@@ -119,82 +110,37 @@ SMEAR_INLINE void track_go(struct track *k, const struct texture_setup *t, enum 
 #define TRACK_FUNCTION static SMEAR_NOINLINE
 #endif
 
-#if UINTPTR_MAX > 0xffffffffu
 /* Finds the coordinates of the next n pixels. */
-TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
+TRACK_FUNCTION void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
-    track_go(k, t, t->mode, n);
-}
-#elif SMEAR_HAS_MUL64
-TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
-{
-    if (t->mode == TEXTURE_DIVIDED)
-        track_go(k, t, TEXTURE_DIVIDED, n);
-    else
+    if (UINTPTR_MAX <= 0xffffffffu && t->mode != TEXTURE_DIVIDED)
         track_go(k, t, TEXTURE_AFFINE, n);
-}
-#else
-
-/* What both coordinates of a block have in common. */
-struct going {
-    int32_t n, part;            /* 2^16 / n */
-    int32_t recip, rate;        /* place_at's r; change of q, q16 */
-    int up, recip_up;
-    bool parabolic;
-};
-
-/* track_go for one coordinate after the other: what both take at once is more than there are registers. */
-SMEAR_INLINE void coordinate_go(const struct going *g, const struct plane *plane, int32_t *restrict value,
-                                int32_t *restrict place, uint32_t *restrict at, uint32_t *restrict step,
-                                uint32_t *restrict change, uint32_t mask)
-{
-    const int32_t here = add_wrap(*value, mul_wrap(plane->dx, g->n)), from = *place;
-    const int32_t to = mulh_i32(shl_wrap(here >> 1, g->recip_up), g->recip);
-    int32_t slope = part_by(sub_wrap(to, from), g->part);
-    *value = here;
-    *place = to;
-    *at = (uint32_t)from << g->up;
-    *change = 0;
-    if (g->parabolic) {
-        const int32_t b = mul_wrap(slope >> 13, g->rate) >> 2;
-        slope = add_wrap(slope, mul_wrap(b, g->n - 1) >> 1);
-        *change = 0u - ((uint32_t)b << g->up & mask);
-    }
-    *step = (uint32_t)slope << g->up & mask;
-}
-
-static SMEAR_NOINLINE void divided_go(struct track *restrict k, const struct texture_setup *restrict t,
-                                      int32_t n)
-{
-    struct going g = { .n = n, .part = inverse_of(n), .up = t->up, .parabolic = t->parabolic };
-    const int32_t q = add_wrap(k->q, mul_wrap(t->q.dx, n));
-    const uint32_t d = (uint32_t)max_i32(q, 1 << 11);
-    const int zeros = count_leading_zeros(d);
-    int32_t nearness = 0;
-    k->q = q;
-    g.recip = (int32_t)recip_norm(d << zeros);
-    g.recip_up = zeros - 1;
-    if (g.parabolic)
-        nearness = mulh_i32(t->slope, g.recip) >> (20 - zeros);
-    g.rate = (k->place.nearness + nearness) >> 1;
-    k->place.nearness = nearness;
-    coordinate_go(&g, &t->uv[0], &k->u, &k->place.u, &k->run.u, &k->run.du, &k->run.ddu, ~0u);
-    coordinate_go(&g, &t->uv[1], &k->v, &k->place.v, &k->run.v, &k->run.dv, &k->run.ddv, ~255u);
-    k->run.v = turns_start(k->run.v);
-}
-
-/* Finds the coordinates of the next n pixels. */
-TRACK_FUNCTION void track_next(struct track *k, const struct texture_setup *t, int32_t n)
-{
-    if (t->mode == TEXTURE_DIVIDED)
-        divided_go(k, t, n);
     else
-        track_go(k, t, TEXTURE_AFFINE, n);
+        track_go(k, t, UINTPTR_MAX > 0xffffffffu ? t->mode : TEXTURE_DIVIDED, n);
 }
-#endif
+
+/* A whole block where places are quotients. */
+TRACK_FUNCTION void track_block(struct texel_track *k)
+{
+    texel_track_next(k);
+}
+
+/* What a triangle's tracks have in common. */
+SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setup *t)
+{
+    k->log2 = 31 - count_leading_zeros(t->block);
+    k->dq = shl_wrap(t->q.dx, k->log2);
+    k->du = shl_wrap(t->uv[0].dx, k->log2);
+    k->dv = shl_wrap(t->uv[1].dx, k->log2);
+    k->up = t->up;
+    k->slope = t->slope;
+    k->seed = smear_recip_seed;
+    k->parabolic = t->parabolic;
+    texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
+}
 
 /* At pixel (x, y). */
-TRACK_FUNCTION void track_start(struct track *k, const struct texture_setup *t, int32_t x, int32_t y)
+TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setup *t, int32_t x, int32_t y)
 {
     k->q = plane_at(&t->q, x, y);
     k->u = plane_at(&t->uv[0], x, y);
@@ -338,12 +284,14 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     const struct texture_setup *t = texture_of(s);
     const int32_t block = t->block, least = block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;     /* block_of */
     const bool whole = rows_are_whole(s, r);
-    struct track k;
+    struct texel_track k;
     uint8_t *next_quotient = quotients->row;
     k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
     k.run.light = light;
     texel_run_start(&k.run, log2_width, log2_height);
+    track_prepare(&k, t);
+    const bool divided = t->mode == TEXTURE_DIVIDED && !light_is_in_fog(light, s);
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
@@ -369,23 +317,31 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         k.run.color = narrow ? (void *)(target->direct + at) : target->color + at;
         track_start(&k, t, x, r->y + row);
         int32_t rest = right - 1 - x;
+        const int32_t least_left = divided ? max_i32(least_rest, 1) : INT32_MAX - BLOCK_LONGEST;
         do {
-            const int32_t n = block_next(block, rest);
-            track_next(&k, t, n);
-            if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
-                light_in_fog(light, s, &r->side[row], right - 1 - rest, n, r->y + row);
-            rest -= n;
-            const int32_t last = rest == 0, count = n + last, end = right - 1 - rest + last;
-            if (rest - last >= least_rest) {
-                SMEAR_ASSERT(end - count >= target->x0 && end <= target->x1);
-                texels_draw(&k.run, count, log2_width, log2_height, kind);
+            int32_t count = block;
+            if (rest - block >= least_left) {       /* like most: whole, with more behind it */
+                track_block(&k);
+                rest -= block;
             } else {
-                struct texel_run run = k.run;       /* that one stays in registers */
-                if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
-                    break;
-                least_rest = p.a > end ? INT32_MAX : right - 1 - p.b;
-                k.run = run;
+                const int32_t n = block_next(block, rest);
+                track_next(&k, t, n);
+                if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
+                    light_in_fog(light, s, &r->side[row], right - 1 - rest, n, r->y + row);
+                rest -= n;
+                const int32_t last = rest == 0, end = right - 1 - rest + last;
+                count = n + last;
+                if (rest - last < least_rest) {
+                    struct texel_run run = k.run;       /* that one stays in registers */
+                    if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
+                        break;
+                    least_rest = p.a > end ? INT32_MAX : right - 1 - p.b;
+                    k.run = run;
+                    continue;
+                }
+                SMEAR_ASSERT(end - count >= target->x0 && end <= target->x1);
             }
+            texels_draw(&k.run, count, log2_width, log2_height, kind);
         } while (rest > 0);
     }
     quotients->count = (int32_t)(next_quotient - quotients->row);

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* texel_track.c - how check_kernels calls kernels/texel_track.h: blocks one after the other, along planes of which some are like those of
+ * triangles and some are anything. */
+#include "kernels/texel_track.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { Q, U, V, DQ, DU, DV, SLOPE, KIND };      /* words */
+
+static void prepare(struct kernel_call *c)
+{
+    c->bytes[0] = c->n * 48;
+    if (kernel_random() % 4u == 0)
+        return;
+    const uint32_t bits = kernel_random() % 16u;
+    c->word[Q] = c->word[Q] >> 2 >> bits;
+    c->word[U] = c->word[Q] >> 1;
+    c->word[V] = 0u - c->word[Q] / 3u;
+    c->word[DQ] = (uint32_t)((int32_t)c->word[DQ] >> (12 + bits));
+    c->word[DU] = (uint32_t)((int32_t)c->word[DU] >> (12 + bits));
+    c->word[DV] = (uint32_t)((int32_t)c->word[DV] >> (12 + bits));
+    c->word[SLOPE] = c->word[DQ] << 3;
+}
+
+SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *))
+{
+    struct texel_track k;
+    uint32_t *out = c->plane[0];
+    k.q = (int32_t)c->word[Q];
+    k.u = (int32_t)c->word[U];
+    k.v = (int32_t)c->word[V];
+    k.dq = (int32_t)c->word[DQ];
+    k.du = (int32_t)c->word[DU];
+    k.dv = (int32_t)c->word[DV];
+    k.log2 = 2 + (int32_t)(c->word[KIND] % 5u);
+    k.up = (int32_t)(c->word[KIND] >> 8 & 15u);
+    k.slope = (int32_t)c->word[SLOPE];
+    k.seed = smear_recip_seed;
+    k.parabolic = (c->word[KIND] >> 16 & 1u) != 0;
+    k.place = place_divided(k.q, k.u, k.v, k.slope, k.parabolic);
+    texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
+    for (int32_t i = 0; i < c->n; i++, out += 12) {
+        next(&k);
+        const uint32_t word[12] = {
+            (uint32_t)texel_run_uv(&k.run), (uint32_t)(texel_run_uv(&k.run) >> 32), (uint32_t)k.place.u, (uint32_t)k.place.v,
+            (uint32_t)k.place.nearness, (uint32_t)k.q, (uint32_t)k.u, (uint32_t)k.v,
+#if TEXELS_PACKED
+            (uint32_t)k.run.duv, (uint32_t)(k.run.duv >> 32), (uint32_t)k.run.dduv, (uint32_t)(k.run.dduv >> 32)
+#else
+            k.run.du, k.run.dv, k.run.ddu, k.run.ddv
+#endif
+        };
+        for (int j = 0; j < 12; j++)
+            out[j] = word[j];
+    }
+}
+
+#define CALL(FORM) \
+    static void FORM(struct kernel_call *c) \
+    { \
+        call(c, texel_track_next_##FORM); \
+    }
+
+CALL(reference)
+#if SMEAR_ASM_ARMV6M
+CALL(armv6m)
+#endif
+
+extern const struct kernel kernels_texel_track[];
+const struct kernel kernels_texel_track[] = {
+    { .name = "texel_track_next", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
+      .form = { { "reference", reference },
+#if SMEAR_ASM_ARMV6M
+                { "armv6m", armv6m },
+#endif
+      } },
+    { .name = NULL }
+};
