@@ -9,7 +9,7 @@
 /* Not for Clang, which sets r7 aside, nor where size counts. */
 #ifndef SMEAR_ASM_ARMV7EM
 #if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_7EM__) && defined(__thumb2__) && defined(__ARM_FEATURE_DSP) \
-    && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+    && defined(__ARM_FEATURE_UNALIGNED) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
 #define SMEAR_ASM_ARMV7EM 1
 #else
 #define SMEAR_ASM_ARMV7EM 0
@@ -92,20 +92,14 @@ static inline __attribute__((always_inline)) void texels_narrow_armv7em(struct t
         "push {r0}\n\t"
         "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t"
         "ldm r0, {r7, r8, r9, r10, r11, r12}\n\t"
-        "add r6, r7, r6, lsl #1\n\t"
-        "lsls r0, r8, #30\n\t"
         "sub r8, r8, r7\n\t"
-        "push {r6}\n\t"
-        "bpl 1f\n\t"
-        ARMV7EM_PIXEL
-        "ldr r6, [sp]\n"
-        "1: subs r0, r6, r7\n\t"
-        "and r0, r0, #2\n\t"
-        "sub r6, r6, r0\n\t"
-        "push {r6}\n\t"
-        "subs r0, r6, r7\n\t"
+        "add lr, r7, r6, lsl #1\n\t"
+        "bic r0, r6, #1\n\t"
+        "add r0, r7, r0, lsl #1\n\t"
+        "push {r0, lr}\n\t"
+        "cmp r0, r7\n\t"
         "beq 5f\n\t"
-        "lsls r0, r0, #29\n\t"
+        "lsls r6, r6, #30\n\t"
         "bmi 3f\n"
         "2:\n\t"
         ARMV7EM_PAIR("6")

@@ -186,17 +186,21 @@ static inline enum texel_kind texels_of(const struct setup *s, const struct texe
     return light != NULL ? (narrow ? TEXELS_LIT_NARROW : TEXELS_LIT) : narrow ? TEXELS_NARROW : TEXELS_WIDE;
 }
 
+static SMEAR_NOINLINE void run_skip(struct texel_run *r, int32_t n, bool narrow)
+{
+    texel_run_advance(r, n, narrow);
+    texel_run_skip(r, (uint32_t)n);
+    r->z += r->dz * (uint32_t)n;
+}
+
 /* Pixels [first, end) of a block whose run has come to pixel i. */
 static void draw_part(const struct setup *s, struct texel_run *r, int32_t i, int32_t first, int32_t end)
 {
     const enum texel_kind kind = texels_of(s, r->light);
     const struct smear_sampler *m = &s->draw->sampler;
     if (i < first) {
-        const int32_t n = min_i32(first, end) - i;
-        texel_run_advance(r, n, texels_are_narrow(kind));
-        texel_run_skip(r, (uint32_t)n);
-        r->z += r->dz * (uint32_t)n;
-        i += n;
+        run_skip(r, min_i32(first, end) - i, texels_are_narrow(kind));
+        i = min_i32(first, end);
     }
     for (; i < end; i++, r->z += r->dz) {
         texel_pixel(r->color, r->depth, r->z, m->texels, r->light, texel_run_uv(r), m->log2_width, m->log2_height, kind);
@@ -275,112 +279,163 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     }
 }
 
+/* A block goes on behind the end of a row's run, of which `count` pixels were drawn: `more` pixels, of which those of the next run are
+ * the next `count`. False when no more of the row are to be drawn. */
+static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, int32_t *more, const struct setup *s,
+                                       const struct span_rows *r, int32_t row, struct row_run *p)
+{
+    const int32_t end = p->b + *more;
+    if (!smear_row_run_next(p, s, r, row, p->b))
+        return false;
+    texel_run_skip(run, (uint32_t)*count);
+    run->dz = p->dz;
+    run->z = p->z + p->dz * (uint32_t)p->a;
+    *more = max_i32(end - p->b, 0);
+    *count = end - p->a - *more;
+    return true;
+}
+
+/* A row, of which the first run is known. */
+SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
+                                  struct row_run *p, struct texel_light *light, int log2_width, int log2_height,
+                                  enum texel_kind kind)
+{
+    const bool narrow = texels_are_narrow(kind), in_fog = light_is_in_fog(light, s);
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    const bool divided = t->mode == TEXTURE_DIVIDED && !in_fog;
+    const int32_t block = t->block, right = r->side[row].right;
+    const int32_t x = block_start(r->side[row].left, right - 1, p->a, block);
+    const int32_t at = r->at + row * target->window_rows.stride + x;
+    k->run.depth = target->depth + at;
+    k->run.color = narrow ? (void *)(target->direct + at) : target->color + at;
+    k->run.dz = p->dz;
+    k->run.z = p->z + p->dz * (uint32_t)x;
+    track_start(k, t, x, r->y + row);
+    int32_t rest = right - 1 - x;                       /* behind the block, but for the last pixel */
+    int32_t least = divided ? max_i32(right - 1 - p->b, 1) : INT32_MAX - BLOCK_LONGEST;
+    bool is_in_run = p->a == x;
+    do {
+        int32_t count = block, more = 0;
+        if (is_in_run && rest - block >= least) {       /* as most are: whole, in the run, and not the last */
+            track_block(k);
+            rest -= block;
+        } else {
+            const int32_t n = block_next(block, rest);
+            track_next(k, t, n);
+            if (in_fog)
+                light_in_fog(light, s, &r->side[row], right - 1 - rest, n, r->y + row);
+            rest -= n;
+            const int32_t last = rest == 0, end = right - 1 - rest + last;
+            count = n + last;
+            const int32_t first = clamp_i32(p->a - (end - count), 0, count);
+            if (first != 0)
+                run_skip(&k->run, first, narrow);
+            more = max_i32(end - p->b, 0);
+            count -= first + more;
+            is_in_run = p->a <= end;
+        }
+        for (;;) {
+            if (count != 0)
+                texels_draw(&k->run, count, log2_width, log2_height, kind);
+            if (more == 0)
+                break;
+            if (!run_goes_on(&k->run, &count, &more, s, r, row, p))
+                return;
+            least = divided ? max_i32(right - 1 - p->b, 1) : least;
+        }
+    } while (rest > 0);
+}
+
 /* Lists the others in `quotients`. */
 SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, struct row_list *quotients,
                               struct texel_light *light, int log2_width, int log2_height, enum texel_kind kind)
 {
-    const bool narrow = texels_are_narrow(kind);
-    const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const int32_t block = t->block, least = block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;     /* block_of */
+    const int32_t shortest = t->block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;        /* block_of */
     const bool whole = rows_are_whole(s, r);
     struct texel_track k;
+    struct row_run p;
     uint8_t *next_quotient = quotients->row;
-    k.run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     k.run.texels = s->draw->sampler.texels;
     k.run.light = light;
     texel_run_start(&k.run, log2_width, log2_height);
     track_prepare(&k, t);
-    const bool divided = t->mode == TEXTURE_DIVIDED && !light_is_in_fog(light, s);
+    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
-        struct row_run p;
-        if (right - left <= least) {
+        if (right - left <= shortest) {
             *next_quotient = (uint8_t)row;
             next_quotient += left < right;
             continue;
         }
-        int32_t x = left, least_rest = -1;              /* at the end of a block that lies in the run */
         if (whole) {
-            k.run.z = code_from_units(plane_at(&s->depth, x, r->y + row), s->slope);
-        } else {
-            if (!smear_row_run_next(&p, s, r, row, left))
-                continue;
-            x = block_start(left, right - 1, p.a, block);
-            least_rest = x < p.a ? INT32_MAX : right - 1 - p.b;
-            k.run.dz = p.dz;
-            k.run.z = p.z + p.dz * (uint32_t)x;
+            p.a = left;
+            p.b = right;
+            p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), s->slope);
+        } else if (!smear_row_run_next(&p, s, r, row, left)) {
+            continue;
         }
-        const int32_t at = r->at + row * target->window_rows.stride + x;
-        k.run.depth = target->depth + at;
-        k.run.color = narrow ? (void *)(target->direct + at) : target->color + at;
-        track_start(&k, t, x, r->y + row);
-        int32_t rest = right - 1 - x;
-        const int32_t least_left = divided ? max_i32(least_rest, 1) : INT32_MAX - BLOCK_LONGEST;
-        do {
-            int32_t count = block;
-            if (rest - block >= least_left) {       /* like most: whole, with more behind it */
-                track_block(&k);
-                rest -= block;
-            } else {
-                const int32_t n = block_next(block, rest);
-                track_next(&k, t, n);
-                if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
-                    light_in_fog(light, s, &r->side[row], right - 1 - rest, n, r->y + row);
-                rest -= n;
-                const int32_t last = rest == 0, end = right - 1 - rest + last;
-                count = n + last;
-                if (rest - last < least_rest) {
-                    struct texel_run run = k.run;       /* that one stays in registers */
-                    if (!draw_row_runs(s, r, row, &run, &p, end - count, end))
-                        break;
-                    least_rest = p.a > end ? INT32_MAX : right - 1 - p.b;
-                    k.run = run;
-                    continue;
-                }
-                SMEAR_ASSERT(end - count >= target->x0 && end <= target->x1);
-            }
-            texels_draw(&k.run, count, log2_width, log2_height, kind);
-        } while (rest > 0);
+        draw_row_blocks(&k, s, r, row, &p, light, log2_width, log2_height, kind);
     }
     quotients->count = (int32_t)(next_quotient - quotients->row);
 }
 
 /* ------------------------------------------------------------------ polynomials */
 
-#if UINTPTR_MAX > 0xffffffffu
-typedef uint64_t uv_pair;
+/* Both coordinates' polynomials, and a row's run from pixel (x, y) of them on. */
+#if TEXELS_PACKED
+struct curves {
+    uint64_t at, dx, dy, dxx, dxy, dyy;
+};
 
-SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return packed_step((uint32_t)u, (uint32_t)v); }
-SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return a + b; }
-SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n) { return a * (uint64_t)(int64_t)n; }
-
-SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair change)
+SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
 {
-    r->uv = at;
-    r->duv = step;
-    r->dduv = change;
+    k->at = packed_step((uint32_t)u->at, (uint32_t)v->at);
+    k->dx = packed_step((uint32_t)u->dx, (uint32_t)v->dx);
+    k->dy = packed_step((uint32_t)u->dy, (uint32_t)v->dy);
+    k->dxx = packed_step((uint32_t)u->dxx, (uint32_t)v->dxx);
+    k->dxy = packed_step((uint32_t)u->dxy, (uint32_t)v->dxy);
+    k->dyy = packed_step((uint32_t)u->dyy, (uint32_t)v->dyy);
+    r->dduv = 2 * k->dxx;
+}
+
+SMEAR_INLINE void curves_run(const struct curves *k, int32_t column, int32_t row, struct texel_run *r)
+{
+    const uint64_t x = (uint64_t)(int64_t)column, y = (uint64_t)(int64_t)row;
+    const uint64_t dx = k->dx + k->dxy * y + k->dxx * x;
+    r->uv = k->at + (k->dy + k->dyy * y) * y + dx * x;
+    r->duv = dx + k->dxx * (x + 1);
 }
 #else
-typedef struct { uint32_t u, v; } uv_pair;
+struct curves {
+    struct curve_words {
+        uint32_t dxy, dx, dyy, dy, at, dxx;     /* as they are needed: small cores have few registers */
+    } u, v;
+};
 
-SMEAR_INLINE uv_pair uv_make(int32_t u, int32_t v) { return (uv_pair){ (uint32_t)u, (uint32_t)v }; }
-SMEAR_INLINE uv_pair uv_add(uv_pair a, uv_pair b) { return (uv_pair){ a.u + b.u, a.v + b.v }; }
-
-SMEAR_INLINE uv_pair uv_times(uv_pair a, int32_t n)
+SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
 {
-    return (uv_pair){ a.u * (uint32_t)n, a.v * (uint32_t)n };
+    k->u = (struct curve_words){ (uint32_t)u->dxy, (uint32_t)u->dx, (uint32_t)u->dyy, (uint32_t)u->dy, (uint32_t)u->at,
+                                 (uint32_t)u->dxx };
+    k->v = (struct curve_words){ (uint32_t)v->dxy, (uint32_t)v->dx, (uint32_t)v->dyy, (uint32_t)v->dy, (uint32_t)v->at,
+                                 (uint32_t)v->dxx };
+    r->ddu = 2 * k->u.dxx;
+    r->ddv = 2 * k->v.dxx;
 }
 
-SMEAR_INLINE void run_pair(struct texel_run *r, uv_pair at, uv_pair step, uv_pair change)
+SMEAR_INLINE uint32_t curve_value(const struct curve_words *k, uint32_t x, uint32_t y, uint32_t *step)
 {
-    r->u = at.u;
-    r->v = at.v;
-    r->du = step.u;
-    r->dv = step.v;
-    r->ddu = change.u;
-    r->ddv = change.v;
+    const uint32_t dx = k->dxy * y + k->dx, at = (k->dyy * y + k->dy) * y + k->at, along = k->dxx * x;
+    *step = dx + along + along + k->dxx;
+    return (dx + along) * x + at;
+}
+
+static SMEAR_NOINLINE void curves_run(const struct curves *k, int32_t x, int32_t y, struct texel_run *r)
+{
+    r->u = curve_value(&k->u, (uint32_t)x, (uint32_t)y, &r->du);
+    r->v = curve_value(&k->v, (uint32_t)x, (uint32_t)y, &r->dv);
 }
 #endif
 
@@ -408,56 +463,43 @@ SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, i
     }
 }
 
-/* texcoord_curved, whose values go on from row to row. */
+/* texcoord_curved */
 SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, struct texel_light *light,
                               int log2_width, int log2_height, enum texel_kind kind)
 {
     const bool narrow = texels_are_narrow(kind);
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const struct curve *cu = &t->curve[0], *cv = &t->curve[1];
-    const int32_t x0 = t->x0, y = r->y - t->y0;
-    const uv_pair dxx = uv_make(cu->dxx, cv->dxx), dyy = uv_make(cu->dyy, cv->dyy),
-                  dxy = uv_make(cu->dxy, cv->dxy);
-    const uv_pair change = uv_add(dxx, dxx), dyy2 = uv_add(dyy, dyy);
-    uv_pair dx = uv_add(uv_make(cu->dx, cv->dx), uv_times(dxy, y)),
-            dy = uv_add(uv_make(cu->dy, cv->dy), uv_times(dyy, y));
-    uv_pair place = uv_add(uv_make(cu->at, cv->at), uv_times(dy, y));
-    dy = uv_add(dy, uv_times(dyy, y + 1));
     const bool whole = rows_are_whole(s, r);
     const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
     const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                                       : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
+    const int32_t x0 = t->x0, y = r->y - t->y0, stride = target->window_rows.stride;
     uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
     uint16_t *depth = target->depth + r->at;
+    struct curves curves;
     struct texel_run run;
     run.texels = s->draw->sampler.texels;
     run.light = light;
     run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     texel_run_start(&run, log2_width, log2_height);
-    const ptrdiff_t stride = target->window_rows.stride;
-    for (const struct span_side *side = r->side, *const end = side + r->count; side != end; side++) {
-        const int32_t left = side->left, n = side->right - left, x = left - x0,
-                      row = (int32_t)(side - r->side);
+    curves_start(&curves, &t->curve[0], &t->curve[1], &run);
+    const int32_t rows = r->count;
+    const struct span_side *side = r->side;
+    for (int32_t row = 0; row < rows; row++, side++, depth += stride, z += dz_down) {
+        const int32_t left = side->left, n = side->right - left;
         struct row_run p;
-        if (n > 0 && (whole || smear_row_run_next(&p, s, r, row, left))) {
-            const uv_pair along = uv_times(dxx, x);
-            run_pair(&run, uv_add(place, uv_times(uv_add(dx, along), x)),
-                     uv_add(dx, uv_add(along, uv_add(along, dxx))), change);
-            run.depth = depth + left;
-            run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
-            run.z = z + run.dz * (uint32_t)left;
-            if (!whole) {
-                run.dz = p.dz;
-                run.z = p.z + p.dz * (uint32_t)left;
-            }
-            draw_curve(s, r, row, &run, !whole && (p.a != left || p.b != left + n) ? &p : NULL, log2_width, log2_height, kind);
+        if (n <= 0 || !(whole || smear_row_run_next(&p, s, r, row, left)))
+            continue;
+        curves_run(&curves, left - x0, y + row, &run);
+        run.depth = depth + left;
+        run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
+        run.z = z + run.dz * (uint32_t)left;
+        if (!whole) {
+            run.dz = p.dz;
+            run.z = p.z + p.dz * (uint32_t)left;
         }
-        depth += stride;
-        z += dz_down;
-        place = uv_add(place, dy);
-        dy = uv_add(dy, dyy2);
-        dx = uv_add(dx, dxy);
+        draw_curve(s, r, row, &run, !whole && (p.a != left || p.b != left + n) ? &p : NULL, log2_width, log2_height, kind);
     }
 }
 
