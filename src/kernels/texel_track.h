@@ -15,6 +15,8 @@ struct texel_track {
     int32_t log2, up, slope;
     const uint16_t *seed;       /* smear_recip_seed */
     bool parabolic;
+    int32_t part, n;            /* of a block that is not whole: 2^16 / n */
+    int32_t qx, ux, vx;         /* how planes change from pixel to pixel */
 };
 
 /* Goes on by a whole block: finds the place at its end, and the run's coordinates. The changes of changes are 0 before where blocks
@@ -29,10 +31,22 @@ static inline void texel_track_next_reference(struct texel_track *k)
     texcoord_run(&k->run, places_between(from, k->place, 1 << k->log2, k->up, k->parabolic, true));
 }
 
+/* The same of n pixels, as block_next returns them. */
+static inline void texel_track_part_reference(struct texel_track *k, int32_t n)
+{
+    const struct place from = k->place;
+    k->q = add_wrap(k->q, mul_wrap(k->qx, n));
+    k->u = add_wrap(k->u, mul_wrap(k->ux, n));
+    k->v = add_wrap(k->v, mul_wrap(k->vx, n));
+    k->place = place_divided(k->q, k->u, k->v, k->slope, k->parabolic);
+    texcoord_run(&k->run, places_between(from, k->place, n, k->up, k->parabolic, true));
+}
+
 #if SMEAR_ASM_ARMV6M
 SMEAR_STATIC_ASSERT(sizeof(struct texel_run) == 52 && offsetof(struct texel_track, q) == 52
                         && offsetof(struct texel_track, place) == 64 && offsetof(struct texel_track, dq) == 76
-                        && offsetof(struct texel_track, log2) == 88 && offsetof(struct texel_track, seed) == 100,
+                        && offsetof(struct texel_track, log2) == 88 && offsetof(struct texel_track, seed) == 100
+                        && offsetof(struct texel_track, part) == 108 && offsetof(struct texel_track, qx) == 116,
                     "the assembly knows struct texel_track");
 SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel_run, dv) == 8 && offsetof(struct texel_run, ddu) == 12
                         && offsetof(struct texel_run, ddv) == 16 && offsetof(struct texel_run, u) == 36
@@ -60,8 +74,9 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
 
 /* One coordinate, whose plane lies AT bytes behind the track's start, its place PLACE, its change over a block CHANGE, and what the run
  * has of it START and STEP. ROUND is what turns_start and turns_step do, or nothing; CURVE is ARMV6M_CURVE or nothing. */
-#define ARMV6M_COORDINATE(AT, PLACE, CHANGE, START, STEP, ROUND, CURVE) \
+#define ARMV6M_COORDINATE(AT, PLACE, CHANGE, START, STEP, ROUND, CURVE, TIMES, SLOPE) \
         "ldr r1, [r0, #" CHANGE "]\n\t" \
+        TIMES \
         "ldr r3, [r0, #" AT "]\n\t" \
         "adds r3, r3, r1\n\t" \
         "str r3, [r0, #" AT "]\n\t" \
@@ -71,8 +86,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "ldr r7, [r0, #" PLACE "]\n\t" \
         "str r3, [r0, #" PLACE "]\n\t" \
         "subs r3, r3, r7\n\t" \
-        "ldr r1, [r0, #88]\n\t" \
-        "asrs r3, r1\n\t" \
+        SLOPE \
         CURVE \
         "ldr r1, [r0, #92]\n\t" \
         "lsls r3, r1\n\t" \
@@ -81,16 +95,42 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "str r3, [r0, #" STEP "]\n\t" \
         "str r7, [r0, #" START "]\n\t"
 
-/* The chord's step is in r3, log2 in r1, the rate at which q changes in r12: twice b, then the parabola's first step into r3. */
-#define ARMV6M_CURVE(BEND, MASK) \
+/* Of whole blocks: a change is one; the chord's step in r3; r3 = r2 (n - 1), log2 being in r1 from there on. Of others likewise. */
+#define ARMV6M_WHOLE_SLOPE \
+        "ldr r1, [r0, #88]\n\t" \
+        "asrs r3, r1\n\t"
+
+#define ARMV6M_WHOLE_LESS \
+        "movs r3, r2\n\t" \
+        "lsls r3, r1\n\t" \
+        "subs r3, r3, r2\n\t"
+
+#define ARMV6M_PART_TIMES \
+        "ldr r2, [r0, #112]\n\t" \
+        "muls r1, r2\n\t"
+
+#define ARMV6M_PART_SLOPE \
+        "uxth r1, r3\n\t" \
+        "asrs r3, r3, #16\n\t" \
+        "ldr r2, [r0, #108]\n\t" \
+        "muls r1, r2\n\t" \
+        "lsrs r1, r1, #16\n\t" \
+        "muls r3, r2\n\t" \
+        "adds r3, r3, r1\n\t"
+
+#define ARMV6M_PART_LESS \
+        "ldr r3, [r0, #112]\n\t" \
+        "subs r3, r3, #1\n\t" \
+        "muls r3, r2\n\t"
+
+/* The chord's step is in r3, the rate at which q changes in r12: twice b, then the parabola's first step into r3. */
+#define ARMV6M_CURVE(BEND, MASK, LESS) \
         "asrs r2, r3, #10\n\t" \
         "mov lr, r3\n\t" \
         "mov r3, r12\n\t" \
         "muls r2, r3\n\t" \
         "asrs r2, r2, #5\n\t" \
-        "movs r3, r2\n\t" \
-        "lsls r3, r1\n\t" \
-        "subs r3, r3, r2\n\t" \
+        LESS \
         "asrs r3, r3, #1\n\t" \
         "add r3, lr\n\t" \
         "ldr r1, [r0, #92]\n\t" \
@@ -98,6 +138,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         MASK \
         "negs r2, r2\n\t" \
         "str r2, [r0, #" BEND "]\n\t"
+
+#define ARMV6M_MASK "movs r1, #255\n\tbics r2, r1\n\t"
 
 /* The rate at the block's end, and the mean of both into r12. */
 #define ARMV6M_RATE \
@@ -114,10 +156,11 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "mov r12, r3\n\t"
 
 /* q, its leading zeros less one into r4, and its reciprocal (recip_norm) into r6 and r5; then both coordinates. */
-#define ARMV6M_TRACK(RATE, CURVE_U, CURVE_V) \
+#define ARMV6M_TRACK(Q, U, V, RATE, CURVE_U, CURVE_V, TIMES, SLOPE) \
     __asm__ volatile( \
         ".syntax unified\n\t" \
-        "ldr r1, [r0, #76]\n\t" \
+        "ldr r1, [r0, #" Q "]\n\t" \
+        TIMES \
         "ldr r3, [r0, #52]\n\t" \
         "adds r3, r3, r1\n\t" \
         "str r3, [r0, #52]\n\t" \
@@ -163,9 +206,9 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "lsrs r6, r5, #16\n\t" \
         "uxth r5, r5\n\t" \
         RATE \
-        ARMV6M_COORDINATE("56", "64", "80", "36", "4", "", CURVE_U) \
-        ARMV6M_COORDINATE("60", "68", "84", "40", "8", \
-                          "movs r1, #255\n\tbics r3, r1\n\tbics r7, r1\n\tadds r7, #128\n\t", CURVE_V) \
+        ARMV6M_COORDINATE("56", "64", U, "36", "4", "", CURVE_U, TIMES, SLOPE) \
+        ARMV6M_COORDINATE("60", "68", V, "40", "8", \
+                          "movs r1, #255\n\tbics r3, r1\n\tbics r7, r1\n\tadds r7, #128\n\t", CURVE_V, TIMES, SLOPE) \
         : \
         : "r"(r0) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r12", "lr", "cc", "memory")
@@ -175,9 +218,22 @@ static SMEAR_NOINLINE void texel_track_next_armv6m(struct texel_track *k)
 {
     register struct texel_track *r0 __asm__("r0") = k;
     if (k->parabolic)
-        ARMV6M_TRACK(ARMV6M_RATE, ARMV6M_CURVE("12", ""), ARMV6M_CURVE("16", "movs r1, #255\n\tbics r2, r1\n\t"));
+        ARMV6M_TRACK("76", "80", "84", ARMV6M_RATE, ARMV6M_CURVE("12", "", ARMV6M_WHOLE_LESS),
+                     ARMV6M_CURVE("16", ARMV6M_MASK, ARMV6M_WHOLE_LESS), "", ARMV6M_WHOLE_SLOPE);
     else
-        ARMV6M_TRACK("", "", "");
+        ARMV6M_TRACK("76", "80", "84", "", "", "", "", ARMV6M_WHOLE_SLOPE);
+}
+
+static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_t n)
+{
+    register struct texel_track *r0 __asm__("r0") = k;
+    k->n = n;
+    k->part = inverse_of(n);
+    if (k->parabolic)
+        ARMV6M_TRACK("116", "120", "124", ARMV6M_RATE, ARMV6M_CURVE("12", "", ARMV6M_PART_LESS),
+                     ARMV6M_CURVE("16", ARMV6M_MASK, ARMV6M_PART_LESS), ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
+    else
+        ARMV6M_TRACK("116", "120", "124", "", "", "", ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
 }
 #endif
 
@@ -187,6 +243,15 @@ static inline void texel_track_next(struct texel_track *k)
     texel_track_next_armv6m(k);
 #else
     texel_track_next_reference(k);
+#endif
+}
+
+static inline void texel_track_part(struct texel_track *k, int32_t n)
+{
+#if SMEAR_ASM_ARMV6M
+    texel_track_part_armv6m(k, n);
+#else
+    texel_track_part_reference(k, n);
 #endif
 }
 

@@ -262,10 +262,10 @@ static void choose_blocks(struct texture_setup *t, uint64_t chord, int32_t width
         t->block = block_longest((uint32_t)chord, 4, TEXTURE_OFF << 13, width);
         return;
     }
-    const uint32_t rest = off < 1u << 18 ? off * (min_u32(change, 4096) * n >> 4) >> 14 : UINT32_MAX;
-    t->parabolic = rest <= 64 * PARABOLA_OFF && change <= 4096;
+    const uint32_t rest = off < 1u << 18 && change <= 4096 ? off * (change * n >> 4) >> 14 : UINT32_MAX;
+    t->parabolic = rest <= 64 * PARABOLA_OFF;
     t->block = !t->parabolic ? 1 : rest <= 8 * PARABOLA_OFF ? 8 : 4;
-    if (t->parabolic && rest <= PARABOLA_OFF)
+    if (rest <= PARABOLA_OFF)
         t->block = block_longest(off * change, 8, PARABOLA_OFF << 14, width);
 }
 
@@ -478,7 +478,7 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
             setup_divided(s, &k);
     }
     t->up = t->turns ? (uint8_t)t->shift : 0;
-    if (segment_gouraud(s->segment))
+    if (segment_gouraud(s->segment) && !s->even_color)
         t->block = (uint8_t)min_i32(t->block, s->color_block);      /* one walk for both */
     if (fog_varies(s))
         t->block = (uint8_t)min_i32(t->block, s->fog - FOG_VARIES);

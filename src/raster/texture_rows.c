@@ -92,14 +92,13 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
     return t;
 }
 
-/* Goes on by n pixels, at most a block. */
-SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t, enum texture_mode mode, int32_t n)
+/* Goes on by n pixels, at most a block, where no places are divided. */
+SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
     const struct place from = k->place;
-    k->q = add_wrap(k->q, mul_wrap(t->q.dx, n));
     k->u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
     k->v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
-    k->place = place_at(t, mode, NULL, k->q, k->u, k->v, true);
+    k->place = (struct place){ k->u, k->v, 0 };
     texcoord_run(&k->run, texcoord_between(t, from, k->place, n, true));
 }
 
@@ -113,17 +112,21 @@ SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t,
 /* Finds the coordinates of the next n pixels. */
 TRACK_FUNCTION void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
-    if (UINTPTR_MAX <= 0xffffffffu && t->mode != TEXTURE_DIVIDED)
-        track_go(k, t, TEXTURE_AFFINE, n);
+    if (t->mode == TEXTURE_DIVIDED)
+        texel_track_part(k, n);
     else
-        track_go(k, t, UINTPTR_MAX > 0xffffffffu ? t->mode : TEXTURE_DIVIDED, n);
+        track_go(k, t, n);
 }
 
-/* A whole block where places are quotients. */
+/* A whole block where places are quotients. The assembly is a function. */
+#if SMEAR_ASM_ARMV6M
+#define track_block texel_track_next
+#else
 TRACK_FUNCTION void track_block(struct texel_track *k)
 {
     texel_track_next(k);
 }
+#endif
 
 /* What a triangle's tracks have in common. */
 SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setup *t)
@@ -132,6 +135,9 @@ SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setu
     k->dq = shl_wrap(t->q.dx, k->log2);
     k->du = shl_wrap(t->uv[0].dx, k->log2);
     k->dv = shl_wrap(t->uv[1].dx, k->log2);
+    k->qx = t->q.dx;
+    k->ux = t->uv[0].dx;
+    k->vx = t->uv[1].dx;
     k->up = t->up;
     k->slope = t->slope;
     k->seed = smear_recip_seed;

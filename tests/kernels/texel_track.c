@@ -22,7 +22,8 @@ static void prepare(struct kernel_call *c)
     c->word[SLOPE] = c->word[DQ] << 3;
 }
 
-SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *))
+/* Whole blocks and others, in the order of the bits of a word. */
+SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *), void part(struct texel_track *, int32_t))
 {
     struct texel_track k;
     uint32_t *out = c->plane[0];
@@ -37,10 +38,17 @@ SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *))
     k.slope = (int32_t)c->word[SLOPE];
     k.seed = smear_recip_seed;
     k.parabolic = (c->word[KIND] >> 16 & 1u) != 0;
+    k.qx = k.dq >> 4;
+    k.ux = k.du >> 4;
+    k.vx = k.dv >> 4;
     k.place = place_divided(k.q, k.u, k.v, k.slope, k.parabolic);
     texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
     for (int32_t i = 0; i < c->n; i++, out += 12) {
-        next(&k);
+        const uint32_t kind = c->word[KIND] >> i;
+        if ((kind & 1u) != 0)
+            next(&k);
+        else
+            part(&k, (kind & 30u) == 0 ? BLOCK_LONG : (kind & 30u) == 2 ? BLOCK_LONGEST : 1 + (int32_t)(kind >> 1 & 15u));
         const uint32_t word[12] = {
             (uint32_t)texel_run_uv(&k.run), (uint32_t)(texel_run_uv(&k.run) >> 32), (uint32_t)k.place.u, (uint32_t)k.place.v,
             (uint32_t)k.place.nearness, (uint32_t)k.q, (uint32_t)k.u, (uint32_t)k.v,
@@ -58,7 +66,7 @@ SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *))
 #define CALL(FORM) \
     static void FORM(struct kernel_call *c) \
     { \
-        call(c, texel_track_next_##FORM); \
+        call(c, texel_track_next_##FORM, texel_track_part_##FORM); \
     }
 
 CALL(reference)
@@ -68,7 +76,7 @@ CALL(armv6m)
 
 extern const struct kernel kernels_texel_track[];
 const struct kernel kernels_texel_track[] = {
-    { .name = "texel_track_next", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
+    { .name = "texel_track", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
       .form = { { "reference", reference },
 #if SMEAR_ASM_ARMV6M
                 { "armv6m", armv6m },

@@ -126,7 +126,8 @@ CALLS(armv7em)
 
 #define KERNEL(NAME, KIND, SIZE) \
     { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
-      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) ARMV7EM(KIND##_armv7em) } }
+      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) \
+              ARMV7EM(KIND##_armv7em) } }
 
 extern const struct kernel kernels_texels_draw[];
 const struct kernel kernels_texels_draw[] = {
