@@ -2,6 +2,7 @@
 /* gentables.c - writes src/base/tables.c to standard output: `make tables`. The only place where the library's
  * constants meet floating point; `make test` compares a fresh run with the committed file. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,6 +111,24 @@ static void blue_noise(uint32_t *rank)
     }
 }
 
+/* Whether (c factor + step) >> shift is the dithered level of all codes c, as pixel_rows.h has it. */
+static bool is_dither_step(uint32_t step, uint32_t k, uint32_t levels, uint32_t factor, int shift)
+{
+    for (uint32_t c = 0; c < 256; c++)
+        if ((c * factor + step) >> shift != (c * (257 * levels) + (c >> 7) * levels + ((4 * k + 2) << 8)) >> 16)
+            return false;
+    return true;
+}
+
+/* The least even step of 31 levels, half of which is one of 63 levels. */
+static uint32_t dither_step(uint32_t k)
+{
+    uint32_t step = 0;
+    while (!is_dither_step(step, k, 31, 249, 11) || !is_dither_step(step / 2, k, 63, 253, 10))
+        step += 2;
+    return step;
+}
+
 int main(void)
 {
     static uint32_t t[4096];
@@ -160,9 +179,9 @@ int main(void)
     print_table("blue noise dither, 32 x 32, thresholds in 1/256", "uint8_t", "smear_dither_blue", t,
                 BLUE_CELLS);
 
-    for (uint32_t i = 0; i < 256; i++)
-        t[i] = (i * 31 + ((i + (i >> 7)) * 31 >> 8) + 2) >> 2;      /* as convert.c has it */
-    print_table("code to level of 31, in 1/64", "uint16_t", "smear_levels_31", t, 256);
+    for (uint32_t k = 0; k < 64; k++)
+        t[k] = dither_step(k);
+    print_table("what a threshold 4 k + 2 adds to a code of 31 levels, see pixel_rows.c", "uint16_t", "smear_dither_steps", t, 64);
 
     for (int i = 0; i < 128; i++) {     /* of the middle of each 1/128 of a radius */
         const double d = (i + 0.5) / 128, half = sqrt(1 - d * d);

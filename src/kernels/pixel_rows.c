@@ -2,6 +2,8 @@
 /* pixel_rows.c - the forms that are longer than their references. */
 #include "kernels/pixel_rows.h"
 
+#include "kernels/pixel_rows_armv6m.h"
+
 /* ------------------------------------------------------------------ 16 bits, nearest levels */
 
 #ifndef __OPTIMIZE_SIZE__
@@ -83,100 +85,7 @@ void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, en
 /* ------------------------------------------------------------------ 16 bits, dithered */
 
 #ifndef __OPTIMIZE_SIZE__
-/* With thresholds 4 k + 2 of 256, six bits of a level's fraction tell all. Level and fraction of two channels fit into
- * a word, where one sum adds k to both; a column's step is k at both places. */
-enum { ORDERED_HIGH = 20, ORDERED_LOW = 9, ORDERED_LEVEL = ORDERED_LOW + 6, ORDERED_WIDTH = 8 };
-
-/* The last colour of a row, ready for steps. */
-struct ordered {
-    uint32_t last, red_blue, green;
-};
-
-/* ordered_two returns the levels of 31 of two codes, at ORDERED_HIGH and ORDERED_LOW; ordered_one that of one code, at
- * ORDERED_HIGH. */
-#if defined(__ARM_ARCH_6M__)
-/* They look levels up: constants of products would take registers that these cores do not have. */
-static inline uint32_t ordered_two(uint32_t high, uint32_t low)
-{
-    return ((uint32_t)smear_levels_31[high] << (ORDERED_HIGH - ORDERED_LOW) | smear_levels_31[low]) << ORDERED_LOW;
-}
-
-static inline uint32_t ordered_one(uint32_t code)
-{
-    return (uint32_t)smear_levels_31[code] << ORDERED_HIGH;
-}
-#else
-/* They compute c levels / 255 in q8 as c levels + ((c + (c >> 7)) levels >> 8), like level_q16(). */
-static inline uint32_t ordered_two(uint32_t high, uint32_t low)
-{
-    uint32_t both = high << 16 | low;
-    both = both * 31u + ((both + (both >> 7 & 0x10001u)) * 31u >> 8 & 0x1f001fu) + 0x20002u;
-    return (both & 0xfffc0000u) << (ORDERED_HIGH - 18) | (both & 0xfffcu) << (ORDERED_LOW - 2);
-}
-
-static inline uint32_t ordered_one(uint32_t code)
-{
-    return (code * 31u + ((code + (code >> 7)) * 31u >> 8) + 2u) >> 2 << ORDERED_HIGH;
-}
-#endif
-
-SMEAR_INLINE void ordered_pixel(uint16_t *out, uint32_t p, uint32_t step, struct ordered *o, bool is_555, bool swapped)
-{
-    if (p != o->last) {
-        SMEAR_KEEP_BRANCH();
-        o->last = p;
-        o->red_blue = is_555 ? ordered_two(pixel_blue(p), pixel_red(p)) : ordered_two(pixel_red(p), pixel_blue(p));
-        /* With 63 levels one product holds for all codes. */
-        o->green = is_555 ? ordered_one(pixel_green(p))
-                          : (pixel_green(p) * 16579962u + 508400u) >> ORDERED_HIGH << ORDERED_HIGH;
-    }
-    const uint32_t both = o->red_blue + step;
-    const uint32_t packed = (is_555 ? (both >> (ORDERED_LEVEL + 1) & 0x7c00u) | (both >> ORDERED_LEVEL & 0x1fu)
-                                    : both >> ORDERED_LEVEL & 0xf81fu)
-                          | (o->green + step) >> (ORDERED_HIGH + 6) << 5;
-    *out = swapped != SMEAR_BIG_ENDIAN ? __builtin_bswap16((uint16_t)packed) : (uint16_t)packed;
-}
-
-/* Stores the pixels [in, end). `step` has those of the columns from the first pixel on, ORDERED_WIDTH of them. */
-SMEAR_INLINE void ordered_pixels(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step,
-                                 bool is_555, bool swapped)
-{
-    struct ordered o = { in < end ? ~*in : 0, 0, 0 };
-#if defined(__ARM_ARCH_6M__)        /* eight at a time, so that each step is loaded from a fixed place */
-    for (; end - in >= ORDERED_WIDTH; in += ORDERED_WIDTH, out += ORDERED_WIDTH) {
-        ordered_pixel(out, in[0], step[0], &o, is_555, swapped);
-        ordered_pixel(out + 1, in[1], step[1], &o, is_555, swapped);
-        ordered_pixel(out + 2, in[2], step[2], &o, is_555, swapped);
-        ordered_pixel(out + 3, in[3], step[3], &o, is_555, swapped);
-        ordered_pixel(out + 4, in[4], step[4], &o, is_555, swapped);
-        ordered_pixel(out + 5, in[5], step[5], &o, is_555, swapped);
-        ordered_pixel(out + 6, in[6], step[6], &o, is_555, swapped);
-        ordered_pixel(out + 7, in[7], step[7], &o, is_555, swapped);
-    }
-#endif
-    for (uint32_t i = 0; in < end; in++, i = (i + 1) % ORDERED_WIDTH)
-        ordered_pixel(out++, *in, step[i], &o, is_555, swapped);
-}
-
-typedef void ordered_fn(uint16_t *out, const uint32_t *in, const uint32_t *end, const uint32_t *step);
-
-static SMEAR_NOINLINE void ordered_555(uint16_t *out, const uint32_t *in, const uint32_t *end,
-                                       const uint32_t *step)
-{
-    ordered_pixels(out, in, end, step, true, false);
-}
-
-static SMEAR_NOINLINE void ordered_565(uint16_t *out, const uint32_t *in, const uint32_t *end,
-                                       const uint32_t *step)
-{
-    ordered_pixels(out, in, end, step, false, false);
-}
-
-static SMEAR_NOINLINE void ordered_565_swapped(uint16_t *out, const uint32_t *in, const uint32_t *end,
-                                               const uint32_t *step)
-{
-    ordered_pixels(out, in, end, step, false, true);
-}
+enum { BLOCK = 8, BLOCK_PAIRS = BLOCK / 2 };
 
 static inline bool is_flat_block(const uint32_t *in)
 {
@@ -184,47 +93,146 @@ static inline bool is_flat_block(const uint32_t *in)
     return in[7] == p && in[1] == p && in[2] == p && in[3] == p && in[4] == p && in[5] == p && in[6] == p;
 }
 
-static inline void copy_block(uint16_t *out, const uint16_t *from)
+/* One channel of two pixels fills a word, and a channel's level is (code factor + step) >> 11 of 31 levels, >> 10 of 63: with
+ * thresholds of the form 4 k + 2, one even step for each k (smear_dither_steps) gives the levels of all codes, and half of it
+ * those of 63. */
+enum { DITHER_31 = 249, DITHER_63 = 253 };
+
+#if !SMEAR_ASM_ARMV6M
+/* Two pixels: codes times factors. */
+struct dither_pair {
+    uint32_t high, green, low;
+};
+
+SMEAR_INLINE struct dither_pair dither_pair_of(uint32_t first, uint32_t second, bool is_555)
 {
+    const uint32_t both = 0xff00ffu;
+#if SMEAR_BIG_ENDIAN
+    const uint32_t p = second, q = first;
+#else
+    const uint32_t p = first, q = second;
+#endif
+    const uint32_t low_half = (p & 0xffffu) | q << 16, red = (p >> 16 | (q & 0xffff0000u)) & both, blue = low_half & both;
+    return (struct dither_pair){ (is_555 ? blue : red) * DITHER_31, (low_half >> 8 & both) * (is_555 ? DITHER_31 : DITHER_63),
+                                 (is_555 ? red : blue) * DITHER_31 };
+}
+
+/* The same of a pixel twice. */
+SMEAR_INLINE struct dither_pair dither_twice(uint32_t p, bool is_555)
+{
+    const uint32_t levels = 0x10001u * DITHER_31;
+    const uint32_t red = pixel_red(p) * levels, blue = pixel_blue(p) * levels;
+    return (struct dither_pair){ is_555 ? blue : red, pixel_green(p) * (is_555 ? levels : 0x10001u * DITHER_63),
+                                 is_555 ? red : blue };
+}
+
+SMEAR_INLINE uint32_t dithered_pair(const struct dither_pair *d, uint32_t step, bool is_555, bool swapped)
+{
+    const uint32_t five = 0xf800f800u;
+    const uint32_t high = (d->high + step) & five, low = (d->low + step) & five;
+    const uint32_t pair = is_555 ? high >> 1 | ((d->green + step) & five) >> 6 | low >> 11
+                                 : high | ((d->green + (step >> 1)) & 0xfc00fc00u) >> 5 | low >> 11;
+    return swapped != SMEAR_BIG_ENDIAN ? (pair >> 8 & 0xff00ffu) | (pair & 0xff00ffu) << 8 : pair;
+}
+
+/* Stores blocks of eight pixels; `out` is at a multiple of four bytes. A block of one colour looks like the last one of one
+ * colour, where that is the same. */
+SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t step[BLOCK_PAIRS],
+                                  bool is_555, bool swapped)
+{
+    static const pixel_word black[BLOCK_PAIRS];
     pixel_word *to = (pixel_word *)(void *)out;
-    const pixel_word *words = (const pixel_word *)(const void *)from;
-    to[0] = words[0];
-    to[1] = words[1];
-    to[2] = words[2];
-    to[3] = words[3];
+    const pixel_word *kept = black;
+    uint32_t last = 0, flat = 0;
+    struct dither_pair twice = { 0, 0, 0 };
+    for (; blocks > 0; blocks--, in += BLOCK, to += BLOCK_PAIRS) {
+        if (*in == flat && is_flat_block(in)) {
+            to[0] = kept[0];
+            to[1] = kept[1];
+            to[2] = kept[2];
+            to[3] = kept[3];
+            continue;
+        }
+        const uint32_t first = *in;
+        uint32_t other = 0;
+        for (int i = 0; i < BLOCK_PAIRS; i++) {
+            const uint32_t p = in[2 * i], q = in[2 * i + 1];
+            other |= (p ^ first) | (q ^ first);
+            if (p != q) {
+                const struct dither_pair two = dither_pair_of(p, q, is_555);
+                to[i] = dithered_pair(&two, step[i], is_555, swapped);
+                continue;
+            }
+            if (p != last) {
+                last = p;
+                twice = dither_twice(p, is_555);
+            }
+            to[i] = dithered_pair(&twice, step[i], is_555, swapped);
+        }
+        if (other == 0) {
+            flat = first;
+            kept = to;
+        }
+    }
+}
+#endif
+
+SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool is_555,
+                                     bool swapped)
+{
+#if SMEAR_ASM_ARMV6M
+    dithered_blocks_armv6m(out, in, blocks, step, is_555, swapped);
+#else
+    dithered_blocks(out, in, blocks, step, is_555, swapped);
+#endif
+}
+
+typedef void blocks_fn(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step);
+
+static SMEAR_NOINLINE void blocks_555(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step)
+{
+    dithered_blocks_of(out, in, blocks, step, true, false);
+}
+
+static SMEAR_NOINLINE void blocks_565(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step)
+{
+    dithered_blocks_of(out, in, blocks, step, false, false);
+}
+
+static SMEAR_NOINLINE void blocks_565_swapped(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step)
+{
+    dithered_blocks_of(out, in, blocks, step, false, true);
+}
+
+/* Few pixels, at the ends of a row. */
+static SMEAR_NOINLINE void dithered_ends(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                                         enum row_16bit format)
+{
+    row_dithered_reference(out, in, n, x, threshold, BLOCK - 1, format);
 }
 
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format)
 {
-    ordered_fn *const fn = SMEAR_WITH_RGB && format == ROW_555         ? ordered_555
-                         : SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED ? ordered_565_swapped
-                                                                          : ordered_565;
-    uint32_t steps[2 * ORDERED_WIDTH], *step = steps + (x & (ORDERED_WIDTH - 1));
-    const int32_t head = -x & (ORDERED_WIDTH - 1);
-    for (uint32_t i = 0; i < ORDERED_WIDTH; i++)
-        steps[i] = steps[i + ORDERED_WIDTH] = (uint32_t)(threshold[i] >> 2)
-                                            * (1u << ORDERED_HIGH | 1u << ORDERED_LOW);
-    const uint32_t *rest = in, *end = in + n;       /* from `rest` on nothing is done */
-    if (((uintptr_t)(out + head) & 3u) == 0) {      /* blocks are copied in words */
-        const uint16_t *kept = out;
-        uint32_t last = n > 0 ? ~*in : 0;
-        for (in += head, out += head; end - in >= ORDERED_WIDTH; in += ORDERED_WIDTH, out += ORDERED_WIDTH) {
-            if (!is_flat_block(in))
-                continue;
-            if (*in != last) {
-                last = *in;
-                kept = out;
-                continue;
-            }
-            if (rest != in)
-                fn(out - (in - rest), rest, in, step);
-            rest = in + ORDERED_WIDTH;
-            step = steps;
-            copy_block(out, kept);
-        }
+    blocks_fn *const fn = SMEAR_WITH_RGB && format == ROW_555            ? blocks_555
+                        : SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED ? blocks_565_swapped
+                                                                         : blocks_565;
+    const int32_t head = min_i32((int32_t)((uintptr_t)out >> 1 & 1u), n), blocks = (n - head) / BLOCK;
+    if (head != 0)
+        dithered_ends(out, in, head, x, threshold, format);
+    out += head;
+    in += head;
+    x += head;
+    if (blocks > 0) {
+        uint32_t step[BLOCK_PAIRS];
+        for (int32_t i = 0; i < BLOCK_PAIRS; i++)
+            step[i] = pair_of(smear_dither_steps[threshold[(x + 2 * i) & 7] >> 2],
+                              smear_dither_steps[threshold[(x + 2 * i + 1) & 7] >> 2]);
+        fn(out, in, blocks, step);
     }
-    fn(out - (in - rest), rest, end, step);
+    const int32_t done = BLOCK * blocks;
+    if (n - head > done)
+        dithered_ends(out + done, in + done, n - head - done, x + done, threshold, format);
 }
 #endif
 
@@ -369,17 +377,17 @@ void smear_row_l4_blocks(uint8_t *row, const uint32_t *in, int32_t n, int32_t x,
 {
     const bool dithered = threshold != NULL;
     uint8_t *out = row + x / 2;
-    uint32_t step[ORDERED_WIDTH], last = n > 0 ? ~*in : 0, grey = 0, flat = last;
-    uint8_t block[ORDERED_WIDTH / 2] = { 0 };
-    for (int i = 0; i < ORDERED_WIDTH; i++)
+    uint32_t step[BLOCK], last = n > 0 ? ~*in : 0, grey = 0, flat = last;
+    uint8_t block[BLOCK / 2] = { 0 };
+    for (int i = 0; i < BLOCK; i++)
         step[i] = dithered ? (uint32_t)threshold[i] << 8 : 0;
-    for (; n >= ORDERED_WIDTH; n -= ORDERED_WIDTH, in += ORDERED_WIDTH, out += sizeof block) {
+    for (; n >= BLOCK; n -= BLOCK, in += BLOCK, out += sizeof block) {
         const bool is_flat = is_flat_block(in);
         if (is_flat && *in == flat) {
             __builtin_memcpy(out, block, sizeof block);
             continue;
         }
-        for (int i = 0; i < ORDERED_WIDTH; i += 2)
+        for (int i = 0; i < BLOCK; i += 2)
             l4_pair(out + i / 2, in + i, step + i, &last, &grey, dithered);
         if (is_flat) {
             flat = *in;
