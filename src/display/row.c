@@ -89,9 +89,15 @@ void smear_row_count(const struct smear_rows *rows, int kind, smear_method metho
 
 void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity)
 {
-    const int32_t n = t->x1 - t->x0;
+    const int32_t width = t->x1 - t->x0;
     for (int32_t y = t->y0; y < t->y1; y++) {
         const int32_t at = target_row(&t->window_rows, t, y) + t->x0;
+        int32_t n = width;
+#ifndef __OPTIMIZE_SIZE__
+        /* Whole rows lie one behind the other, but at the end of the ring. */
+        for (; y + 1 < t->y1 && target_row(&t->window_rows, t, y + 1) + t->x0 == at + n; y++)
+            n += width;
+#endif
         pixels_fill(t->color + at, color, n);
         __builtin_memset(t->depth + at, 0, (size_t)n * 2);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)

@@ -2,6 +2,7 @@
 /* pixel_rows.c - the forms that are longer than their references. */
 #include "kernels/pixel_rows.h"
 
+#include "kernels/pixel_rows_arm.h"
 #include "kernels/pixel_rows_armv6m.h"
 
 /* ------------------------------------------------------------------ 16 bits, nearest levels */
@@ -183,6 +184,12 @@ SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t 
 #if SMEAR_ASM_ARMV6M
     dithered_blocks_armv6m(out, in, blocks, step, is_555, swapped);
 #else
+#if SMEAR_ASM_ARM
+    if (is_555) {
+        dithered_blocks_arm(out, in, blocks, step);
+        return;
+    }
+#endif
     dithered_blocks(out, in, blocks, step, is_555, swapped);
 #endif
 }
@@ -211,6 +218,12 @@ static SMEAR_NOINLINE void dithered_ends(uint16_t *out, const uint32_t *in, int3
     row_dithered_reference(out, in, n, x, threshold, BLOCK - 1, format);
 }
 
+/* The steps of two columns. */
+static inline uint32_t steps_of(const uint8_t *threshold, int32_t x)
+{
+    return pair_of(smear_dither_steps[threshold[x & 7] >> 2], smear_dither_steps[threshold[(x + 1) & 7] >> 2]);
+}
+
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format)
 {
@@ -224,10 +237,8 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
     in += head;
     x += head;
     if (blocks > 0) {
-        uint32_t step[BLOCK_PAIRS];
-        for (int32_t i = 0; i < BLOCK_PAIRS; i++)
-            step[i] = pair_of(smear_dither_steps[threshold[(x + 2 * i) & 7] >> 2],
-                              smear_dither_steps[threshold[(x + 2 * i + 1) & 7] >> 2]);
+        const uint32_t step[BLOCK_PAIRS] = { steps_of(threshold, x), steps_of(threshold, x + 2), steps_of(threshold, x + 4),
+                                             steps_of(threshold, x + 6) };
         fn(out, in, blocks, step);
     }
     const int32_t done = BLOCK * blocks;
