@@ -127,13 +127,24 @@ SMEAR_INLINE struct dither_pair dither_twice(uint32_t p, bool is_555)
                                  is_555 ? red : blue };
 }
 
+/* Exchanges the bytes of each half. */
+static inline uint32_t bytes_exchanged(uint32_t pair)
+{
+#if SMEAR_GNU && defined(__arm__) && __ARM_ARCH >= 6
+    __asm__("rev16 %0, %0" : "+l"(pair));
+    return pair;
+#else
+    return (pair >> 8 & 0xff00ffu) | (pair & 0xff00ffu) << 8;
+#endif
+}
+
 SMEAR_INLINE uint32_t dithered_pair(const struct dither_pair *d, uint32_t step, bool is_555, bool swapped)
 {
     const uint32_t five = 0xf800f800u;
     const uint32_t high = (d->high + step) & five, low = (d->low + step) & five;
     const uint32_t pair = is_555 ? high >> 1 | ((d->green + step) & five) >> 6 | low >> 11
                                  : high | ((d->green + (step >> 1)) & 0xfc00fc00u) >> 5 | low >> 11;
-    return swapped != SMEAR_BIG_ENDIAN ? (pair >> 8 & 0xff00ffu) | (pair & 0xff00ffu) << 8 : pair;
+    return swapped != SMEAR_BIG_ENDIAN ? bytes_exchanged(pair) : pair;
 }
 
 /* Stores blocks of eight pixels; `out` is at a multiple of four bytes. A block of one colour looks like the last one of one
@@ -154,24 +165,25 @@ SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blo
             to[3] = kept[3];
             continue;
         }
-        const uint32_t first = *in;
-        uint32_t other = 0;
+        bool is_flat = true;
         for (int i = 0; i < BLOCK_PAIRS; i++) {
             const uint32_t p = in[2 * i], q = in[2 * i + 1];
-            other |= (p ^ first) | (q ^ first);
-            if (p != q) {
-                const struct dither_pair two = dither_pair_of(p, q, is_555);
-                to[i] = dithered_pair(&two, step[i], is_555, swapped);
-                continue;
-            }
-            if (p != last) {
+            if (p == last && q == last) {
+                to[i] = dithered_pair(&twice, step[i], is_555, swapped);
+            } else if (p == q) {
+                SMEAR_KEEP_BRANCH();
+                is_flat = i == 0;
                 last = p;
                 twice = dither_twice(p, is_555);
+                to[i] = dithered_pair(&twice, step[i], is_555, swapped);
+            } else {
+                const struct dither_pair two = dither_pair_of(p, q, is_555);
+                is_flat = false;
+                to[i] = dithered_pair(&two, step[i], is_555, swapped);
             }
-            to[i] = dithered_pair(&twice, step[i], is_555, swapped);
         }
-        if (other == 0) {
-            flat = first;
+        if (is_flat) {
+            flat = last;
             kept = to;
         }
     }
