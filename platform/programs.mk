@@ -196,6 +196,13 @@ print-footprint:
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP) $(if $(FOG),$(if $(STEP),$(FOG),$(error FOG=$(FOG) needs a BLUR and a STEP)))
 
+.PHONY: demo-fixed
+## what a frame of the demo costs whatever its size, and each pixel: by two sizes; BLUR=none, STEP=6
+demo-fixed: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
+	for part in cost half; do \
+	    $(RUN_BENCH) $< $$part $(DEMO_SCREEN) $(or $(BLUR),none) $(or $(STEP),6) || exit 1; \
+	done | awk -f platform/fixed.awk
+
 # ---------------------------------------------------------------------- the smallest
 
 FILE_SRC ?= platform/host/file.c
