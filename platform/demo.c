@@ -153,8 +153,8 @@ static void print_shot(const char *name, const struct shot *s, uint32_t pixels)
     platform_print(" %\n");
 }
 
-/* Means over every stepth frame of the loop, on a screen of a part of the width and height, from the middle of the first step on. Where the display keeps what it
- * is sent, frames before those are drawn, too, and not counted. */
+/* Means over every stepth frame of the loop, from the middle of the first step on, on the screen's width and height by `part`.
+ * Where the display keeps what it is sent, frames before those are drawn, too, and not counted. */
 static int cost(const struct demo_screen *screen, int part, const struct demo_blur *way, uint32_t step, const smear_fog *fog)
 {
     smear_desc desc = screen->desc;

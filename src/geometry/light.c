@@ -196,26 +196,24 @@ static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const in
 uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
                           const int16_t c[3])
 {
-    int32_t u[3], v[3];
-    for (int i = 0; i < 3; i++) {
-        u[i] = b[i] - a[i];
-        v[i] = c[i] - a[i];
-    }
+    const int32_t u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] }, v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
 #ifndef __OPTIMIZE_SIZE__
-    int32_t n[3];
-    uint32_t size = 0;
-    for (int i = 0; i < 3; i++)
-        size |= (uint32_t)(u[i] ^ u[i] >> 31) | (uint32_t)(v[i] ^ v[i] >> 31);
-    if (size < 1u << 15) {      /* cross products have 31 bits */
-        uint32_t largest = 1;
-        for (int i = 0; i < 3; i++) {
-            int j = next_axis(i), k = next_axis(j);
-            n[i] = u[j] * v[k] - u[k] * v[j];
-            largest |= (uint32_t)abs_i32(n[i]);
+    const uint32_t half = 1u << 15;
+    const uint32_t size = ((uint32_t)u[0] + half) | ((uint32_t)u[1] + half) | ((uint32_t)u[2] + half)
+                        | ((uint32_t)v[0] + half) | ((uint32_t)v[1] + half) | ((uint32_t)v[2] + half);
+    if (size < 2 * half) {      /* cross products have 31 bits */
+        int32_t n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+        const uint32_t largest = 1u | (uint32_t)abs_i32(n[0]) | (uint32_t)abs_i32(n[1]) | (uint32_t)abs_i32(n[2]);
+        const int shift = 32 - count_leading_zeros(largest) - 14;
+        if (shift >= 0) {
+            n[0] >>= shift;
+            n[1] >>= shift;
+            n[2] >>= shift;
+        } else {
+            n[0] *= 1 << -shift;
+            n[1] *= 1 << -shift;
+            n[2] *= 1 << -shift;
         }
-        int shift = 32 - count_leading_zeros(largest) - 14;
-        for (int i = 0; i < 3; i++)
-            n[i] = shift >= 0 ? n[i] >> shift : n[i] * (1 << -shift);
         return cosine_of(s, n);
     }
 #endif
