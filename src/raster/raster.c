@@ -7,6 +7,7 @@
 #include "raster/cover_tiny8.h"
 #include "raster/fog.h"
 #include "raster/span.h"
+#include "raster/tiny_list.h"
 
 /* ------------------------------------------------------------------ a triangle */
 
@@ -333,11 +334,46 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
 }
 #endif
 
+#if SMEAR_TINY_LIST
+/* A list of triangles that may be tiny, and points. */
+static void draw_list_tiny(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    bool moved = target->over, suits = false;
+    uint32_t segment = SMEAR_POINT;
+    struct tiny_look look;
+    while (head != SMEAR_NO_TRIANGLE) {
+        const uint32_t number = head;
+        const struct smear_triangle *t = bins_triangle(frame->bins, number);
+        head = t->next;
+        if (t->segment == SMEAR_POINT) {
+            draw_point(frame, target, t, moved);
+            continue;
+        }
+        const struct smear_segment *g = &frame->bins->segment[t->segment];
+        const int32_t *v[3];
+        if (t->segment != segment) {
+            segment = t->segment;
+            suits = tiny_look(&look, frame, target, g);
+        }
+        for (int i = 0; i < 3; i++)
+            v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
+        if (!suits || !tiny_draw(&look, v, t->color))
+            draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
+    }
+}
+#endif
+
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
 #if SMEAR_AVX2
     if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && tiny8_suit(target)) {
         draw_list_tiny8(frame, target, head);
+        return;
+    }
+#endif
+#if SMEAR_TINY_LIST
+    if (tiny_list_suits(frame, target)) {
+        draw_list_tiny(frame, target, head);
         return;
     }
 #endif

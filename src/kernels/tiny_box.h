@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT */
+/* tiny_box.h - the pixels of a tiny triangle: its edge functions say which are covered, and are the weights of the corners, which
+ * become depth codes and colours. */
+#ifndef SMEAR_KERNELS_TINY_BOX_H
+#define SMEAR_KERNELS_TINY_BOX_H
+
+#include "base/pixel.h"
+#include "kernels/kernels.h"
+#include "kernels/tiny_weights.h"
+
+/* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
+ * rounds codes (tiny_pixel). */
+struct tiny_channel {
+    int32_t to1, to2;
+    uint32_t base;
+};
+
+/* A box of columns x rows > 0 pixels, which lie in rows of `stride` pixels; `depth` and `pixels` are those of the first. Its edge
+ * functions e1 and e2 are the weights of v[1] and v[2], the third is sum - e1 - e2; all stay within 31 bits in the box and one
+ * column and row beyond. */
+struct tiny_box {
+    int32_t e1, e2, down1, down2; /* at the first pixel, one row further down */
+    int32_t columns, stride;
+    uint16_t *depth;
+    int32_t rows;
+    int32_t up; /* weights: tiny_scale */
+    uint32_t recip;
+    uint32_t units; /* units of v[0], with what makes them codes by a shift: tiny_codes */
+    int32_t code_shift;
+    int32_t to1_low, to1_high, to2_low, to2_high; /* units of v[1] and of v[2] less those of v[0]: 16 bits each */
+    uint32_t to_pixel;                            /* for assembly: pixels - depth, or where pixels are wide - 2 depth */
+    uint32_t color;                               /* where it is not shaded */
+    struct tiny_channel channel[3];               /* red, blue, green */
+    int32_t right1, right2, sum;                  /* one column further right */
+    uint32_t round;                               /* for assembly: of red and blue, rgb565_nearest */
+    void *pixels;
+    bool shaded, linear, narrow;
+};
+
+/* Codes are (units + bias) >> shift where all of a triangle's are on one side of their break: false where they are not. Weights
+ * are rounded down: what they weigh is up to 2 less than its least corner. */
+static inline bool tiny_codes(struct tiny_box *b, int32_t q0, int32_t low, int32_t high)
+{
+    if (high < 32768 << 11) {
+        b->units = (uint32_t)q0 + 0x400u;
+        b->code_shift = 11;
+        return true;
+    }
+    b->units = (uint32_t)q0 + ((32768u - 2048u) << 15) + 0x4000u;
+    b->code_shift = 15;
+    return low - 2 >= 32768 << 11;
+}
+
+static inline void tiny_units(struct tiny_box *b, int32_t to1, int32_t to2)
+{
+    b->to1_high = to1 >> 16;
+    b->to1_low = to1 & 0xffff;
+    b->to2_high = to2 >> 16;
+    b->to2_low = to2 & 0xffff;
+}
+
+/* Returns one channel, 8 bits of a code or 12 of linear light. */
+static inline uint32_t tiny_channel_at(const struct tiny_channel *c, uint32_t w1, uint32_t w2, bool linear)
+{
+    return (c->base + (uint32_t)(c->to1 * (int32_t)(w1 >> 2)) + (uint32_t)(c->to2 * (int32_t)(w2 >> 2))) >> (linear ? 18 : 22);
+}
+
+SMEAR_INLINE uint32_t tiny_box_color(const struct tiny_box *b, uint32_t w1, uint32_t w2, bool linear)
+{
+    const uint32_t red = tiny_channel_at(&b->channel[0], w1, w2, linear), blue = tiny_channel_at(&b->channel[1], w1, w2, linear);
+    const uint32_t green = tiny_channel_at(&b->channel[2], w1, w2, linear);
+    if (linear)
+        return pixel_make(0, smear_srgb_encode[red], smear_srgb_encode[green], smear_srgb_encode[blue]);
+    return pixel_make(0, red, green, blue);
+}
+
+/* Pixel (e1, e2), where it is nearer. */
+SMEAR_INLINE void tiny_box_pixel(const struct tiny_box *b, uint16_t *depth, void *pixel, int32_t e1, int32_t e2, bool shaded,
+                                 bool linear, bool narrow)
+{
+    const struct tiny_scale scale = { b->recip, b->up };
+    const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
+    const uint32_t low = ((uint32_t)b->to1_low * w1 >> 16) + ((uint32_t)b->to2_low * w2 >> 16);
+    const uint32_t high = (uint32_t)(b->to1_high * (int32_t)w1) + (uint32_t)(b->to2_high * (int32_t)w2);
+    const uint32_t code = (b->units + low + high) >> b->code_shift;
+    if (code > *depth) {
+        uint32_t color = b->color;
+        *depth = (uint16_t)code;
+        if (shaded) {
+            color = tiny_box_color(b, w1, w2, linear);
+            color = narrow ? rgb565_nearest(color) : color;
+        }
+        if (narrow)
+            *(uint16_t *)pixel = (uint16_t)color;
+        else
+            *(uint32_t *)pixel = color;
+    }
+}
+
+/* Draws covered pixels that are nearer than what is there. b->e1 and b->e2 are used up. */
+static inline void tiny_box_reference(struct tiny_box *b)
+{
+    for (int32_t y = 0; y < b->rows; y++)
+        for (int32_t x = 0; x < b->columns; x++) {
+            const int32_t e1 = b->e1 + b->right1 * x + b->down1 * y, e2 = b->e2 + b->right2 * x + b->down2 * y;
+            const int32_t at = y * b->stride + x;
+            if (((b->sum - e1 - e2) | e1 | e2) >= 0)
+                tiny_box_pixel(b, b->depth + at, pixel_after(b->pixels, at, b->narrow), e1, e2, b->shaded, b->linear, b->narrow);
+        }
+}
+
+/* Rows end where they leave the triangle; a loop for each kind. */
+SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bool narrow)
+{
+    const int32_t right1 = b->right1, right2 = b->right2, sum = b->sum, stride = b->stride, columns = b->columns;
+    uint16_t *row = b->depth;
+    void *pixels = b->pixels;
+    for (int32_t rows = b->rows; rows > 0; rows--) {
+        int32_t e1 = b->e1, e2 = b->e2, x = 0;
+        while (((sum - e1 - e2) | e1 | e2) < 0 && ++x < columns) {
+            e1 += right1;
+            e2 += right2;
+        }
+        if (x < columns)
+            do {
+                tiny_box_pixel(b, row + x, pixel_after(pixels, x, narrow), e1, e2, shaded, linear, narrow);
+                e1 += right1;
+                e2 += right2;
+            } while (++x < columns && ((sum - e1 - e2) | e1 | e2) >= 0);
+        b->e1 += b->down1;
+        b->e2 += b->down2;
+        row += stride;
+        pixels = pixel_after(pixels, stride, narrow);
+    }
+}
+
+static inline void tiny_box_unrolled(struct tiny_box *b)
+{
+    if (!b->shaded && b->narrow)
+        tiny_box_rows(b, false, false, true);
+    else if (!b->shaded)
+        tiny_box_rows(b, false, false, false);
+    else if (!b->linear && b->narrow)
+        tiny_box_rows(b, true, false, true);
+    else if (!b->linear)
+        tiny_box_rows(b, true, false, false);
+    else
+        tiny_box_rows(b, true, true, b->narrow);
+}
+
+#if SMEAR_ASM_ARMV6M
+SMEAR_STATIC_ASSERT(offsetof(struct tiny_box, stride) == 20 && offsetof(struct tiny_box, rows) == 28
+                        && offsetof(struct tiny_box, up) == 32 && offsetof(struct tiny_box, units) == 40
+                        && offsetof(struct tiny_box, to1_low) == 48 && offsetof(struct tiny_box, to_pixel) == 64
+                        && offsetof(struct tiny_box, channel) == 72 && offsetof(struct tiny_box, right1) == 108
+                        && offsetof(struct tiny_box, round) == 120 && sizeof(struct tiny_channel) == 12,
+                    "the assembly knows struct tiny_box");
+
+/* Takes the next channel at r3, for the parts a in r4 and b in r5: eight bits into r1. */
+#define TINY_BOX_CHANNEL        \
+    "ldm r3!, {r1, r2, r6}\n\t" \
+    "muls r1, r4\n\t"           \
+    "muls r2, r5\n\t"           \
+    "adds r1, r1, r2\n\t"       \
+    "adds r1, r1, r6\n\t"       \
+    "lsrs r1, r1, #22\n\t"
+
+/* Red and blue into r7, green into r1; the box's address again in r3. */
+#define TINY_BOX_SHADE                      \
+    "lsrs r4, r4, #17\n\t"                  \
+    "lsrs r5, r5, #17\n\t"                  \
+    "adds r3, #72\n\t" TINY_BOX_CHANNEL     \
+    "lsls r7, r1, #16\n\t" TINY_BOX_CHANNEL \
+    "orrs r7, r1\n\t" TINY_BOX_CHANNEL      \
+    "subs r3, #108\n\t"
+
+/* rgb565_nearest, into r1. */
+#define TINY_BOX_SHADE_NARROW \
+    TINY_BOX_SHADE            \
+    "movs r2, #249\n\t"       \
+    "muls r7, r2\n\t"         \
+    "ldr r2, [r3, #120]\n\t"  \
+    "adds r7, r7, r2\n\t"     \
+    "movs r2, #253\n\t"       \
+    "muls r1, r2\n\t"         \
+    "adds r1, #250\n\t"       \
+    "adds r1, #255\n\t"       \
+    "lsrs r1, r1, #10\n\t"    \
+    "lsls r1, r1, #5\n\t"     \
+    "lsls r2, r7, #16\n\t"    \
+    "lsrs r2, r2, #27\n\t"    \
+    "orrs r1, r2\n\t"         \
+    "lsrs r7, r7, #27\n\t"    \
+    "lsls r7, r7, #11\n\t"    \
+    "orrs r1, r7\n\t"
+#define TINY_BOX_SHADE_WIDE \
+    TINY_BOX_SHADE          \
+    "lsls r1, r1, #8\n\t"   \
+    "orrs r1, r7\n\t"
+#define TINY_BOX_FLAT \
+    "ldr r1, [r3, #68]\n\t"
+#define TINY_BOX_STORE_NARROW \
+    "ldr r2, [r3, #64]\n\t"   \
+    "strh r1, [r0, r2]\n"
+#define TINY_BOX_STORE_WIDE \
+    "ldr r2, [r3, #64]\n\t" \
+    "adds r2, r2, r0\n\t"   \
+    "str r1, [r0, r2]\n"
+
+/* Edge functions into r4 and r5; `mi` where the pixel in r0 is not covered. */
+#define TINY_BOX_TEST     \
+    "mov r4, r8\n\t"      \
+    "mov r5, r9\n\t"      \
+    "mov r6, r12\n\t"     \
+    "subs r6, r6, r4\n\t" \
+    "subs r6, r6, r5\n\t" \
+    "orrs r6, r4\n\t"     \
+    "orrs r6, r5\n\t"
+
+/* One pixel further right; `ne` unless the row is at its end. */
+#define TINY_BOX_STEP \
+    "add r8, r10\n\t" \
+    "add r9, r11\n\t" \
+    "adds r0, #2\n\t" \
+    "cmp r0, lr\n\t"
+
+/* r0 points to depths, r3 to the box; e1 in r8, e2 in r9, their steps in r10 and r11, the sum of all in r12, the row's end in lr.
+ * A loop by compilers takes twice the instructions. */
+#define TINY_BOX_ARMV6M(COLOR, STORE)   \
+    __asm__ volatile(                   \
+        ".syntax unified\n\t"           \
+        "movs r0, r3\n\t"               \
+        "adds r0, #108\n\t"             \
+        "ldm r0!, {r4, r5, r6}\n\t"     \
+        "mov r10, r4\n\t"               \
+        "mov r11, r5\n\t"               \
+        "mov r12, r6\n"                 \
+        "1: ldr r0, [r3, #24]\n\t"      \
+        "ldr r6, [r3, #16]\n\t"         \
+        "lsls r6, r6, #1\n\t"           \
+        "adds r6, r6, r0\n\t"           \
+        "mov lr, r6\n\t"                \
+        "ldm r3!, {r4, r5, r6, r7}\n\t" \
+        "mov r8, r4\n\t"                \
+        "mov r9, r5\n\t"                \
+        "adds r6, r6, r4\n\t"           \
+        "adds r7, r7, r5\n\t"           \
+        "subs r3, #16\n\t"              \
+        "stm r3!, {r6, r7}\n\t"         \
+        "subs r3, #8\n"                 \
+        "2: " TINY_BOX_TEST             \
+        "bpl 3f\n\t" TINY_BOX_STEP      \
+        "bne 2b\n\t"                    \
+        "b 5f\n"                        \
+        "3: ldr r7, [r3, #32]\n\t"      \
+        "lsls r4, r7\n\t"               \
+        "lsls r5, r7\n\t"               \
+        "lsrs r4, r4, #16\n\t"          \
+        "lsrs r5, r5, #16\n\t"          \
+        "ldr r7, [r3, #36]\n\t"         \
+        "muls r4, r7\n\t"               \
+        "muls r5, r7\n\t"               \
+        "lsrs r6, r4, #15\n\t"          \
+        "lsrs r7, r5, #15\n\t"          \
+        "ldr r1, [r3, #52]\n\t"         \
+        "muls r1, r6\n\t"               \
+        "ldr r2, [r3, #48]\n\t"         \
+        "muls r6, r2\n\t"               \
+        "lsrs r6, r6, #16\n\t"          \
+        "adds r1, r1, r6\n\t"           \
+        "ldr r2, [r3, #60]\n\t"         \
+        "muls r2, r7\n\t"               \
+        "adds r1, r1, r2\n\t"           \
+        "ldr r2, [r3, #56]\n\t"         \
+        "muls r7, r2\n\t"               \
+        "lsrs r7, r7, #16\n\t"          \
+        "adds r1, r1, r7\n\t"           \
+        "ldr r2, [r3, #40]\n\t"         \
+        "adds r1, r1, r2\n\t"           \
+        "ldr r2, [r3, #44]\n\t"         \
+        "lsrs r1, r2\n\t"               \
+        "ldrh r2, [r0]\n\t"             \
+        "cmp r2, r1\n\t"                \
+        "bhs 4f\n\t"                    \
+        "strh r1, [r0]\n\t" COLOR STORE \
+        "4: " TINY_BOX_STEP             \
+        "beq 5f\n\t" TINY_BOX_TEST      \
+        "bpl 3b\n"                      \
+        "5: ldr r0, [r3, #20]\n\t"      \
+        "lsls r0, r0, #1\n\t"           \
+        "ldr r1, [r3, #24]\n\t"         \
+        "adds r1, r1, r0\n\t"           \
+        "str r1, [r3, #24]\n\t"         \
+        "ldr r0, [r3, #28]\n\t"         \
+        "subs r0, #1\n\t"               \
+        "str r0, [r3, #28]\n\t"         \
+        "bne 1b"                        \
+        : "+r"(r3)                      \
+        :                               \
+        : "r0", "r1", "r2", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+static SMEAR_NOINLINE void tiny_box_armv6m(struct tiny_box *b)
+{
+    register struct tiny_box *r3 __asm__("r3") = b;
+    b->round = 0x03f603f6u;
+    b->to_pixel = (uint32_t)(uintptr_t)b->pixels - (uint32_t)(uintptr_t)b->depth * (b->narrow ? 1u : 2u);
+    if (b->shaded && b->narrow)
+        TINY_BOX_ARMV6M(TINY_BOX_SHADE_NARROW, TINY_BOX_STORE_NARROW);
+    else if (b->shaded)
+        TINY_BOX_ARMV6M(TINY_BOX_SHADE_WIDE, TINY_BOX_STORE_WIDE);
+    else if (b->narrow)
+        TINY_BOX_ARMV6M(TINY_BOX_FLAT, TINY_BOX_STORE_NARROW);
+    else
+        TINY_BOX_ARMV6M(TINY_BOX_FLAT, TINY_BOX_STORE_WIDE);
+}
+#endif
+
+static inline void tiny_box(struct tiny_box *b)
+{
+#if SMEAR_ASM_ARMV6M
+    if (!b->shaded || !b->linear) {
+        tiny_box_armv6m(b);
+        return;
+    }
+#endif
+    tiny_box_unrolled(b);
+}
+
+#endif

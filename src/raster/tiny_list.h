@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* tiny_list.h - tiny triangles of a list, where they need no setup but that of their box (kernels/tiny_box.h). The bits are those
+ * of cover_tiny.h, which draws what is not taken. */
+#ifndef SMEAR_TINY_LIST_H
+#define SMEAR_TINY_LIST_H
+
+#include "kernels/tiny_box.h"
+#include "raster/cover_tiny.h"
+
+/* Lists have a loop of their own for them, where size does not count. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_TINY_LIST 0
+#else
+#define SMEAR_TINY_LIST 1
+#endif
+
+#if SMEAR_TINY_LIST
+
+/* What triangles of a segment have in common. */
+struct tiny_look {
+    int32_t x0, y0, x1, y1; /* of the target */
+    int32_t wrap;           /* the row that lies first in its ring */
+    int32_t at, ring;       /* pixel (x, y) lies at `at` + x + y stride, from `wrap` on `ring` pixels before */
+    uint16_t *depth;
+    void *pixels;
+    int color; /* in a record: the first of two words of colour */
+    bool even; /* depths must be nearly even */
+    struct tiny_box box;
+};
+
+/* Whether a target's lists may be drawn so: pixels say nothing but colour and depth. */
+static inline bool tiny_list_suits(const struct smear_raster_frame *frame, const struct smear_raster_target *t)
+{
+    return !frame_has_fog(frame) && !target_has_velocity(t);
+}
+
+/* False where triangles of the segment are drawn one by one. */
+static bool tiny_look(struct tiny_look *l, const struct smear_raster_frame *frame, const struct smear_raster_target *t,
+                      const struct smear_segment *segment)
+{
+    const struct smear_plane_rows *rows = &t->window_rows;
+    if (segment_textured(segment) || segment_moves(segment) != 0 || !draw_is_opaque(&frame->draw[segment->draw]))
+        return false;
+    l->x0 = t->x0;
+    l->y0 = t->y0;
+    l->x1 = t->x1;
+    l->y1 = t->y1;
+    l->wrap = t->y0 + rows->ring - rows->ring_row;
+    l->at = (rows->ring_row - t->y0) * rows->stride - rows->x0;
+    l->ring = rows->ring * rows->stride;
+    l->depth = t->depth;
+    l->pixels = target_is_direct(t) ? (void *)t->direct : t->color;
+    l->color = segment->color;
+    l->even = segment_by_vertices(segment) && !segment_flat_depth(segment);
+    l->box.stride = rows->stride;
+    l->box.shaded = segment_gouraud(segment);
+    l->box.linear = frame_is_linear(frame);
+    l->box.narrow = target_is_direct(t);
+    return true;
+}
+
+static inline void tiny_channel_make(struct tiny_channel *c, uint32_t c0, uint32_t c1, uint32_t c2, uint32_t round)
+{
+    c->to1 = (int32_t)(c1 & 0xffffu) - (int32_t)(c0 & 0xffffu);
+    c->to2 = (int32_t)(c2 & 0xffffu) - (int32_t)(c0 & 0xffffu);
+    c->base = ((c0 & 0xffffu) << 14) + round;
+}
+
+/* Makes edge functions, at pixel (x, y), and weights of corners. */
+SMEAR_INLINE void tiny_weights_make(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x, int32_t y)
+{
+    const int32_t vx = v0[VERTEX_X], vy = v0[VERTEX_Y], x1 = v1[VERTEX_X] - vx, y1 = v1[VERTEX_Y] - vy;
+    const int32_t x2 = v2[VERTEX_X] - vx, y2 = v2[VERTEX_Y] - vy, area = x1 * y2 - x2 * y1;
+    const int32_t cx = x * 256 + 128 - vx, cy = y * 256 + 128 - vy;
+    const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
+    const struct tiny_scale scale = tiny_scale_make(area);
+    b->up = scale.up;
+    b->recip = scale.recip;
+    b->e1 = y2 * cx - x2 * cy + bias1;
+    b->e2 = x1 * cy - y1 * cx + bias2;
+    b->sum = area + tiny_bias(x2 - x1, y2 - y1) + bias1 + bias2;
+    b->right1 = y2 * 256;
+    b->right2 = -y1 * 256;
+    b->down1 = -x2 * 256;
+    b->down2 = x1 * 256;
+}
+
+/* Draws rows [top, bottom) of a box whose first pixel is (x, top). */
+static inline void tiny_rows(struct tiny_look *l, int32_t x, int32_t top, int32_t bottom)
+{
+    struct tiny_box *const b = &l->box;
+    const int32_t at = l->at + top * b->stride + x - (top >= l->wrap ? l->ring : 0);
+    b->depth = l->depth + at;
+    b->pixels = pixel_after(l->pixels, at, b->narrow);
+    b->rows = bottom - top;
+    tiny_box(b);
+}
+
+/* Draws a triangle. False where it is not tiny, or its depth codes have their break in it. */
+static SMEAR_NOINLINE bool tiny_draw(struct tiny_look *l, const int32_t *const v[3], uint32_t color)
+{
+    struct tiny_box *const b = &l->box;
+    const int32_t *const v0 = v[0], *const v1 = v[1], *const v2 = v[2];
+    int32_t low = min_i32(v0[VERTEX_X], min_i32(v1[VERTEX_X], v2[VERTEX_X]));
+    int32_t high = max_i32(v0[VERTEX_X], max_i32(v1[VERTEX_X], v2[VERTEX_X]));
+    int32_t left = (low + 127) >> 8, right = (high + 127) >> 8;
+    low = min_i32(v0[VERTEX_Y], min_i32(v1[VERTEX_Y], v2[VERTEX_Y]));
+    high = max_i32(v0[VERTEX_Y], max_i32(v1[VERTEX_Y], v2[VERTEX_Y]));
+    int32_t top = (low + 127) >> 8, bottom = (high + 127) >> 8;
+    if (right - left > SMALL_PX || bottom - top > SMALL_PX || (right - left) * (bottom - top) > TINY_PIXELS)
+        return false;
+    const int32_t q0 = v0[VERTEX_DEPTH], q1 = v1[VERTEX_DEPTH], q2 = v2[VERTEX_DEPTH];
+    low = min_i32(q0, min_i32(q1, q2));
+    high = max_i32(q0, max_i32(q1, q2));
+    if (!tiny_codes(b, q0, low, high) || (l->even && high - low > low >> 5))
+        return false;
+    left = max_i32(left, l->x0);
+    top = max_i32(top, l->y0);
+    bottom = min_i32(bottom, l->y1);
+    b->columns = min_i32(right, l->x1) - left;
+    if (b->columns <= 0 || top >= bottom)
+        return true;
+    tiny_weights_make(b, v0, v1, v2, left, top);
+    tiny_units(b, q1 - q0, q2 - q0);
+    if (b->shaded) {
+        const uint32_t *const c0 = (const uint32_t *)v0 + l->color, *const c1 = (const uint32_t *)v1 + l->color;
+        const uint32_t *const c2 = (const uint32_t *)v2 + l->color, round = b->linear ? 0 : 1u << 21;
+        tiny_channel_make(&b->channel[0], c0[0], c1[0], c2[0], round);
+        tiny_channel_make(&b->channel[1], c0[1], c1[1], c2[1], round);
+        tiny_channel_make(&b->channel[2], c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, round);
+    } else {
+        b->color = b->narrow ? rgb565_nearest(color) : color & 0xffffffu;
+    }
+    if (top < l->wrap && bottom > l->wrap) {
+        tiny_rows(l, left, top, l->wrap);
+        top = l->wrap;
+    }
+    tiny_rows(l, left, top, bottom);
+    return true;
+}
+
+#endif
+#endif
