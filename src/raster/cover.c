@@ -9,6 +9,7 @@
 
 #include "kernels/edge_walk.h"
 #include "kernels/flat_face.h"
+#include "kernels/flat_rows_armv6m.h"
 #include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/span.h"
@@ -407,7 +408,8 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
 }
 
 /* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
-#if defined(__ARM_ARCH_6M__)
+#if SMEAR_ASM_ARMV6M
+#elif defined(__ARM_ARCH_6M__)
 #define cover_flat_whole cover_flat_cut
 #else
 static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
@@ -416,10 +418,12 @@ static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 }
 #endif
 
+#if !SMEAR_ASM_ARMV6M
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
     cover_flat(s, true, false);
 }
+#endif
 
 static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
@@ -452,6 +456,38 @@ static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct 
 }
 #endif
 
+#if SMEAR_ASM_ARMV6M
+/* The same rows by a kernel, whatever cuts them off. */
+static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    struct sides d;
+    if (!sides_start(&d, s))
+        return;
+    struct flat_rows rows = {
+        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1, .z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope),
+        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
+    };
+    int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
+    if (ring_row >= t->window_rows.ring)
+        ring_row -= t->window_rows.ring;
+    for (; y < d.end; y += rows.rows) {
+        if (y == knee)
+            knee = sides_part(&d, y);
+        const int32_t at = ring_row * rows.stride - t->window_rows.x0;
+        rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
+        rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
+        rows.depth = t->depth + at;
+        flat_rows_armv6m(&rows, &d.left, &d.right);
+        rows.z += rows.dz_down * (uint32_t)rows.rows;
+        ring_row += rows.rows;
+        if (ring_row == t->window_rows.ring)
+            ring_row = 0;
+    }
+}
+#endif
+
 static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
 {
     const struct smear_raster_target *t = s->target;
@@ -459,6 +495,11 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         cover_flat_break(s);
         return;
     }
+#if SMEAR_ASM_ARMV6M
+    (void)t;
+    (void)box;
+    cover_flat_kernel(s);
+#else
 #if SMEAR_AVX2
     if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
         cover_flat_lanes(s, box);
@@ -469,6 +510,7 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         cover_flat_cut(s);
     else
         cover_flat_whole(s);
+#endif
 }
 #endif
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
-#include "kernels/flat_run.h"
+#include "kernels/flat_rows_armv6m.h"
 
 #include "tests/kernels/kernels.h"
 
-enum { Z, DZ, COLOR };      /* words */
+enum { Z, DZ, COLOR, DZ_DOWN, LEFT, RIGHT = LEFT + 4, ALL = RIGHT + 4 };      /* words; of edges, x and y of both ends */
+enum { STRIDE = 35, COLUMNS = 32 };
 
 #define CALLS(FORM) \
     static void wide_##FORM(struct kernel_call *c) \
@@ -35,6 +36,43 @@ static void narrow_best(struct kernel_call *c)
     flat_run(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], c->word[COLOR] & 0xffffu, true);
 }
 
+/* Edges reach beyond the rows and all columns, at least as far down as the rows are. */
+static void rows_prepare(struct kernel_call *c)
+{
+    for (int i = LEFT; i < ALL; i += 4) {
+        c->word[i] = (uint32_t)(kernel_between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
+        c->word[i + 1] = (uint32_t)kernel_between(-300, 127);
+        c->word[i + 2] = (uint32_t)(kernel_between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
+        c->word[i + 3] = (uint32_t)(c->n / STRIDE * 256 + kernel_between(256, 600));
+    }
+}
+
+static void rows_by(struct kernel_call *c, bool narrow, bool best)
+{
+    const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
+    const int32_t x0 = c->n % (STRIDE - COLUMNS);
+    const struct flat_rows rows = { c->plane[0], c->plane[1], STRIDE, c->n / STRIDE, x0, x0 + COLUMNS, c->word[Z], c->word[DZ],
+                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow };
+    struct edge_walk a, b;
+    edge_start(&a, left, left + 2, 0);
+    edge_start(&b, right, right + 2, 0);
+#if SMEAR_ASM_ARMV6M
+    if (best)
+        flat_rows_armv6m(&rows, &a, &b);
+    else
+#else
+    (void)best;
+#endif
+        flat_rows_reference(&rows, &a, &b);
+    c->word[LEFT] = (uint32_t)edge_pixel(&a);
+    c->word[RIGHT] = (uint32_t)edge_pixel(&b);
+}
+
+static void wide_rows(struct kernel_call *c) { rows_by(c, false, false); }
+static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, true); }
+static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false); }
+static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, true); }
+
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
     { .name = "flat_run", .least = 1, .most = 19, .size = { 4, 2 },
@@ -42,5 +80,9 @@ const struct kernel kernels_flat_run[] = {
     { .name = "flat_run (narrow)", .least = 1, .most = 19, .size = { 2, 2 },
       .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR(narrow_vector),
                 { "best", narrow_best } } },
+    { .name = "flat_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", wide_rows }, { "best", wide_rows_best } } },
+    { .name = "flat_rows (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", narrow_rows }, { "best", narrow_rows_best } } },
     { .name = NULL }
 };

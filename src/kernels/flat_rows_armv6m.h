@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT */
+/* flat_rows_armv6m.h - flat_rows in assembly for Cortex-M0 and M0+: the edges' numbers are loaded and stored many at once, and pixels
+ * have all they need in low registers. Half of the instructions of a row, and four fifths of those of a pixel. */
+#ifndef SMEAR_KERNELS_FLAT_ROWS_ARMV6M_H
+#define SMEAR_KERNELS_FLAT_ROWS_ARMV6M_H
+
+#include "kernels/edge_walk.h"
+#include "kernels/flat_run.h"
+
+/* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
+struct flat_rows {
+    void *pixels;                   /* pixel 0 of the first row, which may lie outside the memory */
+    uint16_t *depth;
+    int32_t stride, rows;           /* pixels from row to row; how many rows */
+    int32_t x0, x1;
+    uint32_t z, dz, dz_down;        /* depth codes 16.16 at that pixel, and their steps */
+    uint32_t color;
+    bool narrow;
+};
+
+/* Draws pixels from one edge to before the other, if there are any, like flat_run. The edges go on by so many rows. */
+static inline void flat_rows_reference(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
+{
+    for (int32_t i = 0; i < r->rows; i++, edge_step(left), edge_step(right)) {
+        const int32_t a = max_i32(edge_pixel(left), r->x0), b = min_i32(edge_pixel(right), r->x1);
+        const int32_t at = i * r->stride + a;
+        if (a < b)
+            flat_run_reference(pixel_after(r->pixels, at, r->narrow), r->depth + at, b - a,
+                               r->z + r->dz_down * (uint32_t)i + r->dz * (uint32_t)a, r->dz, r->color, r->narrow);
+    }
+}
+
+#if SMEAR_ASM_ARMV6M
+
+/* What changes from row to row, and what does not. */
+struct flat_rows_walk {
+    int32_t x0, x1;
+    uint32_t z, dz_down;
+    void *pixels;
+    uint16_t *depth;
+    int32_t pixel_bytes, depth_bytes;       /* from row to row */
+    uint32_t dz, color;
+};
+
+SMEAR_STATIC_ASSERT(offsetof(struct flat_rows_walk, z) == 8 && offsetof(struct flat_rows_walk, pixels) == 16
+                        && offsetof(struct flat_rows_walk, depth_bytes) == 28 && offsetof(struct flat_rows_walk, color) == 36,
+                    "the assembly knows struct flat_rows_walk");
+SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_walk, rest) == 4
+                        && offsetof(struct edge_walk, step_rest) == 12 && sizeof(struct edge_walk) == 20,
+                    "the assembly knows struct edge_walk");
+
+/* The pixel AT bytes of depth and PLACE bytes of colours further on. LABEL is behind it. */
+#define FLAT_ROWS_PIXEL(STORE, AT, PLACE, LABEL) \
+    "lsrs r4, r2, #16\n\t"                       \
+    "ldrh r5, [r1, #" AT "]\n\t"                 \
+    "adds r2, r2, r3\n\t"                        \
+    "cmp r5, r4\n\t"                             \
+    "bhs " LABEL "f\n\t"                         \
+    "strh r4, [r1, #" AT "]\n\t" STORE " r7, [r0, #" PLACE "]\n" LABEL ": "
+
+/* Takes the edge at r7: its pixel into register PIXEL, and goes on by a row. */
+#define FLAT_ROWS_EDGE(PIXEL, LABEL)   \
+    "ldm r7!, {r0, r1, r2, r3, r4}\n\t" \
+    "asrs " PIXEL ", r0, #8\n\t"        \
+    "adds r0, r0, r2\n\t"               \
+    "adds r1, r1, r3\n\t"               \
+    "ble " LABEL "f\n\t"                \
+    "subs r1, r1, r4\n\t"               \
+    "adds r0, #1\n" LABEL ": subs r7, #20\n\t" \
+    "stm r7!, {r0, r1}\n\t"
+
+/* struct flat_rows_walk in r8, rows in r9, edges in r10 and r11. Then, in a row: pixels r0, depth r1, z r2, dz r3, how many r6, the
+ * colour r7. DOUBLE is an instruction where pixels are wide; of them SINGLE, TWICE and FOUR are bytes. */
+#define FLAT_ROWS_ARMV6M(STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                                    \
+    __asm__ volatile(".syntax unified\n\t"                                                                              \
+                     "mov r8, r0\n\t"                                                                                   \
+                     "mov r9, r1\n\t"                                                                                   \
+                     "mov r10, r2\n\t"                                                                                  \
+                     "mov r11, r3\n"                                                                                    \
+                     "1: mov r7, r10\n\t" FLAT_ROWS_EDGE("r5", "2") "mov r7, r11\n\t" FLAT_ROWS_EDGE("r6", "3")         \
+                     "mov r7, r8\n\t"                                                                                   \
+                     "ldm r7!, {r0, r1, r2, r3}\n\t"                                                                    \
+                     "cmp r5, r0\n\t"                                                                                   \
+                     "bge 4f\n\t"                                                                                       \
+                     "movs r5, r0\n"                                                                                    \
+                     "4: cmp r6, r1\n\t"                                                                                \
+                     "ble 5f\n\t"                                                                                       \
+                     "movs r6, r1\n"                                                                                    \
+                     "5: adds r3, r3, r2\n\t"                                                                           \
+                     "mov r4, r8\n\t"                                                                                   \
+                     "str r3, [r4, #8]\n\t"                                                                             \
+                     "ldm r7!, {r0, r1, r3, r4}\n\t"                                                                    \
+                     "adds r3, r3, r0\n\t"                                                                              \
+                     "adds r4, r4, r1\n\t"                                                                              \
+                     "subs r7, #16\n\t"                                                                                 \
+                     "stm r7!, {r3, r4}\n\t"                                                                            \
+                     "subs r6, r6, r5\n\t"                                                                              \
+                     "ble 9f\n\t"                                                                                       \
+                     "ldr r3, [r7, #8]\n\t"                                                                             \
+                     "movs r4, r3\n\t"                                                                                  \
+                     "muls r4, r5\n\t"                                                                                  \
+                     "adds r2, r2, r4\n\t"                                                                              \
+                     "lsls r5, r5, #1\n\t"                                                                              \
+                     "adds r1, r1, r5\n\t" DOUBLE "adds r0, r0, r5\n\t"                                                 \
+                     "ldr r7, [r7, #12]\n\t"                                                                            \
+                     "subs r6, #4\n\t"                                                                                  \
+                     "blt 7f\n"                                                                                         \
+                     "6: " FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")               \
+                         FLAT_ROWS_PIXEL(STORE, "4", TWICE, "4") FLAT_ROWS_PIXEL(STORE, "6", THRICE, "5")               \
+                     "adds r0, #" FOUR "\n\t"                                                                           \
+                     "adds r1, #8\n\t"                                                                                  \
+                     "subs r6, #4\n\t"                                                                                  \
+                     "bge 6b\n"                                                                                         \
+                     "7: lsrs r6, r6, #1\n\t"                                                                           \
+                     "bcc 8f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2")                                                 \
+                     "adds r0, #" SINGLE "\n\t"                                                                         \
+                     "adds r1, #2\n"                                                                                    \
+                     "8: lsrs r6, r6, #1\n\t"                                                                           \
+                     "bcc 9f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")        \
+                     "9: mov r4, r9\n\t"                                                                                \
+                     "subs r4, #1\n\t"                                                                                  \
+                     "mov r9, r4\n\t"                                                                                   \
+                     "beq 2f\n\t"                                                                                       \
+                     "b 1b\n"                                                                                           \
+                     "2:"                                                                                               \
+                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)                                                           \
+                     :                                                                                                  \
+                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "cc", "memory")
+
+static SMEAR_NOINLINE void flat_rows_armv6m(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
+{
+    struct flat_rows_walk walk = { r->x0, r->x1, r->z, r->dz_down, r->pixels, r->depth, r->stride * (r->narrow ? 2 : 4), r->stride * 2,
+                                   r->dz, r->color };
+    register struct flat_rows_walk *r0 __asm__("r0") = &walk;
+    register int32_t r1 __asm__("r1") = r->rows;
+    register struct edge_walk *r2 __asm__("r2") = left;
+    register struct edge_walk *r3 __asm__("r3") = right;
+    if (r->narrow)
+        FLAT_ROWS_ARMV6M("strh", "", "2", "4", "6", "8");
+    else
+        FLAT_ROWS_ARMV6M("str", "lsls r5, r5, #1\n\t", "4", "8", "12", "16");
+}
+
+#endif
+
+#endif
