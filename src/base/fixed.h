@@ -39,12 +39,12 @@ SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
 #if SMEAR_HAS_MUL64
     return (int32_t)((int64_t)a * b >> 32);
 #else
-    /* a = ah 2^16 + al, likewise b; |ah bl| < 2^31 because al, bl < 2^16 and |ah|, |bh| <= 2^15. */
-    int32_t ah = a >> 16, bh = b >> 16;
-    uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu;
-    int32_t cross1 = ah * (int32_t)bl, cross2 = (int32_t)al * bh;
-    uint32_t low = (al * bl >> 16) + ((uint32_t)cross1 & 0xffffu) + ((uint32_t)cross2 & 0xffffu);
-    return ah * bh + (cross1 >> 16) + (cross2 >> 16) + (int32_t)(low >> 16);
+    /* a = ah 2^16 + al, likewise b. |ah bl| <= 2^15 (2^16 - 1): what is added to it has 16 bits and fits. */
+    const int32_t ah = a >> 16, bh = b >> 16;
+    const uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu;
+    const int32_t middle = ah * (int32_t)bl + (int32_t)(al * bl >> 16);
+    const int32_t other = (int32_t)al * bh + (int32_t)((uint32_t)middle & 0xffffu);
+    return ah * bh + (middle >> 16) + (other >> 16);
 #endif
 }
 
@@ -54,10 +54,9 @@ SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
 #if SMEAR_HAS_MUL64
     return (uint32_t)((uint64_t)a * b >> 32);
 #else
-    uint32_t ah = a >> 16, bh = b >> 16, al = a & 0xffffu, bl = b & 0xffffu;
-    uint32_t cross1 = ah * bl, cross2 = al * bh;
-    uint32_t low = (al * bl >> 16) + (cross1 & 0xffffu) + (cross2 & 0xffffu);
-    return ah * bh + (cross1 >> 16) + (cross2 >> 16) + (low >> 16);
+    const uint32_t ah = a >> 16, bh = b >> 16, al = a & 0xffffu, bl = b & 0xffffu;
+    const uint32_t middle = ah * bl + (al * bl >> 16), other = al * bh + (middle & 0xffffu);
+    return ah * bh + (middle >> 16) + (other >> 16);
 #endif
 }
 

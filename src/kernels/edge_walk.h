@@ -20,7 +20,7 @@ struct edge_rest {
 /* divide_floor of what is known nearly. */
 static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *remainder)
 {
-    int32_t r = a - q * b;
+    int32_t r = sub_wrap(a, mul_wrap(q, b));
     for (; r < 0; r += b)
         q--;
     for (; r >= b; r -= b)
@@ -28,36 +28,51 @@ static inline int32_t divide_near(int32_t q, int32_t a, int32_t b, int32_t *rema
     *remainder = r;
     return q;
 }
+
+/* Without divisions; false where an edge is flat or long. 1/dy = recip 2^(zeros - 46) is good to 2^-14: what it tells is off by less
+ * than two, what steps tell of their parts by less than one. */
+static inline bool edge_rest_near(struct edge_rest *e, int32_t dx, int32_t dy, int32_t down, int32_t rows)
+{
+    if (dy < 4 || dy >= 1 << 16 || (uint32_t)(dx + (1 << 15)) >= 1u << 16 || abs_i32(dx) >= dy * 32)
+        return false;
+    const int zeros = count_leading_zeros((uint32_t)dy);
+    const int32_t recip = (int32_t)(recip_norm((uint32_t)dy << zeros) >> 15);
+    int32_t step_rest, rest;
+    const int32_t step = divide_near(dx * recip >> (38 - zeros), dx * 256, dy, &step_rest);
+    e->x += divide_near(step * down >> 8, dx * down, dy, &rest);
+    if (rows != 0) {        /* the rest of a step over dy, q16, times less than 2^12 */
+        const int32_t part = step_rest * recip >> (30 - zeros);
+        e->x += step * rows + divide_near(part * rows >> 16, add_wrap(rest, mul_wrap(rows, step_rest)), dy, &rest);
+    }
+    e->step = step;
+    e->step_rest = step_rest;
+    e->rest = rest;
+    return true;
+}
 #endif
 
 static inline void edge_rest_start(struct edge_rest *e, const int32_t *a, const int32_t *b, int32_t y)
 {
-    int32_t dx = b[0] - a[0];                       /* |dx| <= 2^20 */
-    int32_t first = (a[1] + 127) >> 8;              /* first row below a */
-    int32_t down = first * 256 + 128 - a[1];        /* 0 .. 255 */
-    e->dy = b[1] - a[1];
+    const int32_t dx = b[0] - a[0], dy = b[1] - a[1];       /* |dx| <= 2^20 */
+    const int32_t first = (a[1] + 127) >> 8;        /* first row below a */
+    const int32_t down = first * 256 + 128 - a[1];  /* 0 .. 255 */
+    const uint32_t rows = (uint32_t)(y - first);
+    e->dy = dy;
     e->x = a[0] + 127;
 #if !SMEAR_HAS_DIVIDE && !SMEAR_ONE_COPY
-    if (e->dy >= 4 && (uint32_t)abs_i32(dx) < min_u32((uint32_t)e->dy * 32u, 1u << 15)) {
-        /* 1/dy = recip 2^(zeros - 46), good to 2^-14: quotients are off by less than two */
-        const int zeros = count_leading_zeros((uint32_t)e->dy), shift = 38 - zeros;
-        const int32_t over = dx * (int32_t)(recip_norm((uint32_t)e->dy << zeros) >> 15);
-        e->step = divide_near(over >> shift, dx * 256, e->dy, &e->step_rest);
-        e->x += divide_near((over >> 8) * down >> shift, dx * down, e->dy, &e->rest);
-    } else
+    if (!edge_rest_near(e, dx, dy, down, (int32_t)rows))
 #endif
     {
-        e->step = divide_floor(dx * 256, e->dy, &e->step_rest);
-        e->x += divide_floor(dx * down, e->dy, &e->rest);
-    }
-    uint32_t rows = (uint32_t)(y - first);
-    if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
-        uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
-        e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)e->dy);
-        e->rest = (int32_t)(rest % (uint32_t)e->dy);
+        e->step = divide_floor(dx * 256, dy, &e->step_rest);
+        e->x += divide_floor(dx * down, dy, &e->rest);
+        if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
+            const uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
+            e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)dy);
+            e->rest = (int32_t)(rest % (uint32_t)dy);
+        }
     }
     if (e->rest > 0) {
-        e->rest -= e->dy;
+        e->rest -= dy;
         e->x++;
     }
 }

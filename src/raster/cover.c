@@ -140,6 +140,8 @@ struct sides {
     bool whole_is_left;                 /* the side without the middle vertex */
 };
 
+static SMEAR_RARE void side_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y) { edge_start(e, a, b, y); }
+
 /* False when no row lies in the target. */
 static bool sides_start(struct sides *d, const struct setup *s)
 {
@@ -175,7 +177,7 @@ static bool sides_start(struct sides *d, const struct setup *s)
     d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
     if (d->y >= d->end)
         return false;
-    edge_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
+    side_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
     return true;
 }
 
@@ -183,7 +185,7 @@ static bool sides_start(struct sides *d, const struct setup *s)
 static int32_t sides_part(struct sides *d, int32_t y)
 {
     bool upper = y < d->knee;
-    edge_start(d->whole_is_left ? &d->right : &d->left, upper ? d->top : d->middle,
+    side_start(d->whole_is_left ? &d->right : &d->left, upper ? d->top : d->middle,
                upper ? d->middle : d->bottom, y);
     return upper ? d->knee : d->end;
 }
