@@ -73,6 +73,16 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 }
 #endif
 
+/* Returns floor(a b / 2^shift) for shift in 1 .. 31, modulo 2^32. */
+static inline int32_t mul_shift(int32_t a, int32_t b, int shift)
+{
+#if SMEAR_HAS_MUL64
+    return (int32_t)((int64_t)a * b >> shift);
+#else
+    return (int32_t)((uint32_t)mulh_i32(a, b) << (32 - shift) | (uint32_t)mul_wrap(a, b) >> shift);
+#endif
+}
+
 /* Returns |a|, also for the least number. */
 static inline uint64_t magnitude(int64_t a) { return a < 0 ? 0u - (uint64_t)a : (uint64_t)a; }
 

@@ -127,7 +127,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
                      :                                                                                                  \
                      : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "cc", "memory")
 
-static SMEAR_NOINLINE void flat_rows_armv6m(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
+static inline void flat_rows_armv6m(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
 {
     struct flat_rows_walk walk = { r->x0, r->x1, r->z, r->dz_down, r->pixels, r->depth, r->stride * (r->narrow ? 2 : 4), r->stride * 2,
                                    r->dz, r->color };

@@ -33,15 +33,9 @@ static inline int32_t weigh(struct beyond b, int32_t g1, int32_t g2)
 
 /* floor(a g / 2^15), modulo 2^32. */
 #if SMEAR_HAS_MUL64
-static inline int32_t part_q15(int32_t a, int32_t g)
-{
-    return (int32_t)((int64_t)a * g >> 15);
-}
+static inline int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
 #else
-static SMEAR_NOINLINE int32_t part_q15(int32_t a, int32_t g)
-{
-    return (int32_t)((uint32_t)mulh_i32(a, g) << 17 | (uint32_t)mul_wrap(a, g) >> 15);
-}
+static SMEAR_NOINLINE int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
 #endif
 
 /* What is called where products of 64 bits take many instructions. */

@@ -123,7 +123,7 @@ static void pose_displacement(const struct setup *s, int pose, int32_t x, int32_
     const int32_t here[2] = { x * 256 + 128 - s->v[0][VERTEX_X], y * 256 + 128 - s->v[0][VERTEX_Y] };
     for (int i = 0; i < 2; i++) {
         int32_t n = plane_at(i == 0 ? &s->px[pose] : &s->py[pose], x, y);
-        n = narrow_sat(n - ((int64_t)ratio * here[i] >> 20));
+        n = narrow_sat((int64_t)n - mul_shift(ratio, here[i], 20));      /* 32 and 20 bits */
         /* n r / 2^32 = n / d 2^(29 - zeros), and q8 is 2^20 n / d. */
         out[i] = scale_sat(mulh_i32(n, r), zeros - 9);
     }
@@ -184,8 +184,8 @@ void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool cla
         uint32_t r = recip_norm(length << zeros);
         /* reach 2^16 r / 2^32 = reach / length 2^(45 - zeros), in 1/16 over 1/256 px; q16 is wanted. */
         int32_t factor = (int32_t)(mulh_u32(reach << 16, r) >> (25 - zeros));
-        out[0] = (int32_t)((int64_t)out[0] * factor >> 16);
-        out[1] = (int32_t)((int64_t)out[1] * factor >> 16);
+        out[0] = mul_shift(out[0], factor, 16);
+        out[1] = mul_shift(out[1], factor, 16);
     }
 }
 
@@ -269,8 +269,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             stored_velocity(s, next, stored_next);
             for (int i = 0; i < 2; i++) {
                 int32_t change = stored_next[i] - stored[i];
-                step[i] = n == 8 ? (change + 4) >> 3
-                                 : (int32_t)(((int64_t)change * inverse[n] + 0x8000) >> 16);
+                step[i] = n == 8 ? (change + 4) >> 3 : (mul_shift(change, inverse[n], 15) + 1) >> 1;
                 if (target_is_inspected(t))
                     wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
             }

@@ -29,6 +29,8 @@ static void products(int32_t a, int32_t b, uint32_t x, uint32_t y)
     seen = narrow_sat(any_long);
     seen = (int64_t)magnitude(any_long);
     const int32_t shift = any_int;
+    if (shift >= 1 && shift <= 31)
+        seen = mul_shift(a, b, shift);
     if (shift >= 0 && shift <= 31)
         seen = shl_wrap(a, shift);
     if (shift >= -31 && shift <= 31)

@@ -16,6 +16,7 @@
 #define shl_wrap narrow_shl_wrap
 #define mulh_i32 narrow_mulh_i32
 #define mulh_u32 narrow_mulh_u32
+#define mul_shift narrow_mul_shift
 #define scale_sat narrow_scale_sat
 #define magnitude narrow_magnitude
 #define narrow_sat narrow_narrow_sat
@@ -26,6 +27,7 @@
 #undef shl_wrap
 #undef mulh_i32
 #undef mulh_u32
+#undef mul_shift
 #undef scale_sat
 #undef magnitude
 #undef narrow_sat
@@ -62,6 +64,11 @@ static bool check_products(int32_t a, int32_t b)
     bool ok = CHECK_EQ(mulh_i32(a, b), high_word((int64_t)a * b));
     ok = CHECK_EQ(narrow_mulh_i32(a, b), high_word((int64_t)a * b)) && ok;
     ok = CHECK_EQ(mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
+    for (int shift = 1; shift < 32; shift += 5) {
+        const int32_t shifted = (int32_t)(uint32_t)((uint64_t)((int64_t)a * b) >> shift);
+        ok = CHECK_EQ(mul_shift(a, b, shift), shifted) && ok;
+        ok = CHECK_EQ(narrow_mul_shift(a, b, shift), shifted) && ok;
+    }
     return CHECK_EQ(narrow_mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
 }
 

@@ -21,6 +21,7 @@
 #define shl_wrap poor_shl_wrap
 #define mulh_i32 poor_mulh_i32
 #define mulh_u32 poor_mulh_u32
+#define mul_shift poor_mul_shift
 #define scale_sat poor_scale_sat
 #define magnitude poor_magnitude
 #define narrow_sat poor_narrow_sat
@@ -39,6 +40,7 @@
 #undef shl_wrap
 #undef mulh_i32
 #undef mulh_u32
+#undef mul_shift
 #undef scale_sat
 #undef magnitude
 #undef narrow_sat
