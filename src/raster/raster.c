@@ -341,12 +341,17 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
     bool moved = target->over, suits = false;
     uint32_t segment = SMEAR_POINT;
     struct tiny_look look;
+    struct points_plane points;
+    const bool at_once = tiny_points(&points, frame, target), narrow = target_is_direct(target);
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
         head = t->next;
         if (t->segment == SMEAR_POINT) {
-            draw_point(frame, target, t, moved);
+            if (at_once)
+                head = points_list(&points, number, narrow);
+            else
+                draw_point(frame, target, t, moved);
             continue;
         }
         const struct smear_segment *g = &frame->bins->segment[t->segment];

@@ -4,6 +4,7 @@
 #ifndef SMEAR_TINY_LIST_H
 #define SMEAR_TINY_LIST_H
 
+#include "kernels/points_list.h"
 #include "kernels/tiny_box.h"
 #include "raster/cover_tiny.h"
 
@@ -32,6 +33,24 @@ struct tiny_look {
 static inline bool tiny_list_suits(const struct smear_raster_frame *frame, const struct smear_raster_target *t)
 {
     return !frame_has_fog(frame) && !target_has_velocity(t);
+}
+
+SMEAR_STATIC_ASSERT(sizeof(struct point_entry) == sizeof(struct smear_triangle) && POINT_ENTRY == SMEAR_POINT
+                        && offsetof(struct point_entry, kind) == offsetof(struct smear_triangle, segment)
+                        && offsetof(struct point_entry, depth) == 2 * POINT_DEPTH
+                        && offsetof(struct point_entry, next) == offsetof(struct smear_triangle, next)
+                        && offsetof(struct point_entry, color) == offsetof(struct smear_triangle, color),
+                    "points are entries of lists");
+
+/* Where points of a list are drawn. False where rows of the plane go round. */
+static inline bool tiny_points(struct points_plane *p, const struct smear_raster_frame *frame, const struct smear_raster_target *t)
+{
+    const struct smear_plane_rows *rows = &t->window_rows;
+    const int32_t at = rows->ring_row * rows->stride + t->x0 - rows->x0;
+    *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
+                                (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
+                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, 0, 0 };
+    return rows->ring_row + (t->y1 - t->y0) <= rows->ring;
 }
 
 /* False where triangles of the segment are drawn one by one. */
