@@ -5,7 +5,7 @@
 #define SMEAR_TINY_LIST_H
 
 #include "kernels/points_list.h"
-#include "kernels/tiny_box.h"
+#include "kernels/tiny_corners.h"
 #include "raster/cover_tiny.h"
 
 /* Lists have a loop of their own for them, where size does not count. */
@@ -78,32 +78,6 @@ static bool tiny_look(struct tiny_look *l, const struct smear_raster_frame *fram
     return true;
 }
 
-static inline void tiny_channel_make(struct tiny_channel *c, uint32_t c0, uint32_t c1, uint32_t c2, uint32_t round)
-{
-    c->to1 = (int32_t)(c1 & 0xffffu) - (int32_t)(c0 & 0xffffu);
-    c->to2 = (int32_t)(c2 & 0xffffu) - (int32_t)(c0 & 0xffffu);
-    c->base = ((c0 & 0xffffu) << 14) + round;
-}
-
-/* Makes edge functions, at pixel (x, y), and weights of corners. */
-SMEAR_INLINE void tiny_weights_make(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x, int32_t y)
-{
-    const int32_t vx = v0[VERTEX_X], vy = v0[VERTEX_Y], x1 = v1[VERTEX_X] - vx, y1 = v1[VERTEX_Y] - vy;
-    const int32_t x2 = v2[VERTEX_X] - vx, y2 = v2[VERTEX_Y] - vy, area = x1 * y2 - x2 * y1;
-    const int32_t cx = x * 256 + 128 - vx, cy = y * 256 + 128 - vy;
-    const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
-    const struct tiny_scale scale = tiny_scale_make(area);
-    b->up = scale.up;
-    b->recip = scale.recip;
-    b->e1 = y2 * cx - x2 * cy + bias1;
-    b->e2 = x1 * cy - y1 * cx + bias2;
-    b->sum = area + tiny_bias(x2 - x1, y2 - y1) + bias1 + bias2;
-    b->right1 = y2 * 256;
-    b->right2 = -y1 * 256;
-    b->down1 = -x2 * 256;
-    b->down2 = x1 * 256;
-}
-
 /* Draws rows [top, bottom) of a box whose first pixel is (x, top). */
 static inline void tiny_rows(struct tiny_look *l, int32_t x, int32_t top, int32_t bottom)
 {
@@ -139,14 +113,10 @@ static SMEAR_NOINLINE bool tiny_draw(struct tiny_look *l, const int32_t *const v
     b->columns = min_i32(right, l->x1) - left;
     if (b->columns <= 0 || top >= bottom)
         return true;
-    tiny_weights_make(b, v0, v1, v2, left, top);
-    tiny_units(b, q1 - q0, q2 - q0);
+    tiny_corners(b, v0, v1, v2, left, top);
     if (b->shaded) {
         const uint32_t *const c0 = (const uint32_t *)v0 + l->color, *const c1 = (const uint32_t *)v1 + l->color;
-        const uint32_t *const c2 = (const uint32_t *)v2 + l->color, round = b->linear ? 0 : 1u << 21;
-        tiny_channel_make(&b->channel[0], c0[0], c1[0], c2[0], round);
-        tiny_channel_make(&b->channel[1], c0[1], c1[1], c2[1], round);
-        tiny_channel_make(&b->channel[2], c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, round);
+        tiny_colors(b, c0, c1, (const uint32_t *)v2 + l->color, b->linear ? 0 : 1u << 21);
     } else {
         b->color = b->narrow ? rgb565_nearest(color) : color & 0xffffffu;
     }

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT */
+/* tiny_corners.h - makes the box of a tiny triangle ready (tiny_box.h): edge functions, weights, depths and colours of its corners. */
+#ifndef SMEAR_KERNELS_TINY_CORNERS_H
+#define SMEAR_KERNELS_TINY_CORNERS_H
+
+#include "kernels/tiny_box.h"
+
+/* 0 for edges that go up (left ones) or right (top ones), whose centres count, else -1. */
+static inline int32_t tiny_corner_bias(int32_t dx, int32_t dy) { return (dx - dy * 65536 - 1) >> 31; }
+
+/* Records begin with x and y, q8 px, and depth units; clockwise, less than 16 px apart. (x, y) is the box's first pixel, at most as far
+ * from them. */
+static inline void tiny_corners_reference(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x,
+                                          int32_t y)
+{
+    const int32_t x1 = v1[0] - v0[0], y1 = v1[1] - v0[1], x2 = v2[0] - v0[0], y2 = v2[1] - v0[1], area = x1 * y2 - x2 * y1;
+    const int32_t cx = x * 256 + 128 - v0[0], cy = y * 256 + 128 - v0[1];
+    const int32_t bias1 = tiny_corner_bias(-x2, -y2), bias2 = tiny_corner_bias(x1, y1);
+    const struct tiny_scale scale = tiny_scale_make(area);
+    b->up = scale.up;
+    b->recip = scale.recip;
+    b->e1 = y2 * cx - x2 * cy + bias1;
+    b->e2 = x1 * cy - y1 * cx + bias2;
+    b->sum = area + tiny_corner_bias(x2 - x1, y2 - y1) + bias1 + bias2;
+    b->right1 = y2 * 256;
+    b->right2 = -y1 * 256;
+    b->down1 = -x2 * 256;
+    b->down2 = x1 * 256;
+    tiny_units(b, v1[2] - v0[2], v2[2] - v0[2]);
+}
+
+static inline void tiny_channel_make(struct tiny_channel *c, uint32_t c0, uint32_t c1, uint32_t c2, uint32_t round)
+{
+    c->to1 = (int32_t)(c1 & 0xffffu) - (int32_t)(c0 & 0xffffu);
+    c->to2 = (int32_t)(c2 & 0xffffu) - (int32_t)(c0 & 0xffffu);
+    c->base = ((c0 & 0xffffu) << 14) + round;
+}
+
+/* Two words of each corner: red and green, blue. What rounds is 2^21 for codes, 0 for linear light. */
+static inline void tiny_colors_reference(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
+{
+    tiny_channel_make(&b->channel[0], c0[0], c1[0], c2[0], round);
+    tiny_channel_make(&b->channel[1], c0[1], c1[1], c2[1], round);
+    tiny_channel_make(&b->channel[2], c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, round);
+}
+
+#if SMEAR_ASM_ARMV6M
+/* One of the channels, AT bytes into the words, whose corners r1, r2 and r3 point to. */
+#define TINY_CORNERS_CHANNEL(AT) \
+    "ldrh r6, [r1, #" AT "]\n\t" \
+    "ldrh r4, [r2, #" AT "]\n\t" \
+    "ldrh r5, [r3, #" AT "]\n\t" \
+    "subs r4, r4, r6\n\t"        \
+    "subs r5, r5, r6\n\t"        \
+    "lsls r6, r6, #14\n\t"       \
+    "adds r6, r6, r7\n\t"        \
+    "stm r0!, {r4, r5, r6}\n\t"
+
+static inline void tiny_colors_armv6m(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
+{
+    register struct tiny_channel *r0 __asm__("r0") = b->channel;
+    register const uint32_t *r1 __asm__("r1") = c0;
+    register const uint32_t *r2 __asm__("r2") = c1;
+    register const uint32_t *r3 __asm__("r3") = c2;
+    register uint32_t r7 __asm__("r7") = round;
+    __asm__ volatile(".syntax unified\n\t" TINY_CORNERS_CHANNEL("0") TINY_CORNERS_CHANNEL("4") TINY_CORNERS_CHANNEL("2")
+                     : "+r"(r0)
+                     : "r"(r1), "r"(r2), "r"(r3), "r"(r7)
+                     : "r4", "r5", "r6", "cc", "memory");
+}
+
+/* Makes the number in r1 larger by 2^BITS where it has that many leading zeros, which r2 counts; FEWER is 32 - BITS. */
+#define TINY_CORNERS_ZEROS(BITS, FEWER, LABEL) \
+    "lsrs r3, r1, #" FEWER "\n\t"              \
+    "bne " LABEL "f\n\t"                       \
+    "adds r2, #" BITS "\n\t"                   \
+    "lsls r1, r1, #" BITS "\n" LABEL ": "
+
+/* x1, y1, x2, y2 in r8 to r11. Less than two thirds of the instructions that compilers take. */
+static inline void tiny_corners_armv6m(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x,
+                                       int32_t y)
+{
+    register struct tiny_box *r0 __asm__("r0") = b;
+    register const int32_t *r1 __asm__("r1") = v0;
+    register const int32_t *r2 __asm__("r2") = v1;
+    register const int32_t *r3 __asm__("r3") = v2;
+    b->e1 = x;
+    b->e2 = y;
+    b->to_pixel = (uint32_t)(uintptr_t)smear_recip_seed;
+    __asm__ volatile(".syntax unified\n\t"
+                     "ldm r1!, {r4, r5}\n\t"
+                     "ldm r2!, {r6, r7}\n\t"
+                     "subs r6, r6, r4\n\t"
+                     "subs r7, r7, r5\n\t"
+                     "mov r8, r6\n\t"
+                     "mov r9, r7\n\t"
+                     "ldm r3!, {r6, r7}\n\t"
+                     "subs r6, r6, r4\n\t"
+                     "subs r7, r7, r5\n\t"
+                     "mov r10, r6\n\t"
+                     "mov r11, r7\n\t"
+                     "mov r12, r4\n\t"
+                     "mov lr, r5\n\t"
+                     "ldr r4, [r1]\n\t"         /* units */
+                     "ldr r5, [r2]\n\t"
+                     "ldr r6, [r3]\n\t"
+                     "subs r5, r5, r4\n\t"
+                     "subs r6, r6, r4\n\t"
+                     "uxth r4, r5\n\t"
+                     "asrs r5, r5, #16\n\t"
+                     "asrs r7, r6, #16\n\t"
+                     "uxth r6, r6\n\t"
+                     "adds r0, #48\n\t"
+                     "stm r0!, {r4, r5, r6, r7}\n\t"
+                     "subs r0, #64\n\t"
+                     "ldr r1, [r0]\n\t"         /* cx */
+                     "lsls r1, r1, #8\n\t"
+                     "adds r1, #128\n\t"
+                     "mov r3, r12\n\t"
+                     "subs r1, r1, r3\n\t"
+                     "ldr r2, [r0, #4]\n\t"     /* cy */
+                     "lsls r2, r2, #8\n\t"
+                     "adds r2, #128\n\t"
+                     "mov r3, lr\n\t"
+                     "subs r2, r2, r3\n\t"
+                     "mov r4, r11\n\t"          /* y2; e1 into r3 */
+                     "movs r3, r4\n\t"
+                     "muls r3, r1\n\t"
+                     "mov r5, r10\n\t"          /* x2 */
+                     "movs r6, r5\n\t"
+                     "muls r6, r2\n\t"
+                     "subs r3, r3, r6\n\t"
+                     "mov r6, r8\n\t"           /* x1; e2 into r2 */
+                     "muls r2, r6\n\t"
+                     "mov r7, r9\n\t"           /* y1 */
+                     "muls r1, r7\n\t"
+                     "subs r2, r2, r1\n\t"
+                     "lsls r1, r4, #16\n\t"     /* biases */
+                     "subs r1, r1, r5\n\t"
+                     "subs r1, #1\n\t"
+                     "asrs r1, r1, #31\n\t"
+                     "adds r3, r3, r1\n\t"
+                     "mov r12, r1\n\t"
+                     "lsls r1, r7, #16\n\t"
+                     "subs r1, r6, r1\n\t"
+                     "subs r1, #1\n\t"
+                     "asrs r1, r1, #31\n\t"
+                     "adds r2, r2, r1\n\t"
+                     "add r12, r1\n\t"
+                     "str r3, [r0]\n\t"
+                     "str r2, [r0, #4]\n\t"
+                     "lsls r1, r5, #8\n\t"      /* steps */
+                     "negs r1, r1\n\t"
+                     "str r1, [r0, #8]\n\t"
+                     "lsls r1, r6, #8\n\t"
+                     "str r1, [r0, #12]\n\t"
+                     "lsls r1, r4, #8\n\t"
+                     "str r1, [r0, #108]\n\t"
+                     "lsls r1, r7, #8\n\t"
+                     "negs r1, r1\n\t"
+                     "str r1, [r0, #112]\n\t"
+                     "movs r1, r6\n\t"          /* the area */
+                     "muls r1, r4\n\t"
+                     "movs r2, r5\n\t"
+                     "muls r2, r7\n\t"
+                     "subs r1, r1, r2\n\t"
+                     "subs r5, r5, r6\n\t"      /* the sum */
+                     "subs r4, r4, r7\n\t"
+                     "lsls r4, r4, #16\n\t"
+                     "subs r5, r5, r4\n\t"
+                     "subs r5, #1\n\t"
+                     "asrs r5, r5, #31\n\t"
+                     "add r5, r12\n\t"
+                     "adds r5, r5, r1\n\t"
+                     "str r5, [r0, #116]\n\t"
+                     "movs r2, #0\n\t" TINY_CORNERS_ZEROS("16", "16", "1") TINY_CORNERS_ZEROS("8", "24", "2")
+                         TINY_CORNERS_ZEROS("4", "28", "3") TINY_CORNERS_ZEROS("2", "30", "4") TINY_CORNERS_ZEROS("1", "31", "5")
+                     "str r2, [r0, #32]\n\t"
+                     "lsls r2, r1, #1\n\t"      /* recip_norm */
+                     "lsrs r2, r2, #23\n\t"
+                     "lsls r2, r2, #1\n\t"
+                     "ldr r3, [r0, #64]\n\t"
+                     "ldrh r2, [r3, r2]\n\t"
+                     "lsrs r1, r1, #11\n\t"
+                     "muls r1, r2\n\t"
+                     "movs r3, #128\n\t"
+                     "lsls r3, r3, #24\n\t"
+                     "subs r3, r3, r1\n\t"
+                     "asrs r3, r3, #4\n\t"
+                     "muls r3, r2\n\t"
+                     "asrs r3, r3, #8\n\t"
+                     "lsls r2, r2, #19\n\t"
+                     "adds r3, r3, r2\n\t"
+                     "lsrs r3, r3, #14\n\t"
+                     "subs r3, #1\n\t"
+                     "str r3, [r0, #36]"
+                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+                     :
+                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+}
+#endif
+
+static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x, int32_t y)
+{
+#if SMEAR_ASM_ARMV6M
+    tiny_corners_armv6m(b, v0, v1, v2, x, y);
+#else
+    tiny_corners_reference(b, v0, v1, v2, x, y);
+#endif
+}
+
+static inline void tiny_colors(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
+{
+#if SMEAR_ASM_ARMV6M
+    tiny_colors_armv6m(b, c0, c1, c2, round);
+#else
+    tiny_colors_reference(b, c0, c1, c2, round);
+#endif
+}
+
+#endif
