@@ -68,8 +68,11 @@ static inline struct cache_entry *cache_find(const struct smear_raster_target *t
             *known = true;
             return entry;
         }
-        if (free == NULL && entry_is_free(entry, target))
+        if (free == NULL && entry_is_free(entry, target)) {
             free = entry;
+            if (!continues)
+                break;
+        }
         if (++at == target->cache.entries)
             at = 0;
     }
