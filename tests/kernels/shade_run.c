@@ -7,7 +7,7 @@
 enum { Z, DZ, COLOR, STEP = COLOR + 3, DOWN = STEP + 3, DZ_DOWN = DOWN + 3 };       /* words */
 enum { STRIDE = 11 };
 
-static void run_by(struct kernel_call *c, bool linear, bool avx2)
+static void run_by(struct kernel_call *c, bool linear, bool best)
 {
     struct shade k;
     for (int i = 0; i < 3; i++) {
@@ -15,12 +15,17 @@ static void run_by(struct kernel_call *c, bool linear, bool avx2)
         k.d[i] = c->word[STEP + i];
     }
 #if SMEAR_AVX2
-    if (avx2 && c->n >= 4 && smear_has_avx2()) {
+    if (best && c->n >= 4 && smear_has_avx2()) {
         smear_shade_run_avx2(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], &k, linear);
         return;
     }
+#elif SMEAR_ASM_ARMV6M
+    if (best && !linear) {
+        shade_run_armv6m(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], &k);
+        return;
+    }
 #else
-    (void)avx2;
+    (void)best;
 #endif
     shade_run_reference(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], &k, linear, false);
 }
