@@ -7,7 +7,7 @@
  * or missed. Small triangles use edge functions instead, which say the same without a division. */
 #include "raster/cover.h"
 
-#include "kernels/edge_walk.h"
+#include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
 #include "kernels/flat_rows_armv6m.h"
 #include "kernels/shade_run.h"
@@ -235,31 +235,6 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->ring_row = 0;
 }
 
-/* Pixels of an edge in n > 0 rows: one edge after the other, in registers. */
-SMEAR_INLINE void gather_left(struct span_rows *r, struct edge_walk *edge, int32_t n)
-{
-    struct edge_walk e = *edge;
-    struct span_side *side = r->side, *const end = side + n;
-    do {
-        side->left = max_i32(edge_pixel(&e), 0);
-        edge_step(&e);
-    } while (++side != end);
-    *edge = e;
-}
-
-SMEAR_INLINE void gather_right(struct span_rows *r, struct edge_walk *edge, int32_t n, int32_t width)
-{
-    struct edge_walk e = *edge;
-    struct span_side *side = r->side, *const end = side + n;
-    do {
-        int32_t x = edge_pixel(&e);
-        side->right = min_i32(x, width);
-        side->edge = x;
-        edge_step(&e);
-    } while (++side != end);
-    *edge = e;
-}
-
 static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
@@ -272,8 +247,8 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);
-            gather_left(&g.rows, &d.left, n);
-            gather_right(&g.rows, &d.right, n, s->frame->width);
+            edge_left(g.rows.side, &d.left, n);
+            edge_right(g.rows.side, &d.right, n, s->frame->width);
             g.rows.count = n;
             g.ring_row += n;
             gather_draw(&g, s, draw);

@@ -341,7 +341,7 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
 /* A list of triangles that may be tiny, and points. */
 static void draw_list_tiny(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
-    bool moved = target->over, suits = false;
+    bool moved = target->over, suits = false, tiny = true;
     uint32_t segment = SMEAR_POINT;
     struct tiny_look look;
     struct points_plane points;
@@ -361,11 +361,16 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         const int32_t *v[3];
         if (t->segment != segment) {
             segment = t->segment;
-            suits = tiny_look(&look, frame, target, g);
+            tiny = suits = tiny_look(&look, frame, target, g);
         }
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
-        if (!suits || !tiny_draw(&look, v, t->color))
+        /* After one that is large, some are not even looked at. */
+        if (suits && (tiny || (number & 3u) == 0))
+            tiny = tiny_draw(&look, v, t->color);
+        else
+            tiny = false;
+        if (!tiny)
             draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }
 }
