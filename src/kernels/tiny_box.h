@@ -109,28 +109,32 @@ static inline void tiny_box_reference(struct tiny_box *b)
         }
 }
 
-/* Rows end where they leave the triangle; a loop for each kind. */
+/* A loop for each kind. What pixels need stays in the box: compilers that keep it at hand before each row take longer for that than
+ * rows of one or two pixels do. */
 SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bool narrow)
 {
-    const int32_t right1 = b->right1, right2 = b->right2, sum = b->sum, stride = b->stride, columns = b->columns;
+    const int32_t right1 = b->right1, right2 = b->right2;
     uint16_t *row = b->depth;
     void *pixels = b->pixels;
     for (int32_t rows = b->rows; rows > 0; rows--) {
-        int32_t e1 = b->e1, e2 = b->e2, x = 0;
-        while (((sum - e1 - e2) | e1 | e2) < 0 && ++x < columns) {
+        int32_t e1 = b->e1, e2 = b->e2, e0 = b->sum - e1 - e2;
+        uint16_t *depth = row, *const end = row + b->columns;
+        void *pixel = pixels;
+        do {
+            if ((e0 | e1 | e2) >= 0) {
+                const struct tiny_box *box = b;
+                SMEAR_KEEP_VALUE(box);
+                tiny_box_pixel(box, depth, pixel, e1, e2, shaded, linear, narrow);
+            }
+            e0 -= right1 + right2;
             e1 += right1;
             e2 += right2;
-        }
-        if (x < columns)
-            do {
-                tiny_box_pixel(b, row + x, pixel_after(pixels, x, narrow), e1, e2, shaded, linear, narrow);
-                e1 += right1;
-                e2 += right2;
-            } while (++x < columns && ((sum - e1 - e2) | e1 | e2) >= 0);
+            pixel = pixel_after(pixel, 1, narrow);
+        } while (++depth != end);
         b->e1 += b->down1;
         b->e2 += b->down2;
-        row += stride;
-        pixels = pixel_after(pixels, stride, narrow);
+        row += b->stride;
+        pixels = pixel_after(pixels, b->stride, narrow);
     }
 }
 
