@@ -76,7 +76,134 @@ static inline void tiny_colors_armv6m(struct tiny_box *b, const uint32_t *c0, co
     "adds r2, #" BITS "\n\t"                   \
     "lsls r1, r1, #" BITS "\n" LABEL ": "
 
-/* x1, y1, x2, y2 in r8 to r11. Less than two thirds of the instructions that compilers take. */
+/* Vectors into r8 to r11, v[0] into r12 and lr. */
+#define TINY_CORNERS_VECTORS \
+    "ldm r1!, {r4, r5}\n\t" \
+    "ldm r2!, {r6, r7}\n\t" \
+    "subs r6, r6, r4\n\t" \
+    "subs r7, r7, r5\n\t" \
+    "mov r8, r6\n\t" \
+    "mov r9, r7\n\t" \
+    "ldm r3!, {r6, r7}\n\t" \
+    "subs r6, r6, r4\n\t" \
+    "subs r7, r7, r5\n\t" \
+    "mov r10, r6\n\t" \
+    "mov r11, r7\n\t" \
+    "mov r12, r4\n\t" \
+    "mov lr, r5\n\t"
+
+/* What units change by. */
+#define TINY_CORNERS_UNITS \
+    "ldr r4, [r1]\n\t" \
+    "ldr r5, [r2]\n\t" \
+    "ldr r6, [r3]\n\t" \
+    "subs r5, r5, r4\n\t" \
+    "subs r6, r6, r4\n\t" \
+    "uxth r4, r5\n\t" \
+    "asrs r5, r5, #16\n\t" \
+    "asrs r7, r6, #16\n\t" \
+    "uxth r6, r6\n\t" \
+    "adds r0, #48\n\t" \
+    "stm r0!, {r4, r5, r6, r7}\n\t" \
+    "subs r0, #64\n\t"
+
+/* Edge functions at the first pixel into r3 and r2; y2, x2, x1 and y1 into r4 to r7. */
+#define TINY_CORNERS_PLACES \
+    "ldr r1, [r0]\n\t" \
+    "lsls r1, r1, #8\n\t" \
+    "adds r1, #128\n\t" \
+    "mov r3, r12\n\t" \
+    "subs r1, r1, r3\n\t" \
+    "ldr r2, [r0, #4]\n\t" \
+    "lsls r2, r2, #8\n\t" \
+    "adds r2, #128\n\t" \
+    "mov r3, lr\n\t" \
+    "subs r2, r2, r3\n\t" \
+    "mov r4, r11\n\t" \
+    "movs r3, r4\n\t" \
+    "muls r3, r1\n\t" \
+    "mov r5, r10\n\t" \
+    "movs r6, r5\n\t" \
+    "muls r6, r2\n\t" \
+    "subs r3, r3, r6\n\t" \
+    "mov r6, r8\n\t" \
+    "muls r2, r6\n\t" \
+    "mov r7, r9\n\t" \
+    "muls r1, r7\n\t" \
+    "subs r2, r2, r1\n\t"
+
+/* With their biases, whose sum goes into r12. */
+#define TINY_CORNERS_BIASES \
+    "lsls r1, r4, #16\n\t" \
+    "subs r1, r1, r5\n\t" \
+    "subs r1, #1\n\t" \
+    "asrs r1, r1, #31\n\t" \
+    "adds r3, r3, r1\n\t" \
+    "mov r12, r1\n\t" \
+    "lsls r1, r7, #16\n\t" \
+    "subs r1, r6, r1\n\t" \
+    "subs r1, #1\n\t" \
+    "asrs r1, r1, #31\n\t" \
+    "adds r2, r2, r1\n\t" \
+    "add r12, r1\n\t" \
+    "str r3, [r0]\n\t" \
+    "str r2, [r0, #4]\n\t"
+
+/* Their steps. */
+#define TINY_CORNERS_STEPS \
+    "lsls r1, r5, #8\n\t" \
+    "negs r1, r1\n\t" \
+    "str r1, [r0, #8]\n\t" \
+    "lsls r1, r6, #8\n\t" \
+    "str r1, [r0, #12]\n\t" \
+    "lsls r1, r4, #8\n\t" \
+    "str r1, [r0, #108]\n\t" \
+    "lsls r1, r7, #8\n\t" \
+    "negs r1, r1\n\t" \
+    "str r1, [r0, #112]\n\t"
+
+/* The area into r1, and the sum of all three functions. */
+#define TINY_CORNERS_AREA \
+    "movs r1, r6\n\t" \
+    "muls r1, r4\n\t" \
+    "movs r2, r5\n\t" \
+    "muls r2, r7\n\t" \
+    "subs r1, r1, r2\n\t" \
+    "subs r5, r5, r6\n\t" \
+    "subs r4, r4, r7\n\t" \
+    "lsls r4, r4, #16\n\t" \
+    "subs r5, r5, r4\n\t" \
+    "subs r5, #1\n\t" \
+    "asrs r5, r5, #31\n\t" \
+    "add r5, r12\n\t" \
+    "adds r5, r5, r1\n\t" \
+    "str r5, [r0, #116]\n\t"
+
+/* tiny_scale_make. */
+#define TINY_CORNERS_RECIP \
+    "movs r2, #0\n\t" TINY_CORNERS_ZEROS("16", "16", "1") TINY_CORNERS_ZEROS("8", "24", "2") \
+    TINY_CORNERS_ZEROS("4", "28", "3") TINY_CORNERS_ZEROS("2", "30", "4") TINY_CORNERS_ZEROS("1", "31", "5") \
+    "str r2, [r0, #32]\n\t" \
+    "lsls r2, r1, #1\n\t" \
+    "lsrs r2, r2, #23\n\t" \
+    "lsls r2, r2, #1\n\t" \
+    "ldr r3, [r0, #64]\n\t" \
+    "ldrh r2, [r3, r2]\n\t" \
+    "lsrs r1, r1, #11\n\t" \
+    "muls r1, r2\n\t" \
+    "movs r3, #128\n\t" \
+    "lsls r3, r3, #24\n\t" \
+    "subs r3, r3, r1\n\t" \
+    "asrs r3, r3, #4\n\t" \
+    "muls r3, r2\n\t" \
+    "asrs r3, r3, #8\n\t" \
+    "lsls r2, r2, #19\n\t" \
+    "adds r3, r3, r2\n\t" \
+    "lsrs r3, r3, #14\n\t" \
+    "subs r3, #1\n\t" \
+    "str r3, [r0, #36]"
+
+/* Less than two thirds of the instructions that compilers take. */
 static inline void tiny_corners_armv6m(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x,
                                        int32_t y)
 {
@@ -87,113 +214,8 @@ static inline void tiny_corners_armv6m(struct tiny_box *b, const int32_t *v0, co
     b->e1 = x;
     b->e2 = y;
     b->to_pixel = (uint32_t)(uintptr_t)smear_recip_seed;
-    __asm__ volatile(".syntax unified\n\t"
-                     "ldm r1!, {r4, r5}\n\t"
-                     "ldm r2!, {r6, r7}\n\t"
-                     "subs r6, r6, r4\n\t"
-                     "subs r7, r7, r5\n\t"
-                     "mov r8, r6\n\t"
-                     "mov r9, r7\n\t"
-                     "ldm r3!, {r6, r7}\n\t"
-                     "subs r6, r6, r4\n\t"
-                     "subs r7, r7, r5\n\t"
-                     "mov r10, r6\n\t"
-                     "mov r11, r7\n\t"
-                     "mov r12, r4\n\t"
-                     "mov lr, r5\n\t"
-                     "ldr r4, [r1]\n\t"         /* units */
-                     "ldr r5, [r2]\n\t"
-                     "ldr r6, [r3]\n\t"
-                     "subs r5, r5, r4\n\t"
-                     "subs r6, r6, r4\n\t"
-                     "uxth r4, r5\n\t"
-                     "asrs r5, r5, #16\n\t"
-                     "asrs r7, r6, #16\n\t"
-                     "uxth r6, r6\n\t"
-                     "adds r0, #48\n\t"
-                     "stm r0!, {r4, r5, r6, r7}\n\t"
-                     "subs r0, #64\n\t"
-                     "ldr r1, [r0]\n\t"         /* cx */
-                     "lsls r1, r1, #8\n\t"
-                     "adds r1, #128\n\t"
-                     "mov r3, r12\n\t"
-                     "subs r1, r1, r3\n\t"
-                     "ldr r2, [r0, #4]\n\t"     /* cy */
-                     "lsls r2, r2, #8\n\t"
-                     "adds r2, #128\n\t"
-                     "mov r3, lr\n\t"
-                     "subs r2, r2, r3\n\t"
-                     "mov r4, r11\n\t"          /* y2; e1 into r3 */
-                     "movs r3, r4\n\t"
-                     "muls r3, r1\n\t"
-                     "mov r5, r10\n\t"          /* x2 */
-                     "movs r6, r5\n\t"
-                     "muls r6, r2\n\t"
-                     "subs r3, r3, r6\n\t"
-                     "mov r6, r8\n\t"           /* x1; e2 into r2 */
-                     "muls r2, r6\n\t"
-                     "mov r7, r9\n\t"           /* y1 */
-                     "muls r1, r7\n\t"
-                     "subs r2, r2, r1\n\t"
-                     "lsls r1, r4, #16\n\t"     /* biases */
-                     "subs r1, r1, r5\n\t"
-                     "subs r1, #1\n\t"
-                     "asrs r1, r1, #31\n\t"
-                     "adds r3, r3, r1\n\t"
-                     "mov r12, r1\n\t"
-                     "lsls r1, r7, #16\n\t"
-                     "subs r1, r6, r1\n\t"
-                     "subs r1, #1\n\t"
-                     "asrs r1, r1, #31\n\t"
-                     "adds r2, r2, r1\n\t"
-                     "add r12, r1\n\t"
-                     "str r3, [r0]\n\t"
-                     "str r2, [r0, #4]\n\t"
-                     "lsls r1, r5, #8\n\t"      /* steps */
-                     "negs r1, r1\n\t"
-                     "str r1, [r0, #8]\n\t"
-                     "lsls r1, r6, #8\n\t"
-                     "str r1, [r0, #12]\n\t"
-                     "lsls r1, r4, #8\n\t"
-                     "str r1, [r0, #108]\n\t"
-                     "lsls r1, r7, #8\n\t"
-                     "negs r1, r1\n\t"
-                     "str r1, [r0, #112]\n\t"
-                     "movs r1, r6\n\t"          /* the area */
-                     "muls r1, r4\n\t"
-                     "movs r2, r5\n\t"
-                     "muls r2, r7\n\t"
-                     "subs r1, r1, r2\n\t"
-                     "subs r5, r5, r6\n\t"      /* the sum */
-                     "subs r4, r4, r7\n\t"
-                     "lsls r4, r4, #16\n\t"
-                     "subs r5, r5, r4\n\t"
-                     "subs r5, #1\n\t"
-                     "asrs r5, r5, #31\n\t"
-                     "add r5, r12\n\t"
-                     "adds r5, r5, r1\n\t"
-                     "str r5, [r0, #116]\n\t"
-                     "movs r2, #0\n\t" TINY_CORNERS_ZEROS("16", "16", "1") TINY_CORNERS_ZEROS("8", "24", "2")
-                         TINY_CORNERS_ZEROS("4", "28", "3") TINY_CORNERS_ZEROS("2", "30", "4") TINY_CORNERS_ZEROS("1", "31", "5")
-                     "str r2, [r0, #32]\n\t"
-                     "lsls r2, r1, #1\n\t"      /* recip_norm */
-                     "lsrs r2, r2, #23\n\t"
-                     "lsls r2, r2, #1\n\t"
-                     "ldr r3, [r0, #64]\n\t"
-                     "ldrh r2, [r3, r2]\n\t"
-                     "lsrs r1, r1, #11\n\t"
-                     "muls r1, r2\n\t"
-                     "movs r3, #128\n\t"
-                     "lsls r3, r3, #24\n\t"
-                     "subs r3, r3, r1\n\t"
-                     "asrs r3, r3, #4\n\t"
-                     "muls r3, r2\n\t"
-                     "asrs r3, r3, #8\n\t"
-                     "lsls r2, r2, #19\n\t"
-                     "adds r3, r3, r2\n\t"
-                     "lsrs r3, r3, #14\n\t"
-                     "subs r3, #1\n\t"
-                     "str r3, [r0, #36]"
+    __asm__ volatile(".syntax unified\n\t" TINY_CORNERS_VECTORS TINY_CORNERS_UNITS TINY_CORNERS_PLACES TINY_CORNERS_BIASES
+                         TINY_CORNERS_STEPS TINY_CORNERS_AREA TINY_CORNERS_RECIP
                      : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
                      :
                      : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
