@@ -5,7 +5,7 @@
 
 #include "base/fixmath.h"
 #include "geometry/matrix.h"
-#include "kernels/places.h"
+#include "kernels/vertices.h"
 
 /* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges
  * are then at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */
@@ -25,12 +25,6 @@ enum {
 };
 #define OUT_REJECT (OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM | OUT_NEAR | OUT_FAR)
 #define OUT_CLIP (OUT_NEAR | OUT_FAR | OUT_GUARD)
-
-/* Homogeneous position in a projection's scale. */
-struct smear_homogeneous {
-    int32_t x, y, w;
-    int32_t distance;       /* w for perspective */
-};
 
 static inline void homogeneous_add(struct smear_homogeneous *sum, const struct smear_homogeneous *term)
 {

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT */
+/* vertices.h - a vertex from mesh steps to the screen on cores without vectors: what its draw's vertices share is made ready
+ * once. */
+#ifndef SMEAR_KERNELS_VERTICES_H
+#define SMEAR_KERNELS_VERTICES_H
+
+#include "base/fixmath.h"
+#include "kernels/places.h"
+
+/* Homogeneous position in a projection's scale. */
+struct smear_homogeneous {
+    int32_t x, y, w;
+    int32_t distance;       /* w for perspective */
+};
+
+/* A row of a projection (struct place_setup): its factors are high 2^16 + 4 low. */
+struct vertex_row {
+    int32_t high[3], low[3];
+    int32_t offset;
+};
+
+/* A projection with perspective, and a frame; then what holds for all w that have so many bits as the last one asked for. */
+struct vertex_setup {
+    struct vertex_row row[3];           /* x, y, w; |row| < 2^30 */
+    int32_t near_distance, far_distance;
+    int32_t zeros, top;                 /* leading zeros of w; 31 - zeros, or 31: no w yet */
+    const uint16_t *seed;               /* smear_recip_seed */
+    int32_t half, down;                 /* from a high product to q8 px: 1 to 20 bits down, rounded */
+    int32_t x, y;                       /* the frame's centre, q8 px */
+    int32_t depth_low, depth_high;      /* halves of the mantissa, which is in [2^29, 2^30] */
+    int32_t depth_limit, depth_half, depth_down, depth_up;      /* from a high product to q11: at most the limit, rounded */
+    int32_t depth_least, depth_most;
+    int32_t depth_shift;
+};
+
+static inline void vertex_setup_make(struct vertex_setup *v, const struct place_setup *s)
+{
+    for (int r = 0; r < 3; r++) {
+        for (int j = 0; j < 3; j++) {
+            v->row[r].high[j] = s->m[r][j] >> 16;
+            v->row[r].low[j] = (int32_t)(((uint32_t)s->m[r][j] & 0xffffu) >> 2);
+        }
+        v->row[r].offset = s->m[r][3];
+    }
+    v->near_distance = s->near_distance;
+    v->far_distance = s->far_distance;
+    v->zeros = 0;
+    v->top = 31;
+    v->seed = smear_recip_seed;
+    v->x = s->x;
+    v->y = s->y;
+    v->depth_high = s->depth_mantissa >> 16;
+    v->depth_low = s->depth_mantissa & 0xffff;
+    v->depth_least = s->depth_least;
+    v->depth_most = s->depth_most;
+    v->depth_shift = s->depth_shift;
+}
+
+/* Makes the setup ready for all that have as many bits as w > 0. Returns false where places are so near to the eye or so far
+ * from it that shifts change their direction or grow: then it is ready for none. */
+static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
+{
+    const int zeros = count_leading_zeros((uint32_t)w), up = v->depth_shift + zeros;
+    v->top = 31;
+    if (zeros >= 21 || up > PLACES_UP_MOST)
+        return false;
+    v->zeros = zeros;
+    v->top = 31 - zeros;
+    v->down = 21 - zeros;
+    v->half = 1 << (20 - zeros);
+    v->depth_up = max_i32(up, 0);
+    v->depth_limit = INT32_MAX >> v->depth_up;
+    v->depth_down = min_i32(max_i32(-up, 0), 31);
+    v->depth_half = v->depth_down == 0 ? 0 : 1 << (v->depth_down - 1);
+    return true;
+}
+
+/* Finds where a vertex of three coordinates is, before and after the division. Returns false where it lies before the near or
+ * behind the far plane, or where the setup is not ready for its w: then `now` is known and `screen` undefined. */
+typedef bool vertex_fn(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
+                       const struct vertex_setup *s);
+
+static inline int32_t vertex_row_of(const struct vertex_row *r, const int16_t v[3])
+{
+    const int32_t high = add_wrap(add_wrap(v[0] * r->high[0], v[1] * r->high[1]), v[2] * r->high[2]);
+    const int32_t low = v[0] * r->low[0] + v[1] * r->low[1] + v[2] * r->low[2];
+    return add_wrap(add_wrap(high, low >> 14), r->offset);
+}
+
+static inline bool vertex_find_reference(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
+                                         const struct vertex_setup *s)
+{
+    now->x = vertex_row_of(&s->row[0], v);
+    now->y = vertex_row_of(&s->row[1], v);
+    now->w = now->distance = vertex_row_of(&s->row[2], v);
+    if (now->w < s->near_distance || now->w > s->far_distance || now->w >> s->top != 1)
+        return false;
+    const int32_t r = (int32_t)recip_norm((uint32_t)now->w << s->zeros);
+    screen->x = ((mulh_i32(now->x, r) + s->half) >> s->down) + s->x;
+    screen->y = ((mulh_i32(now->y, r) + s->half) >> s->down) + s->y;
+    int32_t depth = min_i32(mulh_i32(s->depth_high * 65536 + s->depth_low, r), s->depth_limit);
+    depth = ((depth + s->depth_half) >> s->depth_down) << s->depth_up;
+    screen->depth = clamp_i32(depth, s->depth_least, s->depth_most);
+    return true;
+}
+
+#if SMEAR_ASM_ARMV6M
+SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offsetof(struct vertex_setup, zeros) == 92
+                        && offsetof(struct vertex_setup, half) == 104 && offsetof(struct vertex_setup, x) == 112
+                        && offsetof(struct vertex_setup, depth_low) == 120
+                        && offsetof(struct vertex_setup, depth_limit) == 128
+                        && offsetof(struct vertex_setup, depth_least) == 144,
+                    "the assembly takes struct vertex_setup word by word");
+
+/* A row at r1 times the vertex in r2, r3, r4: into r0. */
+#define ARMV6M_VERTEX_ROW \
+        "ldm r1!, {r5, r6, r7}\n\t" \
+        "muls r5, r2\n\t" \
+        "muls r6, r3\n\t" \
+        "muls r7, r4\n\t" \
+        "adds r5, r6\n\t" \
+        "adds r5, r7\n\t" \
+        "ldm r1!, {r0, r6, r7}\n\t" \
+        "muls r0, r2\n\t" \
+        "muls r6, r3\n\t" \
+        "muls r7, r4\n\t" \
+        "adds r0, r6\n\t" \
+        "adds r0, r7\n\t" \
+        "asrs r0, #14\n\t" \
+        "adds r0, r5\n\t" \
+        "ldm r1!, {r5}\n\t" \
+        "adds r0, r5\n\t"
+
+/* The high product of r6 2^16 + r5 and r4 2^16 + r3, which are below 2^30: products that cross have a sum of 32 bits.
+ * It is in r6; r5 and r7 are lost. */
+#define ARMV6M_VERTEX_MULH \
+        "movs r7, r5\n\t" \
+        "muls r7, r3\n\t" \
+        "lsrs r7, #16\n\t" \
+        "muls r5, r4\n\t" \
+        "adds r7, r5\n\t" \
+        "movs r5, r6\n\t" \
+        "muls r5, r3\n\t" \
+        "adds r7, r5\n\t" \
+        "muls r6, r4\n\t" \
+        "asrs r7, #16\n\t" \
+        "adds r6, r7\n\t"
+
+/* All rows: x into r8, y into r9, w into r0; r12 and lr point to what is found, of which the rows are stored. */
+#define ARMV6M_VERTEX_ROWS \
+        "mov r12, r2\n\t" \
+        "mov lr, r3\n\t" \
+        "movs r2, #0\n\t" \
+        "ldrsh r2, [r0, r2]\n\t" \
+        "movs r3, #2\n\t" \
+        "ldrsh r3, [r0, r3]\n\t" \
+        "movs r4, #4\n\t" \
+        "ldrsh r4, [r0, r4]\n\t" \
+        ARMV6M_VERTEX_ROW \
+        "mov r8, r0\n\t" \
+        ARMV6M_VERTEX_ROW \
+        "mov r9, r0\n\t" \
+        ARMV6M_VERTEX_ROW \
+        "mov r3, lr\n\t" \
+        "mov r4, r8\n\t" \
+        "mov r5, r9\n\t" \
+        "movs r6, r0\n\t" \
+        "movs r7, r0\n\t" \
+        "stm r3!, {r4, r5, r6, r7}\n\t"
+
+/* Goes to 1 where w in r0 is before the near or behind the far plane, or has another number of bits. Else recip_norm of it:
+ * the halves into r4 and r3. */
+#define ARMV6M_VERTEX_RECIP \
+        "ldm r1!, {r2, r3}\n\t" \
+        "cmp r0, r2\n\t" \
+        "blt 1f\n\t" \
+        "cmp r0, r3\n\t" \
+        "bgt 1f\n\t" \
+        "ldm r1!, {r2, r3, r4}\n\t" \
+        "movs r7, r0\n\t" \
+        "asrs r7, r3\n\t" \
+        "cmp r7, #1\n\t" \
+        "bne 1f\n\t" \
+        "lsls r0, r2\n\t" \
+        "lsls r3, r0, #1\n\t" \
+        "lsrs r3, #23\n\t" \
+        "lsls r3, #1\n\t" \
+        "ldrh r3, [r4, r3]\n\t" \
+        "lsrs r0, #11\n\t" \
+        "muls r0, r3\n\t" \
+        "movs r4, #1\n\t" \
+        "lsls r4, #31\n\t" \
+        "subs r4, r0\n\t" \
+        "asrs r4, #4\n\t" \
+        "muls r4, r3\n\t" \
+        "asrs r4, #8\n\t" \
+        "lsls r3, #19\n\t" \
+        "adds r3, r4\n\t" \
+        "asrs r4, r3, #16\n\t" \
+        "uxth r3, r3\n\t"
+
+/* Divides x and y, in r8 and r9, into places there. */
+#define ARMV6M_VERTEX_PLACE \
+        "ldm r1!, {r0, r2}\n\t" \
+        "mov r5, r8\n\t" \
+        "asrs r6, r5, #16\n\t" \
+        "uxth r5, r5\n\t" \
+        ARMV6M_VERTEX_MULH \
+        "adds r6, r0\n\t" \
+        "asrs r6, r2\n\t" \
+        "ldm r1!, {r7}\n\t" \
+        "adds r6, r7\n\t" \
+        "mov r8, r6\n\t" \
+        "mov r5, r9\n\t" \
+        "asrs r6, r5, #16\n\t" \
+        "uxth r5, r5\n\t" \
+        ARMV6M_VERTEX_MULH \
+        "adds r6, r0\n\t" \
+        "asrs r6, r2\n\t" \
+        "ldm r1!, {r7}\n\t" \
+        "adds r7, r6\n\t" \
+        "mov r9, r7\n\t"
+
+/* The depth from its mantissa, whose lower half comes first, into r6; on to 4. */
+#define ARMV6M_VERTEX_DEPTH \
+        "ldm r1!, {r5, r6}\n\t" \
+        ARMV6M_VERTEX_MULH \
+        "ldm r1!, {r0, r2, r3, r4}\n\t" \
+        "cmp r6, r0\n\t" \
+        "ble 2f\n\t" \
+        "movs r6, r0\n" \
+        "2: adds r6, r2\n\t" \
+        "asrs r6, r3\n\t" \
+        "lsls r6, r4\n\t" \
+        "ldm r1!, {r2, r3}\n\t" \
+        "cmp r6, r2\n\t" \
+        "bge 3f\n\t" \
+        "movs r6, r2\n" \
+        "3: cmp r6, r3\n\t" \
+        "ble 4f\n\t" \
+        "movs r6, r3\n"
+
+#define ARMV6M_VERTEX ARMV6M_VERTEX_ROWS ARMV6M_VERTEX_RECIP ARMV6M_VERTEX_PLACE ARMV6M_VERTEX_DEPTH
+
+/* 155 instructions, where compilers take 400. */
+SMEAR_INLINE bool vertex_find_armv6m(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
+                                     const struct vertex_setup *s)
+{
+    register const int16_t *r0 __asm__("r0") = v;
+    register const struct vertex_setup *r1 __asm__("r1") = s;
+    register struct smear_screen *r2 __asm__("r2") = screen;
+    register struct smear_homogeneous *r3 __asm__("r3") = now;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        ARMV6M_VERTEX
+        "4: mov r4, r8\n\t"
+        "mov r5, r9\n\t"
+        "mov r7, r12\n\t"
+        "stm r7!, {r4, r5, r6}\n\t"
+        "movs r0, #1\n\t"
+        "b 5f\n"
+        "1: movs r0, #0\n"
+        "5:"
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+        :
+        : "r4", "r5", "r6", "r7", "r8", "r9", "r12", "lr", "cc", "memory");
+    return r0 != NULL;
+}
+#endif
+
+SMEAR_INLINE bool vertex_find(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
+                              const struct vertex_setup *s)
+{
+#if SMEAR_ASM_ARMV6M
+    return vertex_find_armv6m(screen, now, v, s);
+#else
+    return vertex_find_reference(screen, now, v, s);
+#endif
+}
+
+#endif
