@@ -27,38 +27,66 @@ void smear_assembler_reset(struct smear_assembler *a)
 
 /* ------------------------------------------------------------------ whole triangles */
 
+/* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
+enum { POINTS_MAX = 2, TINY_BOX = 2 };
+
 /* A pixel that a triangle covers, and its edge functions there. */
 struct covered {
     int32_t x, y, e1, e2;
 };
 
-/* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
-enum { POINTS_MAX = 2, TINY_BOX = 2 };
+/* What a triangle in a box of up to TINY_BOX pixels a side covers. */
+struct tiny_triangle {
+    int32_t area;                   /* twice the area, q16 px */
+    int count;                      /* centres covered */
+    struct covered covered[POINTS_MAX];     /* the first of them */
+};
 
-/* Returns how many centres in the box the triangle covers, and lists the first POINTS_MAX of them. */
-static inline int cover(struct covered out[POINTS_MAX], const struct tiny_edges *e, const struct box *box)
+SMEAR_INLINE void cover_centre(struct tiny_triangle *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
 {
-    int count = 0;
-    int32_t row0 = e->e0, row1 = e->e1, row2 = e->e2;
-    for (int32_t y = box->y0;;) {
-        int32_t e0 = row0, e1 = row1, e2 = row2;
-        for (int32_t x = box->x0;;) {
-            if ((e0 | e1 | e2) >= 0) {
-                if (count < POINTS_MAX)
-                    out[count] = (struct covered){ x, y, e1, e2 };
-                count++;
+    if ((e0 | e1 | e2) < 0)
+        return;
+    if (t->count < POINTS_MAX)
+        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
+    t->count++;
+}
+
+/* Finds which centres of the box are covered: one after the other where size counts. */
+static inline void cover(struct tiny_triangle *t, const struct box *box, const struct smear_screen *v0,
+                         const struct smear_screen *v1, const struct smear_screen *v2)
+{
+    const int32_t x = box->x0, y = box->y0;
+    const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
+    struct tiny_edges e;
+    t->area = x1 * y2 - x2 * y1;
+    t->count = 0;
+    tiny_start(&e, v0->x, v0->y, x1, y1, x2, y2, t->area, x, y);
+    if (SMEAR_SMALL_CODE) {
+        for (int32_t row = y; row < box->y1; row++) {
+            int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
+            for (int32_t column = x; column < box->x1; column++) {
+                cover_centre(t, column, row, e0, e1, e2);
+                e0 += e.right0;
+                e1 += e.right1;
+                e2 += e.right2;
             }
-            if (++x == box->x1)
-                break;
-            e0 += e->right0;
-            e1 += e->right1;
-            e2 += e->right2;
+            e.e0 += e.down0;
+            e.e1 += e.down1;
+            e.e2 += e.down2;
         }
-        if (++y == box->y1)
-            return count;
-        row0 += e->down0;
-        row1 += e->down1;
-        row2 += e->down2;
+        return;
+    }
+    const bool wide = box->x1 - x > 1;
+    cover_centre(t, x, y, e.e0, e.e1, e.e2);
+    if (wide)
+        cover_centre(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+    if (box->y1 - y > 1) {
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
+        cover_centre(t, x, y + 1, e.e0, e.e1, e.e2);
+        if (wide)
+            cover_centre(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
     }
 }
 
@@ -123,8 +151,8 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     return word;
 }
 
-static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle,
-                                  bool back, const struct covered covered[POINTS_MAX], int count, int32_t area)
+static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
+                                  const struct tiny_triangle *t)
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *s = b->segment;
@@ -135,20 +163,36 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
             channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
-    struct tiny_scale scale = tiny_scale_make(area);
-    int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
-    for (int i = 0; i < count; i++) {
-        const struct covered *p = &covered[i];
-        uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
-        struct smear_triangle *t = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
-        t->vertex[POINT_X] = (uint16_t)p->x;
-        t->vertex[POINT_Y] = (uint16_t)p->y;
-        t->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
-        t->segment = SMEAR_POINT;
-        t->color = !segment_colored(s) ? color
-                                       : tiny_color(channels[0], channels[1], channels[2], w1, w2,
-                                                    shading_is_linear(&b->d->shading));
+    const struct tiny_scale scale = tiny_scale_make(t->area);
+    const int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
+    for (int i = 0; i < t->count; i++) {
+        const struct covered *p = &t->covered[i];
+        const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
+        struct smear_triangle *out = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
+        out->vertex[POINT_X] = (uint16_t)p->x;
+        out->vertex[POINT_Y] = (uint16_t)p->y;
+        out->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
+        out->segment = SMEAR_POINT;
+        out->color = !segment_colored(s) ? color
+                                         : tiny_color(channels[0], channels[1], channels[2], w1, w2,
+                                                      shading_is_linear(&b->d->shading));
     }
+}
+
+/* Finds room for a triangle and three vertices. Returns false where there is none. */
+static SMEAR_RARE bool find_room(struct batch *b)
+{
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
+    if (s == NULL)
+        return false;
+    b->segment = s;
+    if (SMEAR_SMALL_CODE)
+        return true;
+    const struct smear_bins *g = b->a->bins;
+    const uint32_t words = (ROOM_AHEAD + 1u) * 3u * s->stride;
+    if (g->vertex_words + words - s->base <= 65536u && bins_has_room(g, words, (ROOM_AHEAD + 1u) * POINTS_MAX))
+        b->room = ROOM_AHEAD;
+    return true;
 }
 
 /* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach beyond the
@@ -165,29 +209,25 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
         box_cut(&box, b->a);
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
-    struct covered covered[POINTS_MAX];
-    int count = POINTS_MAX + 1;
-    int32_t area = 0;
+    struct tiny_triangle t;
+    t.count = POINTS_MAX + 1;
+    t.area = 0;
     if (tiny) {
-        int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
-        int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
-        struct tiny_edges e;
-        area = x1 * y2 - x2 * y1;
-        tiny_start(&e, v0->screen.x, v0->screen.y, x1, y1, x2, y2, area, box.x0, box.y0);
-        count = cover(covered, &e, &box);
-        if (count == 0)
+        cover(&t, &box, &v0->screen, &v1->screen, &v2->screen);
+        if (t.count == 0)
             return true;
     }
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
-    if (s == NULL)
+    if (!SMEAR_SMALL_CODE && b->room != 0)
+        b->room--;
+    else if (!find_room(b))
         return false;
-    b->segment = s;
+    struct smear_segment *s = b->segment;
     b->a->triangles_drawn++;
-    if (count <= POINTS_MAX && b->points
+    if (t.count <= POINTS_MAX && b->points
         && (!segment_by_vertices(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
-        add_points(b, v, triangle, back, covered, count, area);
+        add_points(b, v, triangle, back, &t);
         return true;
     }
     struct smear_bins *g = b->a->bins;
@@ -195,12 +235,12 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
     uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
     uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
-    struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
-    t->vertex[0] = offset0;
-    t->vertex[1] = offset1;
-    t->vertex[2] = offset2;
-    t->segment = (uint16_t)(s - g->segment);
-    t->color = color_of_face(b, triangle, back);
+    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
+    out->vertex[0] = offset0;
+    out->vertex[1] = offset1;
+    out->vertex[2] = offset2;
+    out->segment = (uint16_t)(s - g->segment);
+    out->color = color_of_face(b, triangle, back);
     return true;
 }
 
@@ -218,33 +258,78 @@ static inline void find_vertex(const struct smear_assembler *a, const struct sme
     v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
 }
 
+#if SMEAR_VERTEX_SETUP
+static SMEAR_RARE void batch_make_ready(struct batch *b)
+{
+    const struct smear_placement *p = &b->d->at;
+    const struct smear_depths *depths = &p->now.depths;
+    const struct smear_viewport *viewport = &b->a->viewport;
+    const struct place_setup s = { p->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
+                                   depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
+                                   viewport->width << 7, viewport->height << 7 };
+    b->ready = !depths_are_even(depths) && p->extra_count == 0;
+    if (b->ready)
+        vertex_setup_make(&b->setup, &s);
+}
+
+static SMEAR_RARE int outcode_beside(const struct smear_screen *s, const struct smear_viewport *viewport)
+{
+    return outcode_sides(s, viewport);
+}
+
+/* Finds a vertex for which the setup is not ready: makes it ready for others like it. */
+static SMEAR_RARE void find_unready(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
+{
+    struct vertex_setup *const s = &b->setup;
+    find_vertex(b->a, b->d, v, tag);
+    if (b->ready && v->now.w >= s->near_distance && v->now.w <= s->far_distance)
+        (void)vertex_setup_for(s, v->now.w);
+}
+#endif
+
+SMEAR_INLINE void find_in_batch(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
+{
+#if SMEAR_VERTEX_SETUP
+    if (!b->ready || !vertex_find(&v->screen, &v->now, b->d->at.position + 3 * (tag & 0xffffu), &b->setup)) {
+        find_unready(b, v, tag);
+        return;
+    }
+    v->tag = tag;
+    v->stored = 0;
+    const struct smear_viewport *const viewport = &b->a->viewport;
+    const bool inside = (uint32_t)v->screen.x <= (uint32_t)viewport->width << 8
+                     && (uint32_t)v->screen.y <= (uint32_t)viewport->height << 8;
+    v->outcode = inside ? 0 : outcode_beside(&v->screen, viewport);
+#else
+    find_vertex(b->a, b->d, v, tag);
+#endif
+}
+
 #if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
 /* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
-static SMEAR_NOINLINE void find_all(const struct smear_assembler *a, const struct smear_assembly *d,
-                                    uint32_t tag)
+static SMEAR_NOINLINE void find_all(struct batch *b, uint32_t tag)
 {
-    struct smear_cached_vertex *v = a->cache;
-    for (const uint32_t end = tag + d->mesh->vertex_count; tag != end; tag++, v++)
-        find_vertex(a, d, v, tag);
+    struct smear_cached_vertex *v = b->a->cache;
+    for (const uint32_t end = tag + b->d->mesh->vertex_count; tag != end; tag++, v++)
+        find_in_batch(b, v, tag);
 }
 #endif
 
 /* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
-static SMEAR_NOINLINE struct smear_cached_vertex *miss(const struct smear_assembler *a,
-                                                       const struct smear_assembly *d, uint32_t tag,
+static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t tag,
                                                        const struct smear_cached_vertex *in_use1,
                                                        const struct smear_cached_vertex *in_use2,
                                                        struct smear_cached_vertex *spare)
 {
-    struct smear_cached_vertex *v = &a->cache[tag & a->cache_mask];
-    if ((tag & 0xffffu) >= d->mesh->vertex_count) {
+    struct smear_cached_vertex *v = &b->a->cache[tag & b->a->cache_mask];
+    if ((tag & 0xffffu) >= b->d->mesh->vertex_count) {
         spare->outcode = OUT_UNKNOWN;
         return spare;
     }
     /* An entry that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
-    find_vertex(a, d, v, tag);
+    find_in_batch(b, v, tag);
     return v;
 }
 
@@ -285,12 +370,13 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     if ((any & OUT_CLIP) != 0) {
         const bool mirrored = b->d->mirrored;       /* clipping takes the mesh's own order */
         const struct smear_cached_vertex *corner[3] = { v0, mirrored ? v1 : v2, mirrored ? v2 : v1 };
+        b->room = 0;
         return smear_batch_add_clipped(b, corner, triangle);
     }
-    const int64_t area = area_of(&v0->screen, &v1->screen, &v2->screen);
-    if (area > 0)
+    const int32_t side = side_of(&v0->screen, &v1->screen, &v2->screen);
+    if (side > 0)
         return add_whole(b, v0, v1, v2, triangle, false, any != 0 || b->partial);
-    return area == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
+    return side == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
 }
 
 /* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room. */
@@ -304,7 +390,7 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         b->tag = ++a->serial << 16;
 #if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
         if (d->mesh->vertex_count <= a->cache_mask + 1u && a->resume.triangle == 0)
-            find_all(a, d, b->tag);
+            find_all(b, b->tag);
 #endif
     }
     const uint32_t tag = b->tag;
@@ -320,11 +406,11 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         struct smear_cached_vertex *v0 = cache + (tag0 & mask), *v1 = cache + (tag1 & mask);
         struct smear_cached_vertex *v2 = cache + (tag2 & mask);
         if (v0->tag != tag0)
-            v0 = miss(a, d, tag0, NULL, NULL, &spare[0]);
+            v0 = miss(b, tag0, NULL, NULL, &spare[0]);
         if (v1->tag != tag1)
-            v1 = miss(a, d, tag1, v0, NULL, &spare[1]);
+            v1 = miss(b, tag1, v0, NULL, &spare[1]);
         if (v2->tag != tag2)
-            v2 = miss(a, d, tag2, v0, v1, &spare[2]);
+            v2 = miss(b, tag2, v0, v1, &spare[2]);
         if (!add_triangle(b, v0, v1, v2, i)) {
             a->resume = (struct smear_resume){ i, b->parts };
             return false;
@@ -585,6 +671,9 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
     if (b.segment == NULL)
         return false;
     batch_start(&b);
+#if SMEAR_VERTEX_SETUP
+    batch_make_ready(&b);
+#endif
 #if SMEAR_PLACES
     if (!a->refills)
         return assemble_places(&b);

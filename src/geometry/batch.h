@@ -10,6 +10,11 @@
 #define SMEAR_PLACES (SMEAR_VECTORS && !SMEAR_FAST_STACK)
 #endif
 
+/* What a draw's vertices share is made ready where that pays: compilers reload it for each of them. */
+#ifndef SMEAR_VERTEX_SETUP
+#define SMEAR_VERTEX_SETUP (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+#endif
+
 static inline uint32_t index_of(const struct smear_cached_vertex *v)
 {
     return v->tag & 0xffffu;
@@ -34,6 +39,8 @@ static inline bool is_damaged(const struct smear_assembler *a, const struct box 
     return !assembler_has_damage(a) || smear_batch_is_damaged(a->damaged, box);
 }
 
+enum { ROOM_AHEAD = 32 };               /* triangles for which room is found at once */
+
 /* What the loop over a draw's triangles needs for each of them. */
 struct batch {
     struct smear_assembler *a;
@@ -47,6 +54,11 @@ struct batch {
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
+    uint16_t room;                      /* for so many more triangles there is room, if nothing else is added */
+#if SMEAR_VERTEX_SETUP
+    bool ready;                         /* `setup` finds vertices */
+    struct vertex_setup setup;
+#endif
 };
 
 /* Whether the triangle's vertices are stored once for all faces around them. */

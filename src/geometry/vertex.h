@@ -307,19 +307,45 @@ static inline int64_t area_of(const struct smear_screen *a, const struct smear_s
     return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
 }
 
+/* Returns a number of the sign of area_of. */
+static inline int32_t side_of(const struct smear_screen *a, const struct smear_screen *b, const struct smear_screen *c)
+{
+    const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
+    const uint32_t small = 1 << 15;
+    if (!SMEAR_HAS_MUL64 && !SMEAR_SMALL_CODE
+        && (((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
+        return x1 * y2 - x2 * y1;
+    const int64_t area = area_of_edges(x1, y1, x2, y2);
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
 /* Pixels whose centres may be covered. */
 struct box {
     int32_t x0, y0, x1, y1;
 };
 
+/* Finds the first pixel whose centre may be covered, and that behind the last one, of three places q8. */
+static inline void box_span(int32_t *first, int32_t *end, int32_t a, int32_t b, int32_t c)
+{
+    int32_t low = a, high = b;
+    if (b < a) {
+        low = b;
+        high = a;
+    }
+    if (c < low)
+        low = c;
+    else if (c > high)
+        high = c;
+    *first = (low + 127) >> 8;
+    *end = (high + 127) >> 8;
+}
+
 static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
                                 const struct smear_screen *c)
 {
     struct box box;
-    box.x0 = (min_i32(a->x, min_i32(b->x, c->x)) + 127) >> 8;
-    box.x1 = (max_i32(a->x, max_i32(b->x, c->x)) + 127) >> 8;
-    box.y0 = (min_i32(a->y, min_i32(b->y, c->y)) + 127) >> 8;
-    box.y1 = (max_i32(a->y, max_i32(b->y, c->y)) + 127) >> 8;
+    box_span(&box.x0, &box.x1, a->x, b->x, c->x);
+    box_span(&box.y0, &box.y1, a->y, b->y, c->y);
     return box;
 }
 
