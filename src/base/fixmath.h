@@ -44,7 +44,8 @@ SMEAR_SHARED int count_leading_zeros(uint32_t x)
     return __builtin_clz(x);
 #else
     int n = 0;
-    uint32_t top = x >> 16;     /* in a register: small cores load numbers to compare with in two steps */
+#ifdef __ARM_ARCH_6M__
+    uint32_t top = x >> 16;     /* in a register: numbers to compare with take two steps there */
     SMEAR_KEEP_VALUE(top);
     if (top == 0) { n += 16; x <<= 16; }
     top = x >> 24;
@@ -56,6 +57,12 @@ SMEAR_SHARED int count_leading_zeros(uint32_t x)
     top = x >> 30;
     SMEAR_KEEP_VALUE(top);
     if (top == 0) { n += 2; x <<= 2; }
+#else
+    if (x < 0x10000u) { n += 16; x <<= 16; }
+    if (x < 0x1000000u) { n += 8; x <<= 8; }
+    if (x < 0x10000000u) { n += 4; x <<= 4; }
+    if (x < 0x40000000u) { n += 2; x <<= 2; }
+#endif
     return n + (int)(~x >> 31);
 #endif
 }

@@ -8,8 +8,8 @@
 #include "kernels/tiny_corners.h"
 #include "raster/cover_tiny.h"
 
-/* Lists have a loop of their own for them, where size does not count. */
-#ifdef __OPTIMIZE_SIZE__
+/* Lists have a loop of their own for them, where size does not count; nor does it fit beside what is hot in the GBA's fast memory. */
+#if defined(__OPTIMIZE_SIZE__) || defined(__ARM_ARCH_4T__)
 #define SMEAR_TINY_LIST 0
 #else
 #define SMEAR_TINY_LIST 1
