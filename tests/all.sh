@@ -116,7 +116,9 @@ generated() {
     needs clang-14 "clang-14 libclang-rt-14-dev" || return 0
     suite fuzz-corpus $make -s $jobs fuzz-corpus
     suite fuzz-frames $make -s $jobs fuzz MINUTES=1
-    ! m32 || suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
+    if m32 && needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
+        suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
+    fi
 }
 
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
