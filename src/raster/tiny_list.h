@@ -8,8 +8,8 @@
 #include "kernels/tiny_corners.h"
 #include "raster/cover_tiny.h"
 
-/* Lists have a loop of their own for them, where size does not count; nor does it fit beside what is hot in the GBA's fast memory. */
-#if defined(__OPTIMIZE_SIZE__) || defined(__ARM_ARCH_4T__)
+/* Lists have a loop of their own for them, where size does not count: it does in a page, and in the GBA's fast memory. */
+#if defined(__OPTIMIZE_SIZE__) || defined(__ARM_ARCH_4T__) || defined(__wasm__)
 #define SMEAR_TINY_LIST 0
 #else
 #define SMEAR_TINY_LIST 1
