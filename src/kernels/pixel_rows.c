@@ -152,7 +152,7 @@ SMEAR_INLINE uint32_t dithered_pair(const struct dither_pair *d, uint32_t step, 
 SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t step[BLOCK_PAIRS],
                                   bool is_555, bool swapped)
 {
-    static const pixel_word black[BLOCK_PAIRS];
+    static const pixel_word black[BLOCK_PAIRS] = { 0 };
     pixel_word *to = (pixel_word *)(void *)out;
     const pixel_word *kept = black;
     uint32_t last = 0, flat = 0;

@@ -415,10 +415,13 @@ SMEAR_INLINE void curves_run(const struct curves *k, int32_t column, int32_t row
     r->duv = dx + k->dxx * (x + 1);
 }
 #else
+/* As they are needed: small cores have few registers. */
+struct curve_words {
+    uint32_t dxy, dx, dyy, dy, at, dxx;
+};
+
 struct curves {
-    struct curve_words {
-        uint32_t dxy, dx, dyy, dy, at, dxx;     /* as they are needed: small cores have few registers */
-    } u, v;
+    struct curve_words u, v;
 };
 
 SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)

@@ -13,7 +13,7 @@ struct look {
 };
 
 /* Squared differences of pixels behind one another on their path, and of those beside each other. */
-struct differences {
+struct look_sums {
     uint32_t along, beside, moving;
 };
 
@@ -46,9 +46,9 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
 
 static bool is_slant(const struct look *l) { return l->dx != 0 && l->dy != 0 && abs_i32(l->dx) != abs_i32(l->dy); }
 
-static struct differences differences_of(const struct subframes *f, const struct look *l)
+static struct look_sums sums_of_look(const struct subframes *f, const struct look *l)
 {
-    struct differences d = { 0, 0, 0 };
+    struct look_sums d = { 0, 0, 0 };
     uint32_t ignored = 0;
     d.along = look_along(f, l, l->dx, l->dy, &d.moving);
     if (is_slant(l))
@@ -67,7 +67,7 @@ static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UI
 
 /* Adds a block's differences times its displacement to those of the run. Returns up to how many instants gaps are closed
  * there. */
-static int32_t add_block(struct smear_contrast *c, const struct look *l, const struct differences *d,
+static int32_t add_block(struct smear_contrast *c, const struct look *l, const struct look_sums *d,
                          const struct smear_closing *closing)
 {
     enum { MOST = 1 << 22,
@@ -108,7 +108,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
     l->dx = next_on_path(l->way_x, longest);
     l->dy = next_on_path(l->way_y, longest);
-    const struct differences d = differences_of(f, l);
+    const struct look_sums d = sums_of_look(f, l);
     c->moving += d.moving;
     if (d.moving != 0)
         b->last = (uint8_t)add_block(c, l, &d, &closing);
