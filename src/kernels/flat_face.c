@@ -80,10 +80,11 @@ SMEAR_AVX2_INLINE void face_cut(struct face_rows *r, const struct flat_area *a, 
     for (int32_t i = 0; i < n; i += 8, z += z_down, at += down) {
         const lanes8i left = lanes8i_max(lanes8i_load(r->left + i), x0), right = lanes8i_min(lanes8i_load(r->right + i), x1);
         lanes8i_store(r->left + i, left);
-        lanes8i_store(r->right + i, right - left);
+        const lanes8i pixels = (lanes8i)((lanes8)right - (lanes8)left);     /* of rows beyond the last: anything */
+        lanes8i_store(r->right + i, pixels);
         lanes8_store(r->at + i, at + (lanes8)left);
         lanes8_store(r->z + i, z + dz * (lanes8)left);
-        lanes8i_store(r->few + i, (right - left - 1) | (left > x_most));
+        lanes8i_store(r->few + i, (lanes8i)((lanes8)pixels - 1) | (left > x_most));
     }
 }
 

@@ -66,23 +66,20 @@ bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame 
     return !frame_has_fog(frame) && tiny8_suit(target) && find_look(look, frame, target, segment);
 }
 
-/* Makes the pixels of tiny ones, in their order. */
+/* Makes the pixels of tiny ones, of which there is one at least, in their order; where they are fewer than eight, the first
+ * fills the rest. */
 static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], const struct poses *poses,
                       uint32_t tiny)
 {
     struct tiny8_look l = *look;
     uint16_t vertex[8][4];
     uint32_t colors[8];
-    int n = 0;
-    for (; tiny != 0; tiny &= tiny - 1, n++) {
-        const int k = __builtin_ctz(tiny);
+    const int first = __builtin_ctz(tiny);
+    for (int n = 0; n < 8; n++, tiny &= tiny - 1) {
+        const int k = tiny != 0 ? __builtin_ctz(tiny) : first;
         for (int i = 0; i < 3; i++)
             vertex[n][i] = (uint16_t)((3 * k + i) * POSES_RECORD);
         colors[n] = color[k];
-    }
-    for (int k = n; k < 8; k++) {
-        __builtin_memcpy(vertex[k], vertex[0], sizeof vertex[0]);
-        colors[k] = colors[0];
     }
     l.vertex = poses->record[0][0];
     smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
