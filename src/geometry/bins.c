@@ -34,11 +34,8 @@ static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
     const struct smear_segment *s = &g->segment[t->segment];
     if (s->path)
         return bins_bounds(g, triangle)->y1 > y;
-    int32_t end = y * 256 + 128 - bins_margin(g) * 256;
-    for (int i = 0; i < 3; i++)
-        if (bins_vertex(g, s, t->vertex[i])[VERTEX_Y] > end)
-            return true;
-    return false;
+    const int32_t end = y * 256 + 128 - bins_margin(g) * 256, *const v = bins_vertex(g, s, VERTEX_Y);
+    return v[t->vertex[0]] > end || v[t->vertex[1]] > end || v[t->vertex[2]] > end;
 }
 
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,

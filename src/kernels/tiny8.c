@@ -490,6 +490,11 @@ SMEAR_AVX2_INLINE void tiny8_of_kind(struct tiny8_pixels *out, const struct tiny
                                        tiny8_corner_load(l->vertex, vertex, 1, words),
                                        tiny8_corner_load(l->vertex, vertex, 2, words) };
     __m256i good = tiny8_make_edges(&s, l, c), change = v8_all(0);
+    if (_mm256_testz_si256(good, good)) {
+        out->taken = 0;
+        v8_store(out->end, v8_all(0));
+        return;
+    }
     tiny8_make_scale(&s);
     if (kind == TINY8_COPIED || kind == TINY8_LIT)
         good = _mm256_and_si256(good, tiny8_make_texture(&s, l, c, &change));

@@ -575,7 +575,9 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
     }
 #if SMEAR_SPAN_ROWS
     if (!small || segment_textured(s->segment)) {
-        smear_rows_fn *rows = smear_rows_choose(s);
+        if (s->rows == NULL)
+            s->rows = smear_rows_choose(s);
+        smear_rows_fn *const rows = s->rows;
         if (rows != NULL && small) {
             cover_small_rows(s, box, rows);
             return;

@@ -6,32 +6,24 @@
 #include "raster/cover_texels.h"
 #include "raster/cover_tiny8.h"
 #include "raster/fog.h"
+#include "raster/kept.h"
 #include "raster/span.h"
 #include "raster/tiny_list.h"
 
 /* ------------------------------------------------------------------ a triangle */
 
-/* A triangle that goes on in the next rows. Memory of its own, between the pool's vertices and triangles (draws.c). */
-struct cache_entry {
-    uint32_t triangle;
-    struct setup s;             /* so much of it as triangles of the frame use */
-};
-
 enum { ENTRIES_MAX = 512 };
 
-static inline struct cache_entry *entry_at(const struct smear_raster_cache *cache, uint32_t i)
+static inline struct kept *entry_at(const struct smear_raster_cache *cache, uint32_t i)
 {
-    return (struct cache_entry *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
+    return (struct kept *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
 }
 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
 {
-    size_t setup = 0;
-    for (uint32_t i = 0; i < bins->segment_count; i++) {
-        const size_t used = setup_bytes(&bins->segment[i]);
-        setup = used > setup ? used : setup;
-    }
-    const uint32_t entry_bytes = (uint32_t)(offsetof(struct cache_entry, s) + setup + 7u) & ~7u;
+    uint32_t entry_bytes = sizeof(struct kept);
+    for (uint32_t i = 0; i < bins->segment_count; i++)
+        entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
     const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
     const struct smear_raster_cache cache = { memory, (uint16_t)entries, (uint16_t)entry_bytes };
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
@@ -44,26 +36,26 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
     return (struct smear_raster_cache){ entry_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
 }
 
-enum { PROBES = 4 };
+enum { PROBES = 8 };
 
 /* Whether an entry keeps nothing that rows from the target's on need. */
-static inline bool entry_is_free(const struct cache_entry *entry, const struct smear_raster_target *target)
+static inline bool entry_is_free(const struct kept *entry, const struct smear_raster_target *target)
 {
-    return entry->triangle == SMEAR_NO_TRIANGLE || (entry->s.bounds.y1 + 127) >> 8 <= target->y0;
+    return entry->triangle == SMEAR_NO_TRIANGLE || entry->end <= target->y0;
 }
 
 /* The entry of a triangle that continues rows above the target's or goes on below them; null for others, and where all
  * entries that it may have are others' still. `known`: it holds the triangle's setup. */
-static inline struct cache_entry *cache_find(const struct smear_raster_target *target, uint32_t triangle,
-                                             bool continues, bool goes_on, bool *known)
+static inline struct kept *cache_find(const struct smear_raster_target *target, uint32_t triangle,
+                                      bool continues, bool goes_on, bool *known)
 {
     *known = false;
     if (!SMEAR_RASTER_CACHE || target->cache.entries == 0 || !(continues || goes_on))
         return NULL;
-    struct cache_entry *free = NULL;
+    struct kept *free = NULL;
     uint32_t at = (triangle * 40503u & 0xffffu) * target->cache.entries >> 16;
     for (int i = 0; i < PROBES; i++) {
-        struct cache_entry *entry = entry_at(&target->cache, at);
+        struct kept *entry = entry_at(&target->cache, at);
         if (continues && entry->triangle == triangle) {
             *known = true;
             return entry;
@@ -87,18 +79,36 @@ static inline struct bounds bounds_of(const int32_t *const v[3])
                             max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
 }
 
-SMEAR_INLINE void start(struct setup *s, const struct smear_raster_frame *frame, const struct smear_segment *segment, uint32_t color,
-                        const int32_t *const v[3], bool in_fog)
+SMEAR_INLINE void start(struct setup *s, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                        const struct smear_segment *segment, uint32_t color, const int32_t *const v[3])
 {
     s->frame = frame;
+    s->target = target;
     s->segment = segment;
+    s->draw = &frame->draw[segment->draw];
     s->color = color;
+    s->rows = NULL;
     for (int i = 0; i < 3; i++)
         s->v[i] = v[i];
+}
+
+static inline void start_fog(struct setup *s, bool in_fog)
+{
     if (SMEAR_WITH_FOG)
         s->fog = FOG_NONE;
     if (in_fog)
         smear_fog_triangle(s);
+}
+
+/* The planes start with the background's velocity: static triangles write theirs only over others, after the first one that
+ * moves. */
+static inline void start_velocity(struct setup *s, bool *moved)
+{
+    const bool fixed = draw_is_fixed(s->draw), moves = segment_moves(s->segment) != 0 || fixed;
+    s->writes_velocity = target_has_velocity(s->target) && !draw_is_blended(s->draw) && (moves || *moved);
+    s->velocity_unknown = frame_has_depth_velocity(s->frame) && !fixed;
+    if (moves)
+        *moved = true;
 }
 
 static inline bool has_levels(const struct setup *s)
@@ -140,40 +150,35 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         return;
 
     bool known;
-    struct cache_entry *entry = cache_find(target, triangle, continues, goes_on, &known);
-    struct setup here, *s = entry != NULL ? &entry->s : &here;
+    struct kept *const kept = cache_find(target, triangle, continues, goes_on, &known);
+    struct setup s;
     struct smear_raster_draw smaller;
-    s->target = target;
-    s->draw = &frame->draw[segment->draw];
-    if (!known) {
-        s->bounds = bounds;
-        start(s, frame, segment, color, v, in_fog);
+    start(&s, frame, target, segment, color, v);
+    const uint64_t area = !known || small ? setup_edges(&s) : 1;
+    SMEAR_ASSERT((int64_t)area > 0);
+    if (known) {
+        kept_take(kept, &s);
+        if (!goes_on)
+            kept->triangle = SMEAR_NO_TRIANGLE;
+    } else {
+        s.bounds = bounds;
+        start_fog(&s, in_fog);
     }
-    /* The planes start with the background's velocity: static triangles write theirs only over others, after the first
-     * one that moves. */
-    s->writes_velocity = target_has_velocity(target) && !draw_is_blended(s->draw)
-                      && (segment_moves(segment) != 0 || draw_is_fixed(s->draw) || *moved);
-    s->velocity_unknown = frame_has_depth_velocity(frame) && !draw_is_fixed(s->draw);
-    if (segment_moves(segment) != 0 || draw_is_fixed(s->draw))
-        *moved = true;
+    const bool had_velocity = known && s.has_velocity;
+    start_velocity(&s, moved);
     if (!known) {
-        const uint64_t area = setup_edges(s);
-        SMEAR_ASSERT((int64_t)area > 0);
-        if (has_levels(s))
-            smear_setup_level(s, area, &smaller);
-        if (draw_tiny(s, area, pixels, &box, in_fog)) {
-            if (entry != NULL)
-                entry->triangle = SMEAR_NO_TRIANGLE;
+        if (has_levels(&s))
+            smear_setup_level(&s, area, &smaller);
+        if (draw_tiny(&s, area, pixels, &box, in_fog))
             return;
-        }
-        if (!(cover_is_small(s, small) && smear_setup_small(s, (int32_t)area)))
-            smear_setup(s, area);
-        if (entry != NULL)
-            entry->triangle = triangle;
-    } else if (has_levels(s)) {
-        smear_setup_shrink(s, &smaller);
+        if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
+            smear_setup(&s, area);
+    } else if (has_levels(&s)) {
+        smear_setup_shrink(&s, &smaller);
     }
-    smear_cover(s, &box, small);
+    smear_cover(&s, &box, small);
+    if (kept != NULL && goes_on && (!known || s.has_velocity != had_velocity))
+        kept_keep(kept, &s, triangle, bottom);
 }
 
 /* A copy of its own for fog, where size does not count: others need not ask. */

@@ -142,6 +142,7 @@ static bool draw_known(const struct eight *e, int k)
     s.slope = slope_of(planes, k);
     s.depth = (struct plane){ planes->at[k], planes->dx[k], planes->dy[k] };
     s.color = e->color[k];
+    s.rows = NULL;
     s.writes_velocity = s.velocity_unknown = false;
 #if SMEAR_WITH_FOG
     s.fog = FOG_NONE;

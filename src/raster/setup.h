@@ -66,6 +66,10 @@ struct texture_setup {
 /* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
 enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
+struct setup;
+struct span_rows;
+typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
+
 /* What is still to be done about a triangle's fog. */
 enum {
     FOG_NONE,
@@ -83,47 +87,34 @@ struct setup {
     const struct smear_raster_draw *draw;
     const int32_t *v[3];            /* records, clockwise on the screen */
     struct bounds bounds;
+    int32_t x1, y1, x2, y2;         /* edge vectors from v[0], q8 */
+    bool writes_velocity;
+    bool velocity_unknown;          /* with 0 poses: depth will tell it */
 
-    /* Edge vectors from v[0], q8, and 1 / (twice the area), which is positive. */
-    int32_t x1, y1, x2, y2;
-    uint32_t area_recip;            /* 2^61 / normalised area */
-    int area_zeros;                 /* area << zeros is normalised to 64 bits */
+    /* From here on it may be kept from row to row, so much of it as a triangle has (kept.h). */
     enum depth_slope slope;
     struct plane depth;             /* units q11 */
-
     uint32_t color;                 /* 0xAARRGGBB: flat */
     uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
     bool even_color;                /* channels are the same everywhere */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
-
-    uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
-    bool writes_velocity;
-    bool velocity_unknown;          /* with 0 poses: depth will tell it */
-    bool has_velocity;              /* its planes are made */
     bool flat;                      /* one colour, opaque: `color` */
-    bool velocity_affine;
-    bool clamp_velocity;
     uint16_t fog;                   /* FOG_NONE ... */
     uint8_t level;                  /* of the texture: 0 is the largest */
+    uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
+    bool has_velocity;              /* its planes are made */
+    bool velocity_affine;
+    bool clamp_velocity;
 
-    /* What few triangles have comes last: setups that are kept from row to row are cut where a frame needs no more
-     * (setup_bytes). */
+    smear_rows_fn *rows;            /* what draws its rows, if it has been chosen and there is one: texture_rows.h */
     struct texture_setup texture;
     struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
                                      * linear >> 8) in q16, see channel_value */
+    uint32_t area_recip;            /* 1 / (twice the area), which is positive: 2^61 / normalised area */
+    int area_zeros;                 /* area << zeros is normalised to 64 bits */
     struct plane vx, vy;            /* affine: displacement q18 px */
     struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
 };
-
-/* Returns how much of a setup triangles of the segment use. */
-static inline size_t setup_bytes(const struct smear_segment *s)
-{
-    if (segment_moves(s) != 0)
-        return sizeof(struct setup);
-    if (segment_gouraud(s))
-        return offsetof(struct setup, vx);
-    return segment_textured(s) ? offsetof(struct setup, channel) : offsetof(struct setup, texture);
-}
 
 /* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
 static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)

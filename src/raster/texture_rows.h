@@ -31,7 +31,6 @@ struct span_rows {
 };
 
 /* Draws rows at once, velocities included. Null where there is no such loop for a triangle. */
-typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
 smear_rows_fn *smear_rows_choose(const struct setup *s);
 
 /* Interpolated colours without a texture, opaque: color_rows.c. */
