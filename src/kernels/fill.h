@@ -29,6 +29,15 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 #else
 static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 {
+#if SMEAR_VECTORS
+    const smear_v4u four = v4u_all(value);
+    for (; n > 1; n -= 2, p += 16) {
+        v4u_store(p, four);
+        v4u_store(p + 4, four);
+        v4u_store(p + 8, four);
+        v4u_store(p + 12, four);
+    }
+#endif
     for (; n > 0; n--, p += 8) {
         p[0] = value;
         p[1] = value;

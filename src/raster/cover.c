@@ -7,6 +7,7 @@
  * or missed. Small triangles use edge functions instead, which say the same without a division. */
 #include "raster/cover.h"
 
+#include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
 #include "kernels/flat_rows_armv6m.h"
@@ -264,34 +265,17 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     struct tiny_edges e;
     struct gather g;
     edges_start(&e, s, s->x1 * s->y2 - s->x2 * s->y1, left, box->top);
+    struct box_sides b = { { e.e0, e.e1, e.e2 }, { e.right0, e.right1, e.right2 }, { e.down0, e.down1, e.down2 },
+                           left, right - left, width };
     gather_start(&g, s, box->top);
     g.rows.cut = max_i32(left, 0) < t->x0 || min_i32(right, width) > t->x1;
-    for (int32_t y = box->top; y < box->bottom; y++) {
-        struct span_side *side = &g.rows.side[g.rows.count];
-        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;
-        while ((e0 | e1 | e2) < 0 && ++x < right) {
-            e0 += e.right0;
-            e1 += e.right1;
-            e2 += e.right2;
-        }
-        side->left = max_i32(x, 0);
-        if (x < right)
-            do {
-                e0 += e.right0;
-                e1 += e.right1;
-                e2 += e.right2;
-            } while (++x < right && (e0 | e1 | e2) >= 0);
-        side->edge = x;
-        side->right = min_i32(x, width);
-        e.e0 += e.down0;
-        e.e1 += e.down1;
-        e.e2 += e.down2;
-        g.rows.count++;
-        if (++g.ring_row == t->window_rows.ring)
-            gather_draw(&g, s, draw);
-    }
-    if (g.rows.count != 0)
+    while (g.rows.y < box->bottom) {
+        const int32_t n = min_i32(box->bottom - g.rows.y, t->window_rows.ring - g.ring_row);
+        box_sides(g.rows.side, &b, n);
+        g.rows.count = n;
+        g.ring_row += n;
         gather_draw(&g, s, draw);
+    }
 }
 
 /* n pixels from index `at` on, of the colour as the target has it. */
