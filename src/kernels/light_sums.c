@@ -146,77 +146,98 @@ static inline SMEAR_AVX2_FUNCTION lanes8 twice_light16(lanes8 code)
     return lanes8_min16(low, high);
 }
 
-/* An instant, ready for lanes. */
+/* An instant, ready for lanes. Light is rounded, by a threshold, or else shifted up. */
 struct instant_lanes {
     lanes8 threshold, white;
-    __m128i down, up;
+    __m128i shift;
 };
 
-static inline SMEAR_AVX2_FUNCTION lanes8 added_light16(lanes8 code, const struct instant_lanes *t)
+SMEAR_AVX2_INLINE lanes8 added_light16(lanes8 code, const struct instant_lanes *t, bool rounds)
 {
-    return (lanes8)_mm256_sll_epi16(_mm256_srl_epi16((__m256i)(twice_light16(code) + t->threshold), t->down), t->up);
+    const lanes8 twice = twice_light16(code);
+    if (rounds)
+        return (lanes8)_mm256_srl_epi16((__m256i)(twice + t->threshold), t->shift);
+    return (lanes8)_mm256_sll_epi16(_mm256_srli_epi16((__m256i)twice, 1), t->shift);
 }
 
+/* The lower half of each word of a, the upper one of b. */
+SMEAR_AVX2_INLINE lanes8 lanes8_halves_of(lanes8 a, lanes8 b) { return (lanes8)_mm256_blend_epi16((__m256i)a, (__m256i)b, 0xaa); }
+SMEAR_AVX2_INLINE lanes8 lanes8_without(lanes8 a, lanes8 mask) { return (lanes8)_mm256_andnot_si256((__m256i)mask, (__m256i)a); }
+
 /* Adds eight pixels of which red and blue are in `rb`, green and white in `gn`. */
-static inline SMEAR_AVX2_FUNCTION void sums_add8(const struct packed_sums *sums, int32_t at, lanes8 rb, lanes8 gn)
+SMEAR_AVX2_INLINE void sums_add8(const struct packed_sums *sums, int32_t at, lanes8 rb, lanes8 gn)
 {
     lanes8_store(sums->rb + at, lanes8_load(sums->rb + at) + rb);
     lanes8_store(sums->gn + at, lanes8_load(sums->gn + at) + gn);
 }
 
 /* Takes 16 pixels, whose greens share lanes; what looks like the background is black that adds no white. */
-static inline SMEAR_AVX2_FUNCTION void light_add16(uint32_t *color, const uint32_t *background, const struct packed_sums *sums,
-                                                   int32_t at, const struct instant_lanes *t, lanes8 none)
+SMEAR_AVX2_INLINE void light_add16(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t at,
+                                   const struct instant_lanes *t, bool rounds, bool all)
 {
-    const lanes8 behind_a = lanes8_load(background + at), behind_b = lanes8_load(background + at + 8);
-    lanes8 a = lanes8_load(color + at), b = lanes8_load(color + at + 8);
-    const lanes8 alike_a = (lanes8)(a == behind_a) & none, alike_b = (lanes8)(b == behind_b) & none;
-    if (lanes8_all_set(alike_a & alike_b))
-        return;
-    a &= ~alike_a;
-    b &= ~alike_b;
-    const lanes8 green = added_light16((a >> 8 & 0xffu) | (b << 8 & 0xff0000u), t);
+    const lanes8 behind_a = lanes8_load(background + at), behind_b = lanes8_load(background + at + 8), pair = lanes8_all(0xff00ff);
+    lanes8 a = lanes8_load(color + at), b = lanes8_load(color + at + 8), white_a = t->white, white_b = white_a;
+    if (!all) {
+        const lanes8 alike_a = (lanes8)(a == behind_a), alike_b = (lanes8)(b == behind_b);
+        if (lanes8_all_set(alike_a & alike_b))
+            return;
+        a = lanes8_without(a, alike_a);
+        b = lanes8_without(b, alike_b);
+        white_a = lanes8_without(white_a, alike_a);
+        white_b = lanes8_without(white_b, alike_b);
+    }
+    const lanes8 green = added_light16(lanes8_halves_of(a >> 8, b << 8) & pair, t, rounds);
     lanes8_store(color + at, behind_a);
     lanes8_store(color + at + 8, behind_b);
-    sums_add8(sums, at, added_light16(a & 0xff00ffu, t), (green & 0xffffu) | (t->white & ~alike_a));
-    sums_add8(sums, at + 8, added_light16(b & 0xff00ffu, t), green >> 16 | (t->white & ~alike_b));
+    sums_add8(sums, at, added_light16(a & pair, t, rounds), lanes8_halves_of(green, white_a));
+    sums_add8(sums, at + 8, added_light16(b & pair, t, rounds), lanes8_halves_of(green >> 16, white_b));
 }
 
-static inline SMEAR_AVX2_FUNCTION void light_add8(uint32_t *color, const uint32_t *background, const struct packed_sums *sums,
-                                                  int32_t at, const struct instant_lanes *t, lanes8 none)
+SMEAR_AVX2_INLINE void light_add8(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t at,
+                                  const struct instant_lanes *t, bool rounds, bool all)
 {
-    const lanes8 behind = lanes8_load(background + at);
-    lanes8 a = lanes8_load(color + at);
-    const lanes8 alike = (lanes8)(a == behind) & none;
+    const lanes8 behind = lanes8_load(background + at), none = lanes8_all(all ? 0 : UINT32_MAX);
+    const lanes8 a = lanes8_load(color + at), alike = (lanes8)(a == behind) & none, seen = lanes8_without(a, alike);
     if (lanes8_all_set(alike))
         return;
-    a &= ~alike;
     lanes8_store(color + at, behind);
-    sums_add8(sums, at, added_light16(a & 0xff00ffu, t), added_light16(a >> 8 & 0xffu, t) | (t->white & ~alike));
+    sums_add8(sums, at, added_light16(seen & 0xff00ffu, t, rounds),
+              lanes8_halves_of(added_light16(seen >> 8 & 0xffu, t, rounds), lanes8_without(t->white, alike)));
 }
 
-/* Half the instructions of smear_light_add_vector. */
-SMEAR_AVX2_FUNCTION void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                                              const struct light_instant *instant, bool all)
+SMEAR_AVX2_INLINE void light_add_row(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t n,
+                                     const struct light_instant *instant, bool rounds, bool all)
 {
     const struct instant_lanes t = { lanes8_all16(2 * instant->threshold), lanes8_all(instant->white << 16),
-                                     _mm_cvtsi32_si128(instant->down + 1), _mm_cvtsi32_si128(instant->up) };
-    const lanes8 none = lanes8_all(all ? 0 : UINT32_MAX);
+                                     _mm_cvtsi32_si128(rounds ? instant->down + 1 : instant->up) };
     int32_t i = 0;
-    if (!instant->linear) {
-        smear_light_add_reference(color, background, sums, n, instant, all);
-        return;
-    }
     for (; i + 16 <= n; i += 16)
-        light_add16(color, background, &sums, i, &t, none);
+        light_add16(color, background, sums, i, &t, rounds, all);
     if (i + 8 <= n) {
-        light_add8(color, background, &sums, i, &t, none);
+        light_add8(color, background, sums, i, &t, rounds, all);
         i += 8;
     }
     if (i < n && n >= 8 && !all)        /* some again: they look like the background by now */
-        light_add8(color, background, &sums, n - 8, &t, none);
+        light_add8(color, background, sums, n - 8, &t, rounds, all);
     else if (i < n)
-        smear_light_add_reference(color + i, background + i, packed_sums_from(sums, i), n - i, instant, all);
+        smear_light_add_reference(color + i, background + i, packed_sums_from(*sums, i), n - i, instant, all);
+}
+
+/* A third of the instructions of smear_light_add_vector. */
+SMEAR_AVX2_FUNCTION void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
+                                              const struct light_instant *instant, bool all)
+{
+    const bool rounds = instant->down != 0;
+    if (!instant->linear)
+        smear_light_add_reference(color, background, sums, n, instant, all);
+    else if (rounds && all)
+        light_add_row(color, background, &sums, n, instant, true, true);
+    else if (rounds)
+        light_add_row(color, background, &sums, n, instant, true, false);
+    else if (all)
+        light_add_row(color, background, &sums, n, instant, false, true);
+    else
+        light_add_row(color, background, &sums, n, instant, false, false);
 }
 #endif
 
