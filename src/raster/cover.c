@@ -545,7 +545,14 @@ static bool cover_small_shaded(const struct setup *s, const struct pixel_box *bo
 
 /* ------------------------------------------------------------------ any triangle */
 
-void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
+#if SMEAR_SPAN_ROWS
+void smear_cover_choose(struct setup *s, bool small)
+{
+    s->rows = s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
+}
+#endif
+
+void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
 {
 #if SMEAR_SPAN_ROWS
     if (s->flat && !s->writes_velocity && !small) {
@@ -553,24 +560,14 @@ void smear_cover(struct setup *s, const struct pixel_box *box, bool small)
         return;
     }
 #endif
-    if (setup_writes_velocity(s) && !s->has_velocity) {
-        smear_setup_velocity(s);
-        s->has_velocity = true;
-    }
 #if SMEAR_SPAN_ROWS
-    if (!small || segment_textured(s->segment)) {
-        if (s->rows == NULL)
-            s->rows = smear_rows_choose(s);
-        smear_rows_fn *const rows = s->rows;
-        if (rows != NULL && small) {
-            cover_small_rows(s, box, rows);
-            return;
-        }
-        if (rows != NULL) {
-            cover_rows(s, rows, max_i32(box->left, 0) < s->target->x0
-                                || min_i32(box->right, s->frame->width) > s->target->x1);
-            return;
-        }
+    if (s->rows != NULL && small) {
+        cover_small_rows(s, box, s->rows);
+        return;
+    }
+    if (s->rows != NULL) {
+        cover_rows(s, s->rows, max_i32(box->left, 0) < s->target->x0 || min_i32(box->right, s->frame->width) > s->target->x1);
+        return;
     }
 #endif
 #if SMEAR_AVX2 && SMEAR_WITH_GOURAUD

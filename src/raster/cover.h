@@ -4,7 +4,7 @@
 #define SMEAR_COVER_H
 
 #include "geometry/tiny.h"
-#include "raster/setup.h"
+#include "raster/texture_rows.h"
 
 /* Boxes of at most this many pixels in both directions are walked with edge functions (tiny.h), which fit 32 bits there; a
  * texture's set-up is cheaper for them, too. */
@@ -21,8 +21,19 @@ struct pixel_box {
     int32_t left, right, top, bottom;
 };
 
-/* Draws a triangle whose gradients and planes are made, and makes those of its velocity where they are needed. The box holds
- * its pixels in the target's rows; `small`: the triangle has at most so many columns and rows. */
-void smear_cover(struct setup *s, const struct pixel_box *box, bool small);
+#if SMEAR_SPAN_ROWS
+/* Chooses what draws a triangle's rows at once; `small`: it has at most so many columns and rows. */
+void smear_cover_choose(struct setup *s, bool small);
+#else
+static inline void smear_cover_choose(struct setup *s, bool small)
+{
+    (void)s;
+    (void)small;
+}
+#endif
+
+/* Draws a triangle that is ready: gradients and planes are made, its rows chosen. The box holds its pixels in the target's
+ * rows. */
+void smear_cover(const struct setup *s, const struct pixel_box *box, bool small);
 
 #endif

@@ -4,14 +4,16 @@
 #ifndef SMEAR_RASTER_KEPT_H
 #define SMEAR_RASTER_KEPT_H
 
+#include "kernels/kernels.h"
 #include "raster/setup.h"
 
-/* Memory of its own, between the pool's vertices and triangles (draws.c). */
+/* Before the words of a setup. In memory of its own, between the pool's vertices and triangles (draws.c). */
 struct kept {
     uint32_t triangle;
     int32_t end;                /* row of the frame behind its last one */
-    uint8_t setup[];
 };
+
+static inline uint32_t *kept_setup(struct kept *k) { return (uint32_t *)(void *)(k + 1); }
 
 /* Bytes of a setup's members from one to just before another. */
 #define KEPT_BYTES(from, end) (offsetof(struct setup, end) - offsetof(struct setup, from))
@@ -19,33 +21,60 @@ struct kept {
 /* Returns how many bytes triangles of a segment need. */
 static inline size_t kept_bytes(const struct smear_segment *s)
 {
-    size_t bytes = sizeof(struct kept) + KEPT_BYTES(slope, rows);
+    size_t bytes = sizeof(struct kept) + KEPT_BYTES(depth, texture);
     if (segment_textured(s))
-        bytes += KEPT_BYTES(rows, texture.q) + KEPT_BYTES(texture.x0, channel);      /* which is more than planes take */
+        bytes += KEPT_BYTES(texture, texture.q) + KEPT_BYTES(texture.x0, channel);      /* which is more than planes take */
     if (segment_gouraud(s))
         bytes += KEPT_BYTES(channel, area_recip);
     if (segment_moves(s) != 0)
         bytes += sizeof(struct setup) - offsetof(struct setup, area_recip);
-    return (bytes + 3u) & ~(size_t)3u;
+    return bytes;
 }
 
-/* Copies n bytes, back to the setup or to what is kept of it. Returns what follows there. */
-SMEAR_INLINE uint8_t *kept_part(struct setup *s, size_t from, size_t n, uint8_t *kept, bool back)
+#if SMEAR_ASM_ARMV6M
+/* A call takes longer than most copies, single words twice as long. */
+SMEAR_INLINE void kept_words(uint32_t *to, const uint32_t *from, size_t bytes)
 {
-    uint8_t *const member = (uint8_t *)s + from;
+    size_t fours = bytes / 16;
+    if (fours != 0)
+        __asm__ volatile(".syntax unified\n"
+                         "1: ldmia %[from]!, {r3, r4, r5, r6}\n\t"
+                         "stmia %[to]!, {r3, r4, r5, r6}\n\t"
+                         "subs %[n], #1\n\t"
+                         "bne 1b"
+                         : [from] "+l"(from), [to] "+l"(to), [n] "+l"(fours)
+                         :
+                         : "r3", "r4", "r5", "r6", "cc", "memory");
+    for (size_t i = 0; i < bytes % 16 / 4; i++)
+        ((pixel_word *)to)[i] = ((const pixel_word *)from)[i];
+}
+#else
+SMEAR_INLINE void kept_words(uint32_t *to, const uint32_t *from, size_t bytes) { __builtin_memcpy(to, from, bytes); }
+#endif
+
+/* All parts are whole words. */
+SMEAR_STATIC_ASSERT(offsetof(struct setup, depth) % 4 == 0 && offsetof(struct setup, texture) % 4 == 0
+                        && offsetof(struct setup, texture.q) % 4 == 0 && offsetof(struct setup, channel) % 4 == 0
+                        && offsetof(struct setup, area_recip) % 4 == 0 && sizeof(struct setup) % 4 == 0,
+                    "setups are kept by words");
+
+/* Copies n bytes, back to the setup or to what is kept of it. Returns what follows there. */
+SMEAR_INLINE uint32_t *kept_part(struct setup *s, size_t from, size_t n, uint32_t *kept, bool back)
+{
+    uint32_t *const member = (uint32_t *)(void *)((uint8_t *)s + from);
     if (back)
-        __builtin_memcpy(member, kept, n);
+        kept_words(member, kept, n);
     else
-        __builtin_memcpy(kept, member, n);
-    return kept + n;
+        kept_words(kept, member, n);
+    return kept + n / 4;
 }
 
 /* Copies a setup whose segment is known, either way. */
-SMEAR_INLINE void kept_copy(struct setup *s, uint8_t *kept, bool back)
+SMEAR_INLINE void kept_copy(struct setup *s, uint32_t *kept, bool back)
 {
-    kept = kept_part(s, offsetof(struct setup, slope), KEPT_BYTES(slope, rows), kept, back);
+    kept = kept_part(s, offsetof(struct setup, depth), KEPT_BYTES(depth, texture), kept, back);
     if (segment_textured(s->segment)) {
-        kept = kept_part(s, offsetof(struct setup, rows), KEPT_BYTES(rows, texture.q), kept, back);
+        kept = kept_part(s, offsetof(struct setup, texture), KEPT_BYTES(texture, texture.q), kept, back);
         if (s->texture.mode == TEXTURE_CURVED)
             kept = kept_part(s, offsetof(struct setup, texture.x0), KEPT_BYTES(texture.x0, channel), kept, back);
         else
@@ -61,9 +90,9 @@ static inline void kept_keep(struct kept *k, struct setup *s, uint32_t triangle,
 {
     k->triangle = triangle;
     k->end = end;
-    kept_copy(s, k->setup, false);
+    kept_copy(s, kept_setup(k), false);
 }
 
-static inline void kept_take(struct kept *k, struct setup *s) { kept_copy(s, k->setup, true); }
+static inline void kept_take(struct kept *k, struct setup *s) { kept_copy(s, kept_setup(k), true); }
 
 #endif

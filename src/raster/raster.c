@@ -87,7 +87,6 @@ SMEAR_INLINE void start(struct setup *s, const struct smear_raster_frame *frame,
     s->segment = segment;
     s->draw = &frame->draw[segment->draw];
     s->color = color;
-    s->rows = NULL;
     for (int i = 0; i < 3; i++)
         s->v[i] = v[i];
 }
@@ -109,6 +108,16 @@ static inline void start_velocity(struct setup *s, bool *moved)
     s->velocity_unknown = frame_has_depth_velocity(s->frame) && !fixed;
     if (moves)
         *moved = true;
+}
+
+/* Makes its planes where they are needed and not there. */
+static inline bool make_velocity(struct setup *s)
+{
+    if (!setup_writes_velocity(s) || s->has_velocity)
+        return false;
+    smear_setup_velocity(s);
+    s->has_velocity = true;
+    return true;
 }
 
 static inline bool has_levels(const struct setup *s)
@@ -164,7 +173,6 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         s.bounds = bounds;
         start_fog(&s, in_fog);
     }
-    const bool had_velocity = known && s.has_velocity;
     start_velocity(&s, moved);
     if (!known) {
         if (has_levels(&s))
@@ -173,12 +181,14 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
             return;
         if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
             smear_setup(&s, area);
+        smear_cover_choose(&s, small);
     } else if (has_levels(&s)) {
         smear_setup_shrink(&s, &smaller);
     }
-    smear_cover(&s, &box, small);
-    if (kept != NULL && goes_on && (!known || s.has_velocity != had_velocity))
+    const bool is_new = make_velocity(&s) || !known;
+    if (is_new && kept != NULL && goes_on)
         kept_keep(kept, &s, triangle, bottom);
+    smear_cover(&s, &box, small);
 }
 
 /* A copy of its own for fog, where size does not count: others need not ask. */

@@ -142,17 +142,18 @@ static bool draw_known(const struct eight *e, int k)
     s.slope = slope_of(planes, k);
     s.depth = (struct plane){ planes->at[k], planes->dx[k], planes->dy[k] };
     s.color = e->color[k];
-    s.rows = NULL;
     s.writes_velocity = s.velocity_unknown = false;
 #if SMEAR_WITH_FOG
     s.fog = FOG_NONE;
 #endif
     const struct pixel_box box = { whole.left, whole.right, max_i32(whole.top, target->y0), min_i32(whole.bottom, target->y1) };
     smear_setup_looks(&s);
-    if (s.flat && e->area.pixels != NULL && s.slope != SLOPE_BOTH)
+    if (s.flat && e->area.pixels != NULL && s.slope != SLOPE_BOTH) {
         draw_flat(e, k, s.color, s.slope);
-    else
+    } else {
+        smear_cover_choose(&s, small);
         smear_cover(&s, &box, small);
+    }
     return true;
 }
 

@@ -92,9 +92,9 @@ struct setup {
     bool velocity_unknown;          /* with 0 poses: depth will tell it */
 
     /* From here on it may be kept from row to row, so much of it as a triangle has (kept.h). */
-    enum depth_slope slope;
     struct plane depth;             /* units q11 */
     uint32_t color;                 /* 0xAARRGGBB: flat */
+    enum depth_slope slope;
     uint8_t color_block;            /* pixels in a block of perspective colours: 4, 8 or 16 */
     bool even_color;                /* channels are the same everywhere */
     bool perspective_color;         /* channel planes are value / w: value >> 8 times q >> 16 */
@@ -106,7 +106,7 @@ struct setup {
     bool velocity_affine;
     bool clamp_velocity;
 
-    smear_rows_fn *rows;            /* what draws its rows, if it has been chosen and there is one: texture_rows.h */
+    smear_rows_fn *rows;            /* what draws its rows at once, or null: smear_cover_choose */
     struct texture_setup texture;
     struct plane channel[4];        /* SHADE_GOURAUD: r g b a, codes (or
                                      * linear >> 8) in q16, see channel_value */
