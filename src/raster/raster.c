@@ -36,7 +36,7 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
     return (struct smear_raster_cache){ entry_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
 }
 
-enum { PROBES = 8 };
+enum { PROBES = 16 };
 
 /* Whether an entry keeps nothing that rows from the target's on need. */
 static inline bool entry_is_free(const struct kept *entry, const struct smear_raster_target *target)
