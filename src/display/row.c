@@ -99,7 +99,7 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
             n += width;
 #endif
         pixels_fill(t->color + at, color, n);
-        pixels_fill_narrow(t->depth + at, 0, n);
+        pixels_clear_narrow(t->depth + at, n);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)
             __builtin_memset(t->velocity8 + 2 * at, velocity, (size_t)n * 2);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity16 != NULL)

@@ -97,4 +97,14 @@ static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
     pixels_fill_narrow_unrolled(p, value, n);
 }
 
+/* Sets them to 0: smaller, or faster than what a libc has. */
+static inline void pixels_clear_narrow(uint16_t *p, int32_t n)
+{
+#ifdef __OPTIMIZE_SIZE__
+    __builtin_memset(p, 0, (size_t)n * sizeof *p);
+#else
+    pixels_fill_narrow(p, 0, n);
+#endif
+}
+
 #endif

@@ -69,7 +69,7 @@ static void clear_columns(const struct smear_raster_target *t, int32_t row, int3
     if (n <= 0)
         return;
     pixels_fill(t->color + at, SMEAR_UNCOVERED, n);
-    pixels_fill_narrow(t->depth + at, 0, n);
+    pixels_clear_narrow(t->depth + at, n);
     if (t->velocity8 != NULL)
         __builtin_memset(t->velocity8 + 2 * at, 0, (size_t)n * 2);
     if (t->velocity16 != NULL)
