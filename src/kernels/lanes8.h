@@ -250,6 +250,15 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_of_bytes(const void *table, lanes8 at)
 SMEAR_AVX2_INLINE lanes8 lanes8_encode(lanes8 light) { return lanes8_of_bytes(smear_srgb_encode, light); }
 SMEAR_AVX2_INLINE lanes8 lanes8_decode(lanes8 code) { return lanes8_of_halves(smear_srgb_decode, code); }
 
+/* Returns pixels as RGB565, in the lower halves of words: rgb565_nearest. */
+SMEAR_AVX2_INLINE lanes8 lanes8_narrow(lanes8 p)
+{
+    const lanes8 products = lanes8_mul16(p & 0xff00ffu, lanes8_all(0xf900f9u));
+    const lanes8 rb = lanes8_right16(lanes8_add16(products, lanes8_all(0x3f603f6)), 11);
+    const lanes8 g = (lanes8_mul16(p >> 8 & 255u, lanes8_all(253)) + 505u) >> 10;
+    return rb >> 5 | g << 5 | (rb & 31u);
+}
+
 /* ------------------------------------------------------------------ fixmath.h */
 
 /* Returns the place of the highest bit of x < 2^24, the exponent of a float; 0 for 0 as for 1. */

@@ -19,15 +19,6 @@ SMEAR_AVX2_INLINE lanes8 shades_of(const struct planes_light *c, bool linear)
     return (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
 }
 
-/* rgb565_nearest */
-SMEAR_AVX2_INLINE lanes8 shades_narrow(lanes8 p)
-{
-    const lanes8 products = lanes8_mul16(p & 0xff00ffu, lanes8_all(0xf900f9u));
-    const lanes8 rb = lanes8_right16(lanes8_add16(products, lanes8_all(0x3f603f6)), 11);
-    const lanes8 g = (lanes8_mul16(p >> 8 & 255u, lanes8_all(253)) + 505u) >> 10;
-    return rb >> 5 | g << 5 | (rb & 31u);
-}
-
 /* Writes eight pixels, of which those with `seen` are new. */
 SMEAR_AVX2_INLINE void shades_store(void *pixels, lanes8 color, lanes8i seen, bool narrow)
 {
@@ -35,7 +26,7 @@ SMEAR_AVX2_INLINE void shades_store(void *pixels, lanes8 color, lanes8i seen, bo
         lanes8_store(pixels, lanes8_choose(seen, color, lanes8_load(pixels)));
         return;
     }
-    const __m256i half = (__m256i)shades_narrow(color), mask = (__m256i)seen;
+    const __m256i half = (__m256i)lanes8_narrow(color), mask = (__m256i)seen;
     const __m128i all = _mm_packus_epi32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
     const __m128i masks = _mm_packs_epi32(_mm256_castsi256_si128(mask), _mm256_extracti128_si256(mask, 1));
     __m128i *const to = (__m128i *)pixels;

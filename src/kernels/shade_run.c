@@ -119,15 +119,6 @@ SMEAR_AVX2_FUNCTION void smear_shade_run_avx2(uint32_t *color, uint16_t *depth, 
 
 /* ------------------------------------------------------------------ boxes */
 
-/* rgb565_nearest */
-static inline SMEAR_AVX2_FUNCTION lanes8 pixels8_narrow(lanes8 p)
-{
-    const lanes8 products = lanes8_mul16(p & 0xff00ffu, lanes8_all(0xf900f9u));
-    const lanes8 rb = lanes8_right16(lanes8_add16(products, lanes8_all(0x3f603f6)), 11);
-    const lanes8 g = (lanes8_mul16(p >> 8 & 255u, lanes8_all(253)) + 505u) >> 10;
-    return rb >> 5 | g << 5 | (rb & 31u);
-}
-
 SMEAR_AVX2_INLINE void shade_box_rows(const struct shade_box *b, bool linear, bool narrow)
 {
     const lanes8 n = lanes8_numbers();
@@ -147,7 +138,7 @@ SMEAR_AVX2_INLINE void shade_box_rows(const struct shade_box *b, bool linear, bo
             const struct shaded8 out = { pixels8_of(&p, linear), (lanes8i)_mm256_max_epi32((__m256i)code, (__m256i)old) };
             _mm_storeu_si128((__m128i *)(void *)depth, shaded8_depths(&out));
             if (narrow) {
-                const __m256i half = (__m256i)pixels8_narrow(out.color), nearer = (__m256i)seen;
+                const __m256i half = (__m256i)lanes8_narrow(out.color), nearer = (__m256i)seen;
                 const __m128i color = _mm_packus_epi32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
                 const __m128i mask = _mm_packs_epi32(_mm256_castsi256_si128(nearer), _mm256_extracti128_si256(nearer, 1));
                 __m128i *const to = (__m128i *)pixels;

@@ -75,11 +75,6 @@ static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
     return true;
 }
 
-/* Finds where a vertex of three coordinates is, before and after the division. Returns false where it lies before the near or
- * behind the far plane, or where the setup is not ready for its w: then `now` is known and `screen` undefined. */
-typedef bool vertex_fn(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
-                       const struct vertex_setup *s);
-
 static inline int32_t vertex_row_of(const struct vertex_row *r, const int16_t v[3])
 {
     const int32_t high = add_wrap(add_wrap(v[0] * r->high[0], v[1] * r->high[1]), v[2] * r->high[2]);
@@ -87,6 +82,8 @@ static inline int32_t vertex_row_of(const struct vertex_row *r, const int16_t v[
     return add_wrap(add_wrap(high, low >> 14), r->offset);
 }
 
+/* Finds where a vertex of three coordinates is, before and after the division. Returns false where it lies before the near or
+ * behind the far plane, or where the setup is not ready for its w: then `now` is known and `screen` undefined. */
 static inline bool vertex_find_reference(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
                                          const struct vertex_setup *s)
 {

@@ -4,6 +4,7 @@
 #define SMEAR_COVER_H
 
 #include "geometry/tiny.h"
+#include "kernels/texel_rows.h"
 #include "raster/texture_rows.h"
 
 /* Boxes of at most this many pixels in both directions are walked with edge functions (tiny.h), which fit 32 bits there; a
@@ -20,6 +21,17 @@ static inline bool cover_is_small(const struct setup *s, bool small)
 struct pixel_box {
     int32_t left, right, top, bottom;
 };
+
+/* Whether what was chosen for other columns may not do for these: loops in lanes need some. */
+static inline bool cover_is_narrow(const struct smear_raster_target *t)
+{
+#if SMEAR_LANE_ROWS
+    return t->x1 - t->x0 < TEXEL_ROWS_LEAST;
+#else
+    (void)t;
+    return false;
+#endif
+}
 
 #if SMEAR_SPAN_ROWS
 /* Chooses what draws a triangle's rows at once; `small`: it has at most so many columns and rows. */

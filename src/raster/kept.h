@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* kept.h - setups of triangles that go on in the next rows, from tile row to tile row. Of each as many bytes are kept as its
- * triangle has use for, half of what a struct setup takes or less: the more triangles find room. */
+/* kept.h - setups of triangles that go on in the next rows, from tile row to tile row. Parts that no triangle of the frame has
+ * use for are not kept, nor is what is found again at once: places take half of a struct setup, two thirds where triangles move
+ * on their own, and the more triangles find room. */
 #ifndef SMEAR_RASTER_KEPT_H
 #define SMEAR_RASTER_KEPT_H
 

@@ -10,6 +10,7 @@ static void texel_rows_start(struct texel_rows *t, const struct setup *s, const 
 {
     const struct smear_raster_target *target = s->target;
     const struct smear_sampler *m = &s->draw->sampler;
+    SMEAR_ASSERT(target->x1 - target->x0 >= TEXEL_ROWS_LEAST);
     t->texels = m->texels;
     t->lights = NULL;
     t->log2_width = m->log2_width;

@@ -182,8 +182,11 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
             smear_setup(&s, area);
         smear_cover_choose(&s, small);
-    } else if (has_levels(&s)) {
-        smear_setup_shrink(&s, &smaller);
+    } else {
+        if (has_levels(&s))
+            smear_setup_shrink(&s, &smaller);
+        if (cover_is_narrow(target))
+            smear_cover_choose(&s, small);
     }
     const bool is_new = make_velocity(&s) || !known;
     if (is_new && kept != NULL && goes_on)

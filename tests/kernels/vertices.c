@@ -39,6 +39,8 @@ static void make(struct vertex_setup *v, const struct kernel_call *c)
     vertex_setup_make(v, &s);
 }
 
+typedef bool vertex_fn(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3], const struct vertex_setup *s);
+
 static void find(struct kernel_call *c, vertex_fn *form)
 {
     struct vertex_setup s;

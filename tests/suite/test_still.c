@@ -355,6 +355,31 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
             }
 }
 
+/* Of the floor, parts of a single tile, narrower than lanes, are drawn again below wide ones. */
+static void test_narrow_parts_are_drawn_again_below_wide_ones(void)
+{
+    struct display d;
+    struct set s;
+    set_up(&s, SMEAR_SUBFRAMES);
+    smear_desc desc = desc_of(400, true);
+    desc.methods = SMEAR_SET_TEMPORAL;
+    desc.tile = desc.reach = 8;
+    s.draw[PANE] = s.draw[MOVER];
+    s.count = PANE + 1;
+    if (display_begin(&d, desc, 1))
+        for (int i = 0; i < 96; i++) {
+            const double down = 0.05 * (i / 8);     /* through the floor's rows */
+            s.pose[POST] = pose_at(-0.8 + 0.15 * (i % 8), -0.35 - down, -4, 0, 0);
+            s.pose[MOVER] = pose_at(0.3 + 0.004 * i, -0.55 - down, -3, 0, 0);
+            for (int k = 0; k < 9; k++) {
+                s.pose[POST].basis[k] /= 12;
+                s.pose[MOVER].basis[k] /= 40;
+            }
+            shown(&d, &s);
+        }
+    display_end(&d);
+}
+
 static void test_a_still_frame_sends_nothing_until_it_is_refreshed(void)
 {
     struct display d;
@@ -534,6 +559,7 @@ void suite_still(void)
     RUN(test_motion_too_small_to_be_seen_is_drawn_in_order);
     RUN(test_other_methods_and_failures_between_do_no_harm);
     RUN(test_a_display_is_sent_what_it_does_not_show);
+    RUN(test_narrow_parts_are_drawn_again_below_wide_ones);
     RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
     RUN(test_what_creeps_is_sent_all_the_same);
     RUN(test_what_creeps_stays_behind_what_came_before_it);
