@@ -6,7 +6,7 @@
  * in what it inlines there, but inlines it nowhere else. So it stands for enough work to be called for: a
  * triangle's rows, not one pixel. NAME asks smear_has_avx2() first. Helpers of such functions are so marked, too: small
  * ones SMEAR_AVX2_INLINE, those that a compiler may leave alone `static inline SMEAR_AVX2_FUNCTION`. What they are written
- * in is lanes8.h. -DSMEAR_AVX2=0 leaves them all out, and so does -funsigned-char, by which GCC 12 and 13 take every mask
+ * in is lanes8.h. -DSMEAR_AVX2=0 leaves them all out, and so does -funsigned-char, by which GCC 12 takes every mask
  * of _mm256_blendv_epi8 for one that chooses nothing. */
 #ifndef SMEAR_AVX2_H
 #define SMEAR_AVX2_H
