@@ -43,7 +43,7 @@ static inline void box_sides_reference(struct span_side *side, struct box_sides 
 }
 
 #if SMEAR_AVX2
-/* A third of the time in boxes of 16 columns; less is won in narrow ones. */
+/* Little more than half the time, in boxes of all widths alike. */
 void smear_box_sides_avx2(struct span_side *side, struct box_sides *b, int32_t n);
 #endif
 

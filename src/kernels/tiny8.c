@@ -490,7 +490,7 @@ SMEAR_AVX2_INLINE void tiny8_of_kind(struct tiny8_pixels *out, const struct tiny
                                        tiny8_corner_load(l->vertex, vertex, 1, words),
                                        tiny8_corner_load(l->vertex, vertex, 2, words) };
     __m256i good = tiny8_make_edges(&s, l, c), change = v8_all(0);
-    if (_mm256_testz_si256(good, good)) {
+    if (_mm256_testz_si256(good, good)) {       /* all are large */
         out->taken = 0;
         v8_store(out->end, v8_all(0));
         return;

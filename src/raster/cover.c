@@ -559,8 +559,6 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         cover_flat_rows(s, box);
         return;
     }
-#endif
-#if SMEAR_SPAN_ROWS
     if (s->rows != NULL && small) {
         cover_small_rows(s, box, s->rows);
         return;

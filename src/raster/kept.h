@@ -33,7 +33,7 @@ static inline size_t kept_bytes(const struct smear_segment *s)
 }
 
 #if SMEAR_ASM_ARMV6M
-/* A call takes longer than most copies, single words twice as long. */
+/* A call takes longer than most copies, and so do single words. */
 SMEAR_INLINE void kept_words(uint32_t *to, const uint32_t *from, size_t bytes)
 {
     size_t fours = bytes / 16;

@@ -110,7 +110,7 @@ static inline void start_velocity(struct setup *s, bool *moved)
         *moved = true;
 }
 
-/* Makes its planes where they are needed and not there. */
+/* Makes its planes where they are needed and not there. Returns whether it did. */
 static inline bool make_velocity(struct setup *s)
 {
     if (!setup_writes_velocity(s) || s->has_velocity)
@@ -163,7 +163,7 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
     struct setup s;
     struct smear_raster_draw smaller;
     start(&s, frame, target, segment, color, v);
-    const uint64_t area = !known || small ? setup_edges(&s) : 1;
+    const uint64_t area = !known || small ? setup_edges(&s) : 1;   /* large ones are covered without edge vectors */
     SMEAR_ASSERT((int64_t)area > 0);
     if (known) {
         kept_take(kept, &s);

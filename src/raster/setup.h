@@ -68,6 +68,8 @@ enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
 struct setup;
 struct span_rows;
+
+/* Draws rows of a triangle at once, velocities included (texture_rows.h). */
 typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
 
 /* What is still to be done about a triangle's fog. */

@@ -30,7 +30,7 @@ struct span_rows {
     struct span_side side[SPAN_ROWS];
 };
 
-/* Draws rows at once, velocities included. Null where there is no such loop for a triangle. */
+/* Finds what draws rows at once. Null where there is no such loop for a triangle. */
 smear_rows_fn *smear_rows_choose(const struct setup *s);
 
 /* Interpolated colours without a texture, opaque: color_rows.c. */
