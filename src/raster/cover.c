@@ -559,6 +559,15 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         cover_flat_rows(s, box);
         return;
     }
+#if SMEAR_AVX2
+    if (setup_writes_velocity(s) && smear_rows_motion_suit(s)) {
+        if (small)
+            cover_small_rows(s, box, smear_rows_motion);
+        else
+            cover_rows(s, smear_rows_motion, true);
+        return;
+    }
+#endif
     if (s->rows != NULL && small) {
         cover_small_rows(s, box, s->rows);
         return;

@@ -41,6 +41,16 @@ static inline int32_t pixels_to_break(int32_t units, int32_t dx, int32_t n)
  * With a mask it comes after them and goes by the mask. */
 void smear_span_velocity(const struct setup *s, const struct span *p);
 
+/* Marks the tiles of a span: their maximum must be looked for. Jobs never share a tile of a window; rows of layers, whose jobs
+ * may, have no marks. */
+static inline void span_mark_tiles(const struct smear_raster_target *t, const struct span *p)
+{
+    if (t->moving == NULL)
+        return;
+    for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
+        t->moving[tile] = 1;
+}
+
 #if SMEAR_AVX2
 /* The same for spans of moving triangles, eight pixels at once, where smear_span_velocity_fits8(): blocks of eight columns
  * lie within the target's, no mask, nothing is inspected. */

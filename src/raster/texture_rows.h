@@ -36,6 +36,12 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 /* Interpolated colours without a texture, opaque: color_rows.c. */
 smear_rows_fn smear_rows_shade;
 
+#if SMEAR_AVX2
+/* One colour, opaque, and its velocities, where smear_rows_motion_suit(): velocity_avx2.c. */
+bool smear_rows_motion_suit(const struct setup *s);
+smear_rows_fn smear_rows_motion;
+#endif
+
 /* Interpolated light over a texture has rows of its own, of the same bits: not on cores whose flash has no room for them. */
 #ifndef SMEAR_SHADED_ROWS
 #ifdef __ARM_ARCH_6M__

@@ -218,16 +218,6 @@ static inline bool is_drawn(const struct span *p, int32_t i, uint32_t z, const u
     return p->mask != NULL ? p->mask[i >> 5] >> (i & 31) & 1u : z >> 16 > depth[i];
 }
 
-/* Marks the tiles: their maximum must be looked for. Jobs never share a tile of a window; rows of layers, whose jobs
- * may, have no marks. */
-static inline void mark_tiles(const struct smear_raster_target *t, const struct span *p)
-{
-    if (t->moving == NULL)
-        return;
-    for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
-        t->moving[tile] = 1;
-}
-
 #if SMEAR_AVX2
 void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
 {
@@ -248,7 +238,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
                 smear_velocity_still(t, p->at + i, s->velocity_unknown);
         return;
     }
-    mark_tiles(t, p);
+    span_mark_tiles(t, p);
 #if SMEAR_AVX2
     if (smear_span_velocity_fits8(s, p)) {
         smear_span_velocity_avx2(s, p);
