@@ -126,15 +126,8 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t inde
     } else if (segment_colored(s)) {
         smear_vertex_store_color(record + s->color, d, index, triangle, back);
     }
-    struct smear_homogeneous h, now;
-    for (int pose = 0; pose < segment_moves(s); pose++) {
-        pose_transform(&h, d, pose, index);
-        if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
-            placement_transform(&now, &d->at, index);
-            known = &now;
-        }
-        smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, d, pose, &h, known, screen, &b->a->viewport);
-    }
+    if (segment_moves(s) != 0)
+        smear_batch_store_motion(record + s->motion, b, index, screen, known);
     return word;
 }
 
@@ -545,7 +538,7 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
     const struct places *r = t->places;
     const struct smear_viewport *viewport = &b->a->viewport;
     struct smear_cached_vertex v[3];
-    bool clipped = segment_moves(b->segment) != 0;
+    bool clipped = false;
     for (int i = 0; i < 3; i++)
         clipped = clipped || place_is_clipped(&r->place[t->index[i]].screen, viewport);
     for (int i = 0; i < 3; i++) {
@@ -555,6 +548,8 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
             v[i].screen = r->place[t->index[i]].screen;
             v[i].outcode = outcode_sides(&v[i].screen, viewport);
             v[i].tag = t->index[i];
+            if (segment_moves(b->segment) != 0)
+                placement_transform(&v[i].now, &b->d->at, t->index[i]);
         }
         v[i].stored = r->stored[t->index[i]];
     }

@@ -4,6 +4,7 @@
 #define SMEAR_BATCH_H
 
 #include "geometry/vertex.h"
+#include "kernels/avx2.h"
 
 /* Triangles are looked at by fours, whose vertices lie in an array, where the machine has vectors. */
 #ifndef SMEAR_PLACES
@@ -68,10 +69,16 @@ static inline bool batch_shares(const struct batch *b, bool back)
     return b->shares && (!back || !segment_by_vertices(b->segment));
 }
 
-/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
-void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
-                              const struct smear_homogeneous *h, const struct smear_homogeneous *now,
-                              const struct smear_screen *screen, const struct smear_viewport *viewport);
+/* Stores the words of MOTION_* of a vertex, whose segment has them. `known`: where it is now, before the division, or null. */
+void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
+                              const struct smear_homogeneous *known);
+
+#if SMEAR_AVX2
+/* Stores those of two poses, at h. False where numbers of 32 bits do not do, and nothing is stored. */
+bool smear_store_poses_avx2(uint32_t *out, const struct smear_assembly *d, const struct smear_homogeneous h[2],
+                            const struct smear_homogeneous *now, const struct smear_screen *screen,
+                            const struct smear_viewport *viewport);
+#endif
 
 /* Adds what is left of a triangle that has to be clipped, as a fan. Its corners are in the mesh's order. Returns false where
  * there is no room. */

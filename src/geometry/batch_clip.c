@@ -21,9 +21,10 @@ static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
 
-void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_assembly *d, int pose,
-                              const struct smear_homogeneous *h, const struct smear_homogeneous *now,
-                              const struct smear_screen *screen, const struct smear_viewport *viewport)
+/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
+static SMEAR_NOINLINE void store_pose(uint32_t *out, const struct smear_assembly *d, int pose, const struct smear_homogeneous *h,
+                                      const struct smear_homogeneous *now, const struct smear_screen *screen,
+                                      const struct smear_viewport *viewport)
 {
     /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
     int scale = d->at.now.scale - d->motion.measured.pose[pose].scale;
@@ -38,6 +39,29 @@ void smear_batch_store_motion(uint32_t out[MOTION_WORDS], const struct smear_ass
     out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
     out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
     out[MOTION_RATIO] = (uint32_t)ratio;
+}
+
+void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
+                              const struct smear_homogeneous *known)
+{
+    const struct smear_assembly *d = b->d;
+    struct smear_homogeneous h[SMEAR_AVX2 ? 2 : 1], now;
+    if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
+        placement_transform(&now, &d->at, index);
+        known = &now;
+    }
+#if SMEAR_AVX2
+    if (segment_moves(b->segment) == 2 && smear_has_avx2()) {
+        pose_transform(&h[0], d, 0, index);
+        pose_transform(&h[1], d, 1, index);
+        if (smear_store_poses_avx2(out, d, h, known, screen, &b->a->viewport))
+            return;
+    }
+#endif
+    for (int pose = 0; pose < segment_moves(b->segment); pose++) {
+        pose_transform(h, d, pose, index);
+        store_pose(out + pose * MOTION_WORDS, d, pose, h, known, screen, &b->a->viewport);
+    }
 }
 
 /* What clipping leaves of a triangle. */
@@ -91,8 +115,7 @@ static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
     store_place(record, &c->screen[i]);
     smear_vertex_store_clipped(record, s, v);
     for (int pose = 0; pose < segment_moves(s); pose++)
-        smear_batch_store_motion(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i],
-                                 &b->a->viewport);
+        store_pose(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i], &b->a->viewport);
     return (uint16_t)(word - s->base);
 }
 

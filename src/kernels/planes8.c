@@ -129,4 +129,23 @@ SMEAR_AVX2_FUNCTION void smear_planes8_avx2(struct planes8 *out, const struct po
     lanes8i_store(out->dx, dx);
     lanes8i_store(out->dy, dy);
 }
+
+/* Twenty instructions a plane, where one alone takes 110. */
+SMEAR_AVX2_FUNCTION void smear_plane_eight_avx2(struct plane_eight *out, const struct plane_triangle *t, const struct plane_values *v)
+{
+    const lanes8i first = lanes8i_load(v->of[0]), steep = lanes8i_all(STEEP);
+    const lanes8i d1 = (lanes8i)((lanes8)lanes8i_load(v->of[1]) - (lanes8)first);
+    const lanes8i d2 = (lanes8i)((lanes8)lanes8i_load(v->of[2]) - (lanes8)first);
+    const lanes8i recip = lanes8i_all((int32_t)t->area_recip), zeros = lanes8i_all(t->area_zeros);
+    lanes8i dx = gradient8(wide8_cross(d1, lanes8i_all(t->y2), d2, lanes8i_all(t->y1)), recip, zeros);
+    lanes8i dy = gradient8(wide8_cross(d2, lanes8i_all(t->x1), d1, lanes8i_all(t->x2)), recip, zeros);
+    const lanes8i gentle = ~((lanes8i_abs(dx) > steep) | (lanes8i_abs(dy) > steep));
+    dx &= gentle;
+    dy &= gentle;
+    const lanes8 right = (lanes8)part8(dx, lanes8i_all(128 - (t->x & 255))), down = (lanes8)part8(dy, lanes8i_all(128 - (t->y & 255)));
+    const lanes8 here = (lanes8)first + right + down;
+    lanes8_store(out->at, here - ((lanes8)dx * (uint32_t)(t->x >> 8) + (lanes8)dy * (uint32_t)(t->y >> 8)));
+    lanes8i_store(out->dx, dx);
+    lanes8i_store(out->dy, dy);
+}
 #endif

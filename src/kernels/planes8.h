@@ -19,5 +19,24 @@ struct planes8 {
 /* Makes those of triangles that are seen; the others' are undefined. Depths are positive. */
 void smear_planes8_avx2(struct planes8 *out, const struct poses *p, int32_t depth_break);
 
+/* A triangle's first vertex and its edges from there, q8, and its area as above. */
+struct plane_triangle {
+    int32_t x, y, x1, y1, x2, y2;
+    uint32_t area_recip;
+    int32_t area_zeros;
+};
+
+/* Planes through eight values at each vertex of a triangle: smear_plane_make of raster/setup.c. Values and their differences have
+ * 32 bits. */
+struct plane_values {
+    int32_t of[3][8];
+};
+
+struct plane_eight {
+    int32_t at[8], dx[8], dy[8];    /* at the centre of pixel (0, 0), modulo 2^32, and per pixel */
+};
+
+void smear_plane_eight_avx2(struct plane_eight *out, const struct plane_triangle *t, const struct plane_values *v);
+
 #endif
 #endif

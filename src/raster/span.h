@@ -57,6 +57,11 @@ static inline void span_mark_tiles(const struct smear_raster_target *t, const st
 bool smear_span_velocity_fits8(const struct setup *s, const struct span *p);
 void smear_span_velocity_avx2(const struct setup *s, const struct span *p);
 
+/* Find the displacements of a triangle's vertices from open to close, q8; and the planes of setup_poses(). False where numbers
+ * of 32 bits do not do. */
+bool smear_velocity_ends_avx2(const struct setup *s, int32_t dx[3], int32_t dy[3]);
+bool smear_velocity_planes_avx2(struct setup *s, int down);
+
 /* What is stored of pixel (x, y)'s velocity, q16 px, without rounding. */
 void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2]);
 #endif

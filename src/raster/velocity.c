@@ -43,17 +43,29 @@ static uint32_t find_ratios(const struct setup *s, int32_t *low, int32_t *high)
     return size;
 }
 
-/* Displacement close - open (or now - before) per vertex, q8. Returns the longest, |dx| + |dy|. */
+/* Displacement close - open (or now - before) of vertex i, q8. */
+static void find_displacement(const struct setup *s, int i, int32_t *dx, int32_t *dy)
+{
+    *dx = *dy = 0;
+    for (int pose = 0; pose < s->poses; pose++) {
+        const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
+        int32_t sign = pose == 0 ? -1 : 1;
+        *dx += sign * over_ratio(m[MOTION_DX], m[MOTION_RATIO]);
+        *dy += sign * over_ratio(m[MOTION_DY], m[MOTION_RATIO]);
+    }
+}
+
+/* Finds them per vertex. Returns the longest, |dx| + |dy|. */
 static uint32_t find_displacements(const struct setup *s, int32_t dx[3], int32_t dy[3])
 {
     uint32_t longest = 0;
+    bool known = false;
+#if SMEAR_AVX2
+    known = smear_has_avx2() && smear_velocity_ends_avx2(s, dx, dy);
+#endif
     for (int i = 0; i < 3; i++) {
-        for (int pose = 0; pose < s->poses; pose++) {
-            const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
-            int32_t sign = pose == 0 ? -1 : 1;
-            dx[i] += sign * over_ratio(m[MOTION_DX], m[MOTION_RATIO]);
-            dy[i] += sign * over_ratio(m[MOTION_DY], m[MOTION_RATIO]);
-        }
+        if (!known)
+            find_displacement(s, i, &dx[i], &dy[i]);
         longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
     }
     return longest;
@@ -67,6 +79,10 @@ static void setup_poses(struct setup *s, uint32_t largest)
     int down = 4;
     while (largest >> down > 0xffff)
         down++;
+#if SMEAR_AVX2
+    if (smear_has_avx2() && smear_velocity_planes_avx2(s, down))
+        return;
+#endif
     for (int pose = 0; pose < s->poses; pose++) {
         int32_t x[3], y[3], r[3];
         for (int i = 0; i < 3; i++) {

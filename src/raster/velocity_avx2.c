@@ -4,7 +4,8 @@
  * where those need more than 32 bits are left to it. It takes a tenth of the instructions. */
 #include "raster/velocity.h"
 
-#include "kernels/lanes8.h"
+#include "kernels/planes8.h"
+#include "kernels/wide_lanes.h"
 #include "raster/texture_rows.h"
 
 #if SMEAR_AVX2
@@ -19,40 +20,81 @@ SMEAR_AVX2_INLINE lanes8i motion8_plane_at(const struct plane *p, lanes8i x, lan
     return (lanes8i)((uint32_t)p->at + (lanes8)y * (uint32_t)p->dy + (lanes8)x * (uint32_t)p->dx);
 }
 
-/* Products of 64 bits, by their words. */
-struct product8 {
-    lanes8i high;
-    lanes8 low;
-};
+/* ------------------------------------------------------------------ triangles */
 
-SMEAR_AVX2_INLINE struct product8 motion8_times(lanes8i a, lanes8i b)
+/* The motion of a vertex in one or two poses, as its record has it: displacement, ratio, displacement, ratio. */
+SMEAR_AVX2_INLINE lanes8i motion8_of_vertex(const struct setup *s, int i)
 {
-    const __m256i even = _mm256_mul_epi32((__m256i)a, (__m256i)b);
-    const __m256i odd = _mm256_mul_epi32(_mm256_srli_epi64((__m256i)a, 32), _mm256_srli_epi64((__m256i)b, 32));
-    return (struct product8){ (lanes8i)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa),
-                              (lanes8)_mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xaa) };
+    const lanes8i words = lanes8i_numbers() < s->poses * (int32_t)MOTION_WORDS;
+    return (lanes8i)_mm256_maskload_epi32((const int *)(s->v[i] + s->segment->motion), (__m256i)words);
 }
 
-/* scale_sat(a, shift) for shift of -31 .. 31, where it saturates `beyond` is set. */
-SMEAR_AVX2_INLINE lanes8i motion8_scale(lanes8i a, lanes8i shift, lanes8i *beyond)
+/* The ratio of each element. */
+SMEAR_AVX2_INLINE lanes8i motion8_ratio(lanes8i motion)
 {
-    const lanes8i up = lanes8i_max(shift, lanes8i_all(0)), down = lanes8i_max(-shift, lanes8i_all(0));
-    const lanes8 half = lanes8_left(lanes8_all(1), down) >> 1;
-    *beyond |= lanes8i_abs(a) > (lanes8i)lanes8_right(lanes8_all(INT32_MAX), up);
-    const lanes8i sum = (lanes8i)((lanes8)a + half);
-    return lanes8i_left(lanes8i_right(sum, down), up);
+    return lanes8i_permute(motion, (lanes8i){ MOTION_RATIO, MOTION_RATIO, MOTION_RATIO, MOTION_WORDS + MOTION_RATIO,
+                                              MOTION_WORDS + MOTION_RATIO, MOTION_WORDS + MOTION_RATIO, 7, 7 });
 }
+
+SMEAR_AVX2_FUNCTION bool smear_velocity_ends_avx2(const struct setup *s, int32_t dx[3], int32_t dy[3])
+{
+    const lanes8i far_out = lanes8i_all(1 << 22);
+    lanes8i beyond = lanes8i_all(0);
+    for (int i = 0; i < 3; i++) {
+        const lanes8i motion = motion8_of_vertex(s, i), ratio = lanes8i_max(motion8_ratio(motion), lanes8i_all(1));
+        const lanes8i zeros = lanes8i_zeros(ratio), r = (lanes8i)lanes8_recip_norm(lanes8_left((lanes8)ratio, zeros));
+        const lanes8i here = lanes8i_mulh((lanes8i)((lanes8)motion << 4), r);
+        const lanes8i far = lanes8i_scale(here, zeros - 13, &beyond) & (lanes8i){ -1, -1, 0, -1, -1, 0, 0, 0 };
+        int32_t end[8];
+        lanes8i_store(end, lanes8i_max(lanes8i_min(far, far_out), -far_out));
+        dx[i] = end[MOTION_WORDS + MOTION_DX] - end[MOTION_DX];
+        dy[i] = end[MOTION_WORDS + MOTION_DY] - end[MOTION_DY];
+    }
+    return (lanes8i_signs(beyond) & 0x1bu) == 0;
+}
+
+/* The values of place_term() at a vertex, and the ratios'. */
+SMEAR_AVX2_INLINE lanes8i motion8_terms(const struct setup *s, int i, int down, lanes8i *beyond)
+{
+    const int32_t x = s->v[i][VERTEX_X] - s->v[0][VERTEX_X], y = s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y], far_out = 1 << 30;
+    const lanes8i motion = motion8_of_vertex(s, i), ratio = motion8_ratio(motion) >> down;
+    const lanes8i here = product8_without(product8_of((lanes8i){ x, y, 0, x, y, 0, 0, 0 }, ratio), 7, beyond);
+    const lanes8i up = lanes8i_all(max_i32(13 - down, 0)), there = lanes8i_left(motion, up) >> max_i32(down - 13, 0);
+    *beyond |= (lanes8i_abs(here) >= far_out) | (lanes8i_abs(motion) >= lanes8i_right(lanes8i_all(far_out), up));
+    const lanes8i sum = lanes8i_max(lanes8i_min((lanes8i)((lanes8)here + (lanes8)there), lanes8i_all(far_out)), lanes8i_all(-far_out));
+    return lanes8i_choose((lanes8i){ 0, 0, -1, 0, 0, -1, 0, 0 }, (lanes8i)((lanes8)ratio << 13), sum);
+}
+
+SMEAR_AVX2_FUNCTION bool smear_velocity_planes_avx2(struct setup *s, int down)
+{
+    const struct plane_triangle triangle = { s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, s->area_recip,
+                                             s->area_zeros };
+    lanes8i beyond = lanes8i_all(0);
+    struct plane_values values;
+    struct plane_eight planes;
+    for (int i = 0; i < 3; i++)
+        lanes8i_store(values.of[i], motion8_terms(s, i, down, &beyond));
+    if ((lanes8i_signs(beyond) & 0x1bu) != 0)
+        return false;
+    smear_plane_eight_avx2(&planes, &triangle, &values);
+    for (int pose = 0; pose < s->poses; pose++) {
+        struct plane *const out[MOTION_WORDS] = { &s->px[pose], &s->py[pose], &s->ratio[pose] };
+        for (int i = 0; i < MOTION_WORDS; i++) {
+            const int from = pose * MOTION_WORDS + i;
+            *out[i] = (struct plane){ planes.at[from], planes.dx[from], planes.dy[from] };
+        }
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ places */
 
 /* One component of pose_displacement(): from the numerator and from the pixel's place. */
 SMEAR_AVX2_INLINE lanes8i motion8_component(lanes8i n, lanes8i ratio, lanes8i here, lanes8i r, lanes8i shift, lanes8i *beyond)
 {
-    const struct product8 p = motion8_times(ratio, here);
-    const lanes8i part = (lanes8i)((lanes8)p.high << 12 | p.low >> 20);
-    const lanes8i rest = (lanes8i)((lanes8)n - (lanes8)part);
-    *beyond |= (part >> 12) != p.high;
-    *beyond |= ((n ^ part) & (n ^ rest)) < 0;
+    const lanes8i rest = lanes8i_less(n, product8_without(product8_of(ratio, here), 20, beyond), beyond);
     *beyond |= rest == INT32_MIN;
-    return motion8_scale(motion8_times(rest, r).high, shift, beyond);
+    return lanes8i_scale(product8_of(rest, r).high, shift, beyond);
 }
 
 SMEAR_AVX2_INLINE struct motion8 motion8_of_pose(const struct setup *s, int pose, lanes8i x, lanes8i y)
