@@ -3,7 +3,7 @@
  * once; what is left for each one is to be listed. All is added in the order, and with the bits, of assemble.c. */
 #include "geometry/assemble_avx2.h"
 
-#include "geometry/tiny.h"
+#include "geometry/shade8.h"
 #include "kernels/points8.h"
 
 #if SMEAR_PLACES && SMEAR_AVX2
@@ -18,12 +18,14 @@ struct assemble8 {
     uint32_t *listed;               /* and of triangles */
     const int16_t *uv;              /* of vertices whose records hold a place, this or null, */
     const uint8_t *color;           /* and this or null; */
-    bool simple;                    /* if there are no others */
-    bool by_vertices;
+    bool simple;                    /* if there are no others, but for a colour that `shade` stores later */
+    bool waits;                     /* there is one */
+    bool by_vertices, colored;      /* colours come from vertices, of each of them */
     bool shares, shares_back;       /* batch_shares of front and back */
     bool plain;                     /* points have the colour of the triangle, which is known, and need no vertices */
     bool shaded;                    /* triangles have a colour, which has to be found */
     struct points_setup points;
+    struct smear_shade8 *shade;
     /* Of the segment. */
     uint32_t base, number, stride, uv_at, color_at;
     /* Of the store. */
@@ -103,6 +105,8 @@ SMEAR_AVX2_INLINE uint32_t stored_corner(struct assemble8 *s, uint32_t index, ui
         return stored - 1;
     if (s->simple) {
         word = store_simple(s, index);
+        if (s->waits)
+            shade8_add(s->shade, index, word, back);
     } else {
         word = store_other(s->b, s->place, index, triangle, back, s->words);
         s->words = word + s->stride;
@@ -110,17 +114,6 @@ SMEAR_AVX2_INLINE uint32_t stored_corner(struct assemble8 *s, uint32_t index, ui
     if (shares)
         s->stored[index] = word + 1;
     return word;
-}
-
-/* Gives a point the colour that it has between three vertices of the pool, or that of its triangle. */
-static SMEAR_NOINLINE void color_point(const struct batch *b, struct smear_triangle *point, const uint32_t word[3],
-                                       uint32_t triangle, bool back, uint32_t w1, uint32_t w2)
-{
-    const uint32_t *c = b->a->bins->pool + b->segment->color;
-    if (segment_colored(b->segment))
-        point->color = tiny_color(c + word[0], c + word[1], c + word[2], w1, w2, shading_is_linear(&b->d->shading));
-    else if (b->face_color == NULL && b->segment->shade == SHADE_FLAT)
-        point->color = smear_assemble_face(b, triangle, back);
 }
 
 SMEAR_AVX2_INLINE struct smear_triangle *add_point(struct assemble8 *s, const struct smear_points8 *points, int n, uint32_t k)
@@ -150,9 +143,14 @@ SMEAR_AVX2_INLINE void add_one(struct assemble8 *s, const struct smear_triangles
                                                     (int32_t)((word2 - s->base) | s->number << 16), 0, (int32_t)color));
         return;
     }
-    const uint32_t word[3] = { word0, word1, word2 };
-    for (int n = 0; n <= (int)(points->second >> k & 1u); n++)
-        color_point(s->b, add_point(s, points, n, k), word, triangle, back, points->w1[n][k], points->w2[n][k]);
+    for (int n = 0; n <= (int)(points->second >> k & 1u); n++) {
+        struct smear_triangle *const point = add_point(s, points, n, k);
+        const struct smear_mixed mixed = { point, { word0, word1, word2 }, points->w1[n][k], points->w2[n][k] };
+        if (s->colored)
+            shade8_add_point(s->shade, &mixed);
+        else if (s->shaded)
+            point->color = smear_assemble_face(s->b, triangle, back);
+    }
 }
 
 /* Takes those that reach only into tiles that the display has already off `seen`. */
@@ -193,6 +191,7 @@ SMEAR_AVX2_INLINE bool add_some(struct assemble8 *s, const struct places *r, con
         const uint32_t corner[3] = { i[0], i[r->setup.second], i[r->setup.third] };
         s->drawn--;
         ends_save(s);
+        smear_shade8_all(s->shade);
         if (!smear_assemble_far(s->b, r, corner, triangle + k))
             return false;
         ends_load(s);
@@ -210,33 +209,36 @@ SMEAR_AVX2_FUNCTION static inline void find_colors(uint32_t color[8], const stru
     lanes8_store(color, (lanes8)_mm256_shuffle_epi8((__m256i)lanes8_load(b->face_color + 4 * triangle), order));
 }
 
-static void assemble8_start(struct assemble8 *s, struct batch *b, const struct places *r)
+static void assemble8_start(struct assemble8 *s, struct batch *b, const struct places *r, struct smear_shade8 *shade)
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *segment = b->segment;
     const bool colored = segment_colored(segment), by_vertices = segment_by_vertices(segment);
     const bool shaded = b->face_color == NULL && segment->shade == SHADE_FLAT;
+    const bool waits = b->vertex_color == NULL && shade8_serves(b->d, segment);
     *s = (struct assemble8){
         .b = b, .place = r->place, .stored = r->stored, .opaque = g->opaque_last, .listed = row_list(g, b->d, 0),
         .uv = segment_textured(segment) ? b->d->mesh->uv : NULL, .color = SMEAR_WITH_GOURAUD ? b->vertex_color : NULL,
-        .simple = segment_moves(segment) == 0 && (!colored || b->vertex_color != NULL), .by_vertices = by_vertices,
+        .simple = segment_moves(segment) == 0 && (!colored || b->vertex_color != NULL || waits), .waits = waits,
+        .by_vertices = by_vertices, .colored = colored,
         .shares = batch_shares(b, false), .shares_back = batch_shares(b, true),
         .plain = !colored && !by_vertices && !shaded, .shaded = shaded,
         .points = { g->row_recip, by_vertices && !segment_flat_depth(segment) },
-        .stride = segment->stride, .uv_at = segment->uv, .color_at = segment->color,
+        .shade = shade, .stride = segment->stride, .uv_at = segment->uv, .color_at = segment->color,
         .top = bins_triangle(g, 0), .pool = g->pool
     };
+    shade8_start(shade, b->d, segment, g);
 }
 
-SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
+/* Adds triangles of [first, end), as smear_assemble_avx2 says; colours may wait. */
+SMEAR_AVX2_INLINE uint32_t add_eights(struct assemble8 *s, const struct places *r, uint32_t first, uint32_t end)
 {
+    struct batch *const b = s->b;
     const uint16_t *index = b->d->mesh->index + 3 * first;
     struct smear_triangles8 eight;
     struct smear_points8 points = { .first = 0 };
     uint32_t color[8];
     __builtin_memset(color, 0xff, sizeof color);
-    struct assemble8 s;
-    assemble8_start(&s, b, r);
     for (uint32_t i = first; end - i >= 8; i += 8, index += 24) {
         triangles8_avx2(&eight, r->place, index, &r->setup);
         const uint32_t all = eight.seen | eight.far;
@@ -245,17 +247,27 @@ SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct p
         find_colors(color, b, i);
         points.first = 0;
         if (b->points && (eight.seen & eight.tiny) != 0)
-            points_avx2(&points, &eight, color, &s.points);
+            points_avx2(&points, &eight, color, &s->points);
         for (uint32_t half = 0; half < 8; half += 4) {      /* by fours, so that segments begin where they do there */
             const uint32_t some = all & 15u << half;
             if (some == 0)
                 continue;
             if (!places_have_room(r, b->a->bins))
                 return i + half;
-            if (!segment_has_room(b) || !add_some(&s, r, &eight, &points, color, index, i, some))
+            if (!segment_has_room(b) || !add_some(s, r, &eight, &points, color, index, i, some))
                 return UINT32_MAX;
         }
     }
     return end - (end - first) % 8;
+}
+
+SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
+{
+    struct assemble8 s;
+    struct smear_shade8 shade;
+    assemble8_start(&s, b, r, &shade);
+    const uint32_t reached = add_eights(&s, r, first, end);
+    smear_shade8_all(&shade);
+    return reached;
 }
 #endif
