@@ -25,7 +25,7 @@ struct assemble8 {
     bool plain;                     /* points have the colour of the triangle, which is known, and need no vertices */
     bool shaded;                    /* triangles have a colour, which has to be found */
     struct points_setup points;
-    struct smear_shade8 *shade;
+    struct smear_shade8 shade;
     /* Of the segment. */
     uint32_t base, number, stride, uv_at, color_at;
     /* Of the store. */
@@ -106,7 +106,7 @@ SMEAR_AVX2_INLINE uint32_t stored_corner(struct assemble8 *s, uint32_t index, ui
     if (s->simple) {
         word = store_simple(s, index);
         if (s->waits)
-            shade8_add(s->shade, index, word, back);
+            shade8_add(&s->shade, index, word, back);
     } else {
         word = store_other(s->b, s->place, index, triangle, back, s->words);
         s->words = word + s->stride;
@@ -147,7 +147,7 @@ SMEAR_AVX2_INLINE void add_one(struct assemble8 *s, const struct smear_triangles
         struct smear_triangle *const point = add_point(s, points, n, k);
         const struct smear_mixed mixed = { point, { word0, word1, word2 }, points->w1[n][k], points->w2[n][k] };
         if (s->colored)
-            shade8_add_point(s->shade, &mixed);
+            shade8_add_point(&s->shade, &mixed);
         else if (s->shaded)
             point->color = smear_assemble_face(s->b, triangle, back);
     }
@@ -191,7 +191,7 @@ SMEAR_AVX2_INLINE bool add_some(struct assemble8 *s, const struct places *r, con
         const uint32_t corner[3] = { i[0], i[r->setup.second], i[r->setup.third] };
         s->drawn--;
         ends_save(s);
-        smear_shade8_all(s->shade);
+        smear_shade8_all(&s->shade);
         if (!smear_assemble_far(s->b, r, corner, triangle + k))
             return false;
         ends_load(s);
@@ -209,7 +209,7 @@ SMEAR_AVX2_FUNCTION static inline void find_colors(uint32_t color[8], const stru
     lanes8_store(color, (lanes8)_mm256_shuffle_epi8((__m256i)lanes8_load(b->face_color + 4 * triangle), order));
 }
 
-static void assemble8_start(struct assemble8 *s, struct batch *b, const struct places *r, struct smear_shade8 *shade)
+static void assemble8_start(struct assemble8 *s, struct batch *b, const struct places *r)
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *segment = b->segment;
@@ -224,10 +224,10 @@ static void assemble8_start(struct assemble8 *s, struct batch *b, const struct p
         .shares = batch_shares(b, false), .shares_back = batch_shares(b, true),
         .plain = !colored && !by_vertices && !shaded, .shaded = shaded,
         .points = { g->row_recip, by_vertices && !segment_flat_depth(segment) },
-        .shade = shade, .stride = segment->stride, .uv_at = segment->uv, .color_at = segment->color,
+        .stride = segment->stride, .uv_at = segment->uv, .color_at = segment->color,
         .top = bins_triangle(g, 0), .pool = g->pool
     };
-    shade8_start(shade, b->d, segment, g);
+    shade8_start(&s->shade, b->d, segment, g);
 }
 
 /* Adds triangles of [first, end), as smear_assemble_avx2 says; colours may wait. */
@@ -264,10 +264,9 @@ SMEAR_AVX2_INLINE uint32_t add_eights(struct assemble8 *s, const struct places *
 SMEAR_AVX2_FUNCTION uint32_t smear_assemble_avx2(struct batch *b, const struct places *r, uint32_t first, uint32_t end)
 {
     struct assemble8 s;
-    struct smear_shade8 shade;
-    assemble8_start(&s, b, r, &shade);
+    assemble8_start(&s, b, r);
     const uint32_t reached = add_eights(&s, r, first, end);
-    smear_shade8_all(&shade);
+    smear_shade8_all(&s.shade);
     return reached;
 }
 #endif

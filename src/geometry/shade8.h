@@ -9,7 +9,7 @@
 
 #if SMEAR_AVX2
 
-enum { SHADE8_VERTICES = 8, SHADE8_POINTS = 64 };
+enum { SHADE8_VERTICES = 8, SHADE8_POINTS = 32 };
 
 /* A point between three records of the store. */
 struct smear_mixed {

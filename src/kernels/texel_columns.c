@@ -47,6 +47,7 @@ SMEAR_AVX2_INLINE void draw_column(const struct texel_lanes *k, const struct tex
     const __m256i first_z = _mm256_set1_epi32((int32_t)(s->z + s->dz_down * (uint32_t)i));
     __m256i z = _mm256_add_epi32(first_z, _mm256_mullo_epi32(column, _mm256_set1_epi32((int32_t)s->dz)));
     struct down_lanes u, v;
+    struct lit_down light;
     struct row_lanes r;
     const ptrdiff_t at = i * k->stride;
     uint16_t *depth = k->depth + at + x;
@@ -55,6 +56,8 @@ SMEAR_AVX2_INLINE void draw_column(const struct texel_lanes *k, const struct tex
     r.color = narrow ? (void *)((uint16_t *)k->color + at) : (uint32_t *)k->color + at;
     down_start(&u, &p->u, _mm256_sub_epi32(column, _mm256_set1_epi32(p->x0)), (uint32_t)(i - p->y0));
     down_start(&v, &p->v, _mm256_sub_epi32(column, _mm256_set1_epi32(p->x0)), (uint32_t)(i - p->y0));
+    if (look == LOOK_LIT_USUAL)
+        lit_down_start(&light, &k->lit, x, i);
     for (const struct span_side *side = s->side + i, *const stop = s->side + end; side < stop; side++) {
         const __m128i before = _mm_cmpgt_epi16(_mm_set1_epi16((int16_t)side->left), number);
         const __m128i inside = _mm_andnot_si128(before, _mm_cmpgt_epi16(_mm_set1_epi16((int16_t)side->right), number));
@@ -63,8 +66,13 @@ SMEAR_AVX2_INLINE void draw_column(const struct texel_lanes *k, const struct tex
         const __m128i hidden = _mm_cmpeq_epi16(most, old);
         if (_mm_movemask_epi8(hidden) != 0xffff) {
             _mm_storeu_si128((__m128i_u *)depth, most);
-            put_8(k, &r, x, u.at, v.at, hidden, look);
+            if (look == LOOK_LIT_USUAL)
+                put_usual_8(k, &r, x, u.at, v.at, hidden, lit_down_light(&light, &k->lit));
+            else
+                put_8(k, &r, x, u.at, v.at, hidden, look);
         }
+        if (look == LOOK_LIT_USUAL)
+            lit_down_step(&light, &k->lit);
         down_step(&u);
         down_step(&v);
         z = _mm256_add_epi32(z, dz_down);
@@ -100,7 +108,9 @@ SMEAR_AVX2_INLINE void columns_of(const struct texel_rows *t, const struct texel
 SMEAR_AVX2_FUNCTION void smear_texel_columns_avx2(const struct texel_rows *t, const struct texel_sides *s,
                                                   const struct texel_curves *p)
 {
-    if (t->lights != NULL)
+    if (t->lights != NULL && t->narrow && lights_are_usual(t->lights))
+        columns_of(t, s, p, LOOK_LIT_USUAL);
+    else if (t->lights != NULL)
         columns_of(t, s, p, LOOK_LIT);
     else if (t->narrow)
         columns_of(t, s, p, LOOK_NARROW);

@@ -38,21 +38,22 @@ struct row_lanes {
     __m256i evens, eight;               /* i dz for i = 0 2 .. 14 if texels are copied to narrow pixels, and 0 .. 7 */
 };
 
-/* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn. */
-enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT };
+/* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn, but those of 16 bits alone in usual
+ * light (lights_are_usual). */
+enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT, LOOK_LIT_USUAL };
 
 SMEAR_AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
 {
-    return look == LOOK_LIT ? k->narrow : look == LOOK_NARROW;
+    return look == LOOK_LIT ? k->narrow : look != LOOK_WIDE;
 }
 
 SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, struct light_lanes *blocks, enum look look)
 {
-    const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look == LOOK_NARROW;
+    const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look != LOOK_WIDE;
     k->texels = t->texels;
     k->narrow = t->narrow;
-    if (look == LOOK_LIT)
-        lit_start(&k->lit, t->lights, blocks);
+    if (look == LOOK_LIT || look == LOOK_LIT_USUAL)
+        lit_start(&k->lit, t->lights, blocks, look == LOOK_LIT_USUAL);
     k->u_down = _mm256_set1_epi32(32 - t->log2_width + pairs);
     k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
     k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));
@@ -95,18 +96,17 @@ SMEAR_AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pa
 SMEAR_AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v)
 {
     const __m256i index = lanes_index(k, u, v);
-    struct lit_pairs t;
+    __m256i texel;
     if (k->lit.format == SMEAR_TEXEL_565) {
-        t = lit_pairs_of_565(lanes_of_pairs(k, lanes_gather(k, index), u));
+        texel = lanes_of_pairs(k, lanes_gather(k, index), u);
     } else if (k->lit.format == SMEAR_TEXEL_8888) {
-        t = lit_pairs_of_8888(lanes_gather(k, index));
+        texel = lanes_gather(k, index);
     } else {
         const __m256i bits = _mm256_and_si256(_mm256_slli_epi32(index, 3), _mm256_set1_epi32(24));
         const __m256i byte = _mm256_srlv_epi32(lanes_gather(k, _mm256_srli_epi32(index, 2)), bits);
-        t = lit_pairs_of_8888(_mm256_i32gather_epi32((const int *)(const void *)k->lit.palette,
-                                                     _mm256_and_si256(byte, _mm256_set1_epi32(255)), 4));
+        texel = _mm256_i32gather_epi32((const int *)(const void *)k->lit.palette, _mm256_and_si256(byte, _mm256_set1_epi32(255)), 4);
     }
-    return lit_in_light(&k->lit, t, x, r->row);
+    return lit_texels(&k->lit, texel, x, r->row);
 }
 
 SMEAR_AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
@@ -120,6 +120,14 @@ SMEAR_AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256
 {
     __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
     _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(pixels), _mm_loadu_si128(color), hidden));
+}
+
+/* Writes eight pixels of texels of RGB565 in linear light where they are not hidden. */
+SMEAR_AVX2_INLINE void put_usual_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v,
+                                   __m128i hidden, struct lit_light light)
+{
+    const __m256i texels = lanes_of_pairs(k, lanes_gather(k, lanes_index(k, u, v)), u);
+    put_narrow_8(r, x, lit_narrow(lit_linear_565(texels, &light)), hidden);
 }
 
 /* Writes eight pixels with these coordinates where they are not hidden. */

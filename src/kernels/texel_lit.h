@@ -31,6 +31,25 @@ static inline uint32_t lit_texel_reference(const struct texel_lights *k, uint32_
     return pixel_make(0, code[0], code[1], code[2]);
 }
 
+/* Light of the levels of RGB565: of red and blue, and of green. */
+struct lit_levels {
+    uint32_t five[32], six[64];
+};
+
+extern const struct lit_levels smear_lit_levels;
+
+/* Numbers, eight times each: compilers that know them make them anew wherever they are used, in three instructions. */
+struct lit_numbers {
+    uint32_t five[8], six[8], code[8], half[8];             /* masks */
+    uint32_t most[8];                                       /* where light is found in the table of codes at most */
+    uint32_t by_rb[8], more_rb[8], by_g[8], more_g[8];      /* rgb565_nearest: of pairs, and of words */
+    uint32_t green[8];                                      /* where it lies in RGB565 */
+};
+
+extern const struct lit_numbers smear_lit_numbers;
+
+SMEAR_AVX2_INLINE __m256i lit_number(const uint32_t number[8]) { return _mm256_loadu_si256((const __m256i *)(const void *)number); }
+
 /* Light of eight pixels. Codes: of red and blue (pairs, blue first), then of green, twice. Linear: of red, green and blue, 65536
  * is one. */
 struct lit_light {
@@ -57,7 +76,7 @@ SMEAR_AVX2_INLINE bool lit_planes_equal(const struct texel_plane *a, const struc
 SMEAR_AVX2_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i b, bool linear)
 {
     if (linear) {
-        const __m256i low = _mm256_set1_epi32(0xffff);
+        const __m256i low = lit_number(smear_lit_numbers.half);
         struct lit_light l = { { _mm256_and_si256(_mm256_srli_epi32(r, 8), low), _mm256_and_si256(_mm256_srli_epi32(g, 8), low),
                                  _mm256_and_si256(_mm256_srli_epi32(b, 8), low) } };
         for (int i = 0; i < 3; i++)
@@ -70,18 +89,24 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_from(__m256i r, __m256i g, __m256i 
                                  _mm256_setzero_si256() } };
 }
 
-/* `blocks`: where to keep those of a row. */
-SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *lights, struct light_lanes *blocks)
+/* Whether texels of RGB565 are in linear light that planes give: what most triangles in light are. */
+SMEAR_AVX2_INLINE bool lights_are_usual(const struct texel_lights *k)
+{
+    return k->format == SMEAR_TEXEL_565 && k->linear && !k->plain && k->planes.block == 0;
+}
+
+/* `blocks`: where to keep those of a row. `usual`: lights_are_usual, which compilers know. */
+SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights *lights, struct light_lanes *blocks, bool usual)
 {
     const struct light_planes *const l = &lights->planes;
     const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     k->palette = lights->palette;
-    k->format = lights->format;
-    k->linear = lights->linear;
-    k->plain = lights->plain;
-    k->blocks = l->block != 0 ? blocks : NULL;
+    k->format = usual ? SMEAR_TEXEL_565 : lights->format;
+    k->linear = usual || lights->linear;
+    k->plain = !usual && lights->plain;
+    k->blocks = !usual && l->block != 0 ? blocks : NULL;
     blocks->p = l;
-    k->even = l->block == 0 && (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
+    k->even = !usual && l->block == 0 && (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
     k->white = lit_planes_equal(&l->c[0], &l->c[1]) && lit_planes_equal(&l->c[0], &l->c[2]);
     k->light.c[0] = k->light.c[1] = k->light.c[2] = _mm256_setzero_si256();
     if (k->even) {
@@ -117,6 +142,33 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32
     return lit_light_from(r, lit_channel(k, 1, x, row), lit_channel(k, 2, x, row), k->linear);
 }
 
+/* Usual light of eight pixels, and how it changes from row to row. */
+struct lit_down {
+    __m256i at[3], step[3];
+};
+
+SMEAR_AVX2_INLINE void lit_down_start(struct lit_down *d, const struct lit_lanes *k, int32_t x, int32_t row)
+{
+    for (int i = 0; i < (k->white ? 1 : 3); i++) {
+        d->at[i] = lit_channel(k, i, x, row);
+        d->step[i] = _mm256_set1_epi32((int32_t)k->dy[i]);
+    }
+}
+
+SMEAR_AVX2_INLINE struct lit_light lit_down_light(const struct lit_down *d, const struct lit_lanes *k)
+{
+    return k->white ? lit_light_from(d->at[0], d->at[0], d->at[0], true) : lit_light_from(d->at[0], d->at[1], d->at[2], true);
+}
+
+SMEAR_AVX2_INLINE void lit_down_step(struct lit_down *d, const struct lit_lanes *k)
+{
+    d->at[0] = _mm256_add_epi32(d->at[0], d->step[0]);
+    if (k->white)
+        return;
+    d->at[1] = _mm256_add_epi32(d->at[1], d->step[1]);
+    d->at[2] = _mm256_add_epi32(d->at[2], d->step[2]);
+}
+
 /* Texels, or pixels, as red and blue (pairs, blue first) and green. */
 struct lit_pairs {
     __m256i rb, g;
@@ -146,29 +198,66 @@ SMEAR_AVX2_INLINE __m256i lit_times(__m256i a, __m256i b)
     return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
 }
 
-/* code_times_linear. The table of light is read from the half before an element on, and not for code 0, whose light is 0; that
- * of codes ends in more than three of 255, so that words are read within it. */
+/* Codes of linear light 0 .. 4095, in words. Their table ends in more than three of 255, so that words are read within it. */
+SMEAR_AVX2_INLINE __m256i lit_encoded(__m256i light)
+{
+    const __m256i index = _mm256_min_epu32(light, lit_number(smear_lit_numbers.most));
+    return _mm256_and_si256(_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, index, 1),
+                            lit_number(smear_lit_numbers.code));
+}
+
+/* Codes of texels' light, 65535 is one, in a light, of which 65536 is. */
+SMEAR_AVX2_INLINE __m256i lit_linear(__m256i there, __m256i light)
+{
+    return lit_encoded(_mm256_srli_epi32(_mm256_mullo_epi32(there, light), 20));
+}
+
+/* code_times_linear. The table of light is read from the half before an element on, and not for code 0, whose light is 0. */
 SMEAR_AVX2_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
 {
     const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32(code, zero);
     uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
     SMEAR_KEEP_VALUE(before);
     const __m256i upper = _mm256_mask_i32gather_epi32(zero, (const int *)before, code, some, 2);
-    const __m256i product = _mm256_mullo_epi32(_mm256_srli_epi32(upper, 16), light);
-    const __m256i index = _mm256_min_epu32(_mm256_srli_epi32(product, 20), _mm256_set1_epi32(4092));
-    return _mm256_and_si256(_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, index, 1), _mm256_set1_epi32(255));
+    return lit_linear(_mm256_srli_epi32(upper, 16), light);
 }
 
-SMEAR_AVX2_INLINE struct lit_pairs lit_in_light(const struct lit_lanes *k, struct lit_pairs t, int32_t x, int32_t row)
+/* Red and blue as pairs. */
+SMEAR_AVX2_INLINE __m256i lit_pair(__m256i r, __m256i b) { return _mm256_blend_epi16(b, _mm256_slli_epi32(r, 16), 0xaa); }
+
+/* Texels in linear light, as code_times_linear has it: of RGB565, in the lower halves of words, and of codes. */
+SMEAR_AVX2_INLINE struct lit_pairs lit_linear_565(__m256i t, const struct lit_light *l)
 {
+    const int *const five = (const int *)(const void *)smear_lit_levels.five, *const six = (const int *)(const void *)smear_lit_levels.six;
+    const __m256i low = lit_number(smear_lit_numbers.five);
+    const __m256i green = _mm256_and_si256(_mm256_srli_epi32(t, 5), lit_number(smear_lit_numbers.six));
+    const __m256i r = lit_linear(_mm256_i32gather_epi32(five, _mm256_and_si256(_mm256_srli_epi32(t, 11), low), 4), l->c[0]);
+    const __m256i b = lit_linear(_mm256_i32gather_epi32(five, _mm256_and_si256(t, low), 4), l->c[2]);
+    return (struct lit_pairs){ lit_pair(r, b), lit_linear(_mm256_i32gather_epi32(six, green, 4), l->c[1]) };
+}
+
+SMEAR_AVX2_INLINE struct lit_pairs lit_linear_codes(struct lit_pairs t, const struct lit_light *l)
+{
+    const __m256i r = lit_times_linear(_mm256_srli_epi32(t.rb, 16), l->c[0]);
+    const __m256i b = lit_times_linear(_mm256_and_si256(t.rb, lit_number(smear_lit_numbers.code)), l->c[2]);
+    return (struct lit_pairs){ lit_pair(r, b), lit_times_linear(t.g, l->c[1]) };
+}
+
+/* Texels from pixel x on in their light: those of RGB565 in the lower halves of words, others 0xAARRGGBB. */
+SMEAR_AVX2_INLINE struct lit_pairs lit_texels(const struct lit_lanes *k, __m256i texel, int32_t x, int32_t row)
+{
+    const bool is_565 = k->format == SMEAR_TEXEL_565;
+    if (k->linear && !k->plain && is_565) {
+        const struct lit_light l = lit_light_at(k, x, row);
+        return lit_linear_565(texel, &l);
+    }
+    const struct lit_pairs t = is_565 ? lit_pairs_of_565(texel) : lit_pairs_of_8888(texel);
     if (k->plain)
         return t;
     const struct lit_light l = lit_light_at(k, x, row);
-    if (!k->linear)
-        return (struct lit_pairs){ lit_times(t.rb, l.c[0]), lit_times(t.g, l.c[1]) };
-    const __m256i r = lit_times_linear(_mm256_srli_epi32(t.rb, 16), l.c[0]);
-    const __m256i b = lit_times_linear(_mm256_and_si256(t.rb, _mm256_set1_epi32(255)), l.c[2]);
-    return (struct lit_pairs){ _mm256_or_si256(_mm256_slli_epi32(r, 16), b), lit_times_linear(t.g, l.c[1]) };
+    if (k->linear)
+        return lit_linear_codes(t, &l);
+    return (struct lit_pairs){ lit_times(t.rb, l.c[0]), lit_times(t.g, l.c[1]) };
 }
 
 /* As 0x00RRGGBB, or by rgb565_nearest. */
@@ -179,12 +268,11 @@ SMEAR_AVX2_INLINE __m256i lit_wide(struct lit_pairs p)
 
 SMEAR_AVX2_INLINE __m256i lit_narrow(struct lit_pairs p)
 {
-    const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, _mm256_set1_epi16(249)), _mm256_set1_epi16(1014)),
-                                         11);
-    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(_mm256_add_epi32(_mm256_mullo_epi16(p.g, _mm256_set1_epi32(253)),
-                                                                          _mm256_set1_epi32(505)), 5),
-                                       _mm256_set1_epi32(0x7e0));
-    return _mm256_or_si256(_mm256_or_si256(_mm256_srli_epi32(rb, 5), g), _mm256_and_si256(rb, _mm256_set1_epi32(31)));
+    const struct lit_numbers *const n = &smear_lit_numbers;
+    const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, lit_number(n->by_rb)), lit_number(n->more_rb)), 11);
+    const __m256i g = _mm256_add_epi32(_mm256_mullo_epi16(p.g, lit_number(n->by_g)), lit_number(n->more_g));
+    const __m256i red_green = _mm256_or_si256(_mm256_srli_epi32(rb, 5), _mm256_and_si256(_mm256_srli_epi32(g, 5), lit_number(n->green)));
+    return _mm256_or_si256(red_green, _mm256_and_si256(rb, lit_number(n->five)));
 }
 
 #endif

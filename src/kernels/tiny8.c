@@ -6,8 +6,8 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
+#include "kernels/texel_lit.h"
 #include "kernels/tiny_weights.h"
-
 
 /* An element for each triangle. Pairs of halves have the first in the lower one. */
 struct tiny8 {
@@ -344,20 +344,7 @@ SMEAR_AVX2_INLINE __m256i tiny8_index_at(const struct tiny8 *s, const struct tin
                            _mm256_and_si256(_mm256_sra_epi32(u, _mm_cvtsi32_si128(l->from_u)), v8_all((int32_t)l->mask_u)));
 }
 
-/* Pixels as red and blue (pairs, blue first) and green. */
-struct tiny8_looks {
-    __m256i rb, g;
-};
-
-SMEAR_AVX2_INLINE __m256i v8_pack(struct tiny8_looks p, bool narrow)
-{
-    if (!narrow)
-        return _mm256_or_si256(p.rb, _mm256_slli_epi32(p.g, 8));
-    /* rgb565_nearest */
-    const __m256i rb = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(p.rb, v8_all(0xf900f9)), v8_all(0x3f603f6)), 11);
-    const __m256i g = _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(p.g, v8_all(253)), v8_all(505)), 10);
-    return _mm256_or_si256(_mm256_or_si256(_mm256_srli_epi32(rb, 5), _mm256_slli_epi32(g, 5)), _mm256_and_si256(rb, v8_all(31)));
-}
+SMEAR_AVX2_INLINE __m256i tiny8_pack(struct lit_pairs p, bool narrow) { return narrow ? lit_narrow(p) : lit_wide(p); }
 
 /* Channel i of colours mixed at weights q14, q14 of 16 bits. */
 SMEAR_AVX2_INLINE __m256i v8_mixed(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
@@ -365,25 +352,16 @@ SMEAR_AVX2_INLINE __m256i v8_mixed(const struct tiny8 *s, int i, __m256i triangl
     return v8_add(_mm256_slli_epi32(v8_of(s->light[i], triangle), 14), v8_dot(v8_of(s->to_light[i], triangle), weight));
 }
 
-SMEAR_AVX2_INLINE __m256i v8_encoded(__m256i light)
-{
-    uint32_t index[8];
-    _mm256_storeu_si256((__m256i *)(void *)index, light);
-    for (int i = 0; i < 8; i++)
-        index[i] = smear_srgb_encode[index[i] & 4095u];
-    return _mm256_loadu_si256((const __m256i *)(const void *)index);
-}
-
-SMEAR_AVX2_INLINE struct tiny8_looks v8_shaded(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight)
+SMEAR_AVX2_INLINE struct lit_pairs v8_shaded(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight)
 {
     const __m256i w = _mm256_srli_epi16(weight, 2), r = v8_mixed(s, 0, triangle, w), g = v8_mixed(s, 1, triangle, w);
     const __m256i b = v8_mixed(s, 2, triangle, w);
     if (l->linear)
-        return (struct tiny8_looks){ v8_pair(v8_encoded(_mm256_srli_epi32(b, 18)), v8_encoded(_mm256_srli_epi32(r, 18))),
-                                     v8_encoded(_mm256_srli_epi32(g, 18)) };
+        return (struct lit_pairs){ v8_pair(lit_encoded(_mm256_srli_epi32(b, 18)), lit_encoded(_mm256_srli_epi32(r, 18))),
+                                   lit_encoded(_mm256_srli_epi32(g, 18)) };
     const __m256i half = v8_all(1 << 21);
-    return (struct tiny8_looks){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
-                                 _mm256_srli_epi32(v8_add(g, half), 22) };
+    return (struct lit_pairs){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
+                               _mm256_srli_epi32(v8_add(g, half), 22) };
 }
 
 /* Texels of numbers in memory, which become the texels themselves. */
@@ -401,58 +379,34 @@ SMEAR_AVX2_INLINE void v8_fetch(uint32_t texel[8], const struct tiny8_look *l)
     }
 }
 
-SMEAR_AVX2_INLINE struct tiny8_looks tiny8_texel_looks(__m256i t, const struct tiny8_look *l)
-{
-    if (l->format != SMEAR_TEXEL_565)
-        return (struct tiny8_looks){ _mm256_and_si256(t, v8_all(0xff00ff)),
-                                     _mm256_and_si256(_mm256_srli_epi32(t, 8), v8_all(255)) };
-    const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, v8_all(31)), _mm256_slli_epi32(_mm256_srli_epi32(t, 11), 16));
-    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), v8_all(63));
-    const __m256i rb8 = _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, v8_all(0x20f020f)), v8_all(0x170017)), 6);
-    const __m256i g8 = _mm256_srli_epi32(v8_add(_mm256_mullo_epi16(g, v8_all(259)), v8_all(33)), 6);
-    return (struct tiny8_looks){ rb8, g8 };
-}
-
 SMEAR_AVX2_INLINE __m256i tiny8_light_at(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
 {
     return v8_add(v8_of(s->light[i], triangle), _mm256_srai_epi32(v8_dot(v8_of(s->to_light[i], triangle), weight), 15));
 }
 
+/* As a code, rounded. */
 SMEAR_AVX2_INLINE __m256i tiny8_code_of_light(__m256i light)
 {
     return _mm256_srli_epi32(v8_add(_mm256_min_epu32(light, v8_all(0xff00)), v8_all(128)), 8);
 }
 
-/* code_times for halves. */
-SMEAR_AVX2_INLINE __m256i v8_times(__m256i a, __m256i b)
-{
-    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), v8_all(0x800080));
-    return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
-}
+/* Where 65535 was one, 65536 is. */
+SMEAR_AVX2_INLINE __m256i v8_whole(__m256i light) { return v8_add(light, _mm256_srli_epi32(light, 15)); }
 
-/* code_times_linear */
-SMEAR_AVX2_INLINE __m256i v8_times_linear(__m256i code, __m256i light)
+SMEAR_AVX2_INLINE struct lit_pairs v8_lit(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight,
+                                          __m256i texel)
 {
-    uint32_t index[8];
-    _mm256_storeu_si256((__m256i *)(void *)index, code);
-    for (int i = 0; i < 8; i++)
-        index[i] = smear_srgb_decode[index[i]];
-    const __m256i there = _mm256_loadu_si256((const __m256i *)(const void *)index);
-    return v8_encoded(_mm256_srli_epi32(_mm256_mullo_epi32(there, v8_add(light, _mm256_srli_epi32(light, 15))), 20));
-}
-
-SMEAR_AVX2_INLINE struct tiny8_looks v8_lit(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight,
-                                            __m256i texel)
-{
-    const struct tiny8_looks t = tiny8_texel_looks(texel, l);
     const __m256i r = tiny8_light_at(s, 0, triangle, weight), g = tiny8_light_at(s, 1, triangle, weight),
                   b = tiny8_light_at(s, 2, triangle, weight);
+    const bool is_565 = l->format == SMEAR_TEXEL_565;
+    const struct lit_light light = { { v8_whole(r), v8_whole(g), v8_whole(b) } };
+    if (l->linear && is_565)
+        return lit_linear_565(texel, &light);
+    const struct lit_pairs t = is_565 ? lit_pairs_of_565(texel) : lit_pairs_of_8888(texel);
     if (l->linear)
-        return (struct tiny8_looks){ v8_pair(v8_times_linear(_mm256_and_si256(t.rb, v8_all(255)), b),
-                                             v8_times_linear(_mm256_srli_epi32(t.rb, 16), r)),
-                                     v8_times_linear(t.g, g) };
-    return (struct tiny8_looks){ v8_times(t.rb, v8_pair(tiny8_code_of_light(b), tiny8_code_of_light(r))),
-                                 _mm256_and_si256(v8_times(t.g, tiny8_code_of_light(g)), v8_all(255)) };
+        return lit_linear_codes(t, &light);
+    return (struct lit_pairs){ lit_times(t.rb, v8_pair(tiny8_code_of_light(b), tiny8_code_of_light(r))),
+                               _mm256_and_si256(lit_times(t.g, tiny8_code_of_light(g)), v8_all(255)) };
 }
 
 SMEAR_AVX2_INLINE void tiny8_draw(struct tiny8_pixels *out, int32_t i, const struct tiny8 *s, const struct tiny8_look *l,
@@ -467,14 +421,14 @@ SMEAR_AVX2_INLINE void tiny8_draw(struct tiny8_pixels *out, int32_t i, const str
     if (kind == TINY8_FLAT) {
         pixel = v8_of(s->color, triangle);
     } else if (kind == TINY8_SHADED) {
-        pixel = v8_pack(v8_shaded(s, l, triangle, weight), l->narrow);
+        pixel = tiny8_pack(v8_shaded(s, l, triangle, weight), l->narrow);
     } else {
         pixel = tiny8_index_at(s, l, triangle, weight);
         if (kind == TINY8_LIT) {
             uint32_t texel[8];
             _mm256_storeu_si256((__m256i *)(void *)texel, pixel);
             v8_fetch(texel, l);
-            pixel = v8_pack(v8_lit(s, l, triangle, weight, _mm256_loadu_si256((const __m256i *)(const void *)texel)), l->narrow);
+            pixel = tiny8_pack(v8_lit(s, l, triangle, weight, _mm256_loadu_si256((const __m256i *)(const void *)texel)), l->narrow);
         }
     }
     v8_store((int32_t *)out->pixel + i, pixel);
@@ -506,9 +460,9 @@ SMEAR_AVX2_INLINE void tiny8_of_kind(struct tiny8_pixels *out, const struct tiny
         tiny8_make_even_light(&s, l, color);
     if (kind == TINY8_FLAT) {
         const __m256i p = v8_load((const int32_t *)color);
-        v8_store(s.color, v8_pack((struct tiny8_looks){ _mm256_and_si256(p, v8_all(0xff00ff)),
-                                                        _mm256_and_si256(_mm256_srli_epi32(p, 8), v8_all(255)) },
-                                  l->narrow));
+        v8_store(s.color, tiny8_pack((struct lit_pairs){ _mm256_and_si256(p, v8_all(0xff00ff)),
+                                                         _mm256_and_si256(_mm256_srli_epi32(p, 8), v8_all(255)) },
+                                     l->narrow));
     }
     out->taken = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(good));
     int32_t n = 0;
