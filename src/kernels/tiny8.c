@@ -234,12 +234,11 @@ SMEAR_AVX2_INLINE __m256i tiny8_make_channels(struct tiny8 *s, const struct tiny
 /* Makes channels of one light for each triangle. */
 SMEAR_AVX2_INLINE void tiny8_make_even_light(struct tiny8 *s, const struct tiny8_look *l, const uint32_t color[8])
 {
+    const lanes8 colors = l->white ? lanes8_all(0xffffffu) : lanes8_load(color);
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 8; k++) {
-            const uint32_t code = l->white ? 255u : color[k] >> (16 - 8 * i) & 255u;
-            s->light[i][k] = (int32_t)(l->linear ? smear_srgb_decode[code] : code << 8);
-            s->to_light[i][k] = 0;
-        }
+        const lanes8 code = colors >> (16 - 8 * i) & 255u;
+        lanes8_store(s->light[i], l->linear ? lanes8_decode(code) : code << 8);
+        lanes8_store(s->to_light[i], lanes8_all(0));
     }
 }
 
@@ -364,19 +363,28 @@ SMEAR_AVX2_INLINE struct lit_pairs v8_shaded(const struct tiny8 *s, const struct
                                _mm256_srli_epi32(v8_add(g, half), 22) };
 }
 
-/* Texels of numbers in memory, which become the texels themselves. */
-SMEAR_AVX2_INLINE void v8_fetch(uint32_t texel[8], const struct tiny8_look *l)
+/* One after the other: of a texture so small that words reach beyond it. */
+static SMEAR_NOINLINE void tiny8_fetch_few(uint32_t texel[8], const struct tiny8_look *l)
 {
-    if (l->format == SMEAR_TEXEL_565) {
-        for (int i = 0; i < 8; i++)
-            texel[i] = ((const uint16_t *)l->texels)[texel[i]];
-    } else if (l->format == SMEAR_TEXEL_8888) {
-        for (int i = 0; i < 8; i++)
-            texel[i] = ((const uint32_t *)l->texels)[texel[i]];
-    } else {
-        for (int i = 0; i < 8; i++)
-            texel[i] = l->palette[((const uint8_t *)l->texels)[texel[i]]];
-    }
+    for (int i = 0; i < 8; i++)
+        texel[i] = l->format == SMEAR_TEXEL_565 ? ((const uint16_t *)l->texels)[texel[i]]
+                                                : l->palette[((const uint8_t *)l->texels)[texel[i]]];
+}
+
+/* Texels of these numbers: those of RGB565 in the lower halves of words. */
+SMEAR_AVX2_INLINE __m256i tiny8_texels(const struct tiny8_look *l, __m256i number)
+{
+    const uint32_t last = l->mask_u | l->mask_v;
+    if (l->format == SMEAR_TEXEL_8888)
+        return (__m256i)lanes8_gather(l->texels, (lanes8i)number);
+    if (l->format == SMEAR_TEXEL_565 && last > 0)
+        return (__m256i)lanes8_of_halves(l->texels, (lanes8)number);
+    if (l->format == SMEAR_TEXEL_PALETTE8 && last > 2)
+        return (__m256i)lanes8_gather(l->palette, (lanes8i)lanes8_of_bytes(l->texels, (lanes8)number));
+    uint32_t texel[8];
+    lanes8_store(texel, (lanes8)number);
+    tiny8_fetch_few(texel, l);
+    return (__m256i)lanes8_load(texel);
 }
 
 SMEAR_AVX2_INLINE __m256i tiny8_light_at(const struct tiny8 *s, int i, __m256i triangle, __m256i weight)
@@ -424,12 +432,8 @@ SMEAR_AVX2_INLINE void tiny8_draw(struct tiny8_pixels *out, int32_t i, const str
         pixel = tiny8_pack(v8_shaded(s, l, triangle, weight), l->narrow);
     } else {
         pixel = tiny8_index_at(s, l, triangle, weight);
-        if (kind == TINY8_LIT) {
-            uint32_t texel[8];
-            _mm256_storeu_si256((__m256i *)(void *)texel, pixel);
-            v8_fetch(texel, l);
-            pixel = tiny8_pack(v8_lit(s, l, triangle, weight, _mm256_loadu_si256((const __m256i *)(const void *)texel)), l->narrow);
-        }
+        if (kind == TINY8_LIT)
+            pixel = tiny8_pack(v8_lit(s, l, triangle, weight, tiny8_texels(l, pixel)), l->narrow);
     }
     v8_store((int32_t *)out->pixel + i, pixel);
 }
