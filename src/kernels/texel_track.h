@@ -19,6 +19,18 @@ struct texel_track {
     int32_t qx, ux, vx;         /* how planes change from pixel to pixel */
 };
 
+/* A row's start: the planes' values at (x, row), and the place there. A plane is at, dx, dy; `plane` is q, u and v. */
+static inline void texel_track_start_reference(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
+{
+    int32_t value[3];
+    for (int i = 0; i < 3; i++)
+        value[i] = add_wrap(plane[3 * i], add_wrap(mul_wrap(plane[3 * i + 1], x), mul_wrap(plane[3 * i + 2], row)));
+    k->q = value[0];
+    k->u = value[1];
+    k->v = value[2];
+    k->place = place_divided(k->q, k->u, k->v, k->slope, k->parabolic);
+}
+
 /* Goes on by a whole block: finds the place at its end, and the run's coordinates. The changes of changes are 0 before where blocks
  * are not parabolic. log2 is 2 .. 6. */
 static inline void texel_track_next_reference(struct texel_track *k)
@@ -42,10 +54,14 @@ static inline void texel_track_part_reference(struct texel_track *k, int32_t n)
     texcoord_run(&k->run, places_between(from, k->place, n, k->up, k->parabolic, true));
 }
 
+/* Whether the assembly starts rows, too: where size counts, what the compiler makes of it is shorter. */
+#define TRACK_ROWS_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+
 #if SMEAR_ASM_ARMV6M
 SMEAR_STATIC_ASSERT(sizeof(struct texel_run) == 52 && offsetof(struct texel_track, q) == 52
                         && offsetof(struct texel_track, place) == 64 && offsetof(struct texel_track, dq) == 76
                         && offsetof(struct texel_track, log2) == 88 && offsetof(struct texel_track, seed) == 100
+                        && offsetof(struct texel_track, parabolic) == 104
                         && offsetof(struct texel_track, part) == 108 && offsetof(struct texel_track, qx) == 116,
                     "the assembly knows struct texel_track");
 SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel_run, dv) == 8 && offsetof(struct texel_run, ddu) == 12
@@ -72,6 +88,12 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "1: asrs r2, r2, #16\n" \
         "2: adds r3, r3, r2\n\t"
 
+/* A coordinate's quotient, of the plane's value in r3. */
+#define ARMV6M_QUOTIENT \
+        "asrs r3, r3, #1\n\t" \
+        "lsls r3, r4\n\t" \
+        ARMV6M_TIMES_RECIP
+
 /* One coordinate, whose plane lies AT bytes behind the track's start, its place PLACE, its change over a block CHANGE, and what the run
  * has of it START and STEP. ROUND is what turns_start and turns_step do, or nothing; CURVE is ARMV6M_CURVE or nothing. */
 #define ARMV6M_COORDINATE(AT, PLACE, CHANGE, START, STEP, ROUND, CURVE, TIMES, SLOPE) \
@@ -80,9 +102,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "ldr r3, [r0, #" AT "]\n\t" \
         "adds r3, r3, r1\n\t" \
         "str r3, [r0, #" AT "]\n\t" \
-        "asrs r3, r3, #1\n\t" \
-        "lsls r3, r4\n\t" \
-        ARMV6M_TIMES_RECIP \
+        ARMV6M_QUOTIENT \
         "ldr r7, [r0, #" PLACE "]\n\t" \
         "str r3, [r0, #" PLACE "]\n\t" \
         "subs r3, r3, r7\n\t" \
@@ -141,13 +161,17 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
 
 #define ARMV6M_MASK "movs r1, #255\n\tbics r2, r1\n\t"
 
-/* The rate at the block's end, and the mean of both into r12. */
-#define ARMV6M_RATE \
+/* The rate into r3. */
+#define ARMV6M_NEARNESS \
         "ldr r3, [r0, #96]\n\t" \
         ARMV6M_TIMES_RECIP \
         "movs r1, #19\n\t" \
         "subs r1, r1, r4\n\t" \
-        "asrs r3, r1\n\t" \
+        "asrs r3, r1\n\t"
+
+/* The rate at the block's end, and the mean of both into r12. */
+#define ARMV6M_RATE \
+        ARMV6M_NEARNESS \
         "ldr r1, [r0, #72]\n\t" \
         "str r3, [r0, #72]\n\t" \
         "adds r3, r3, r1\n\t" \
@@ -155,15 +179,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "asrs r3, r3, #1\n\t" \
         "mov r12, r3\n\t"
 
-/* q, its leading zeros less one into r4, and its reciprocal (recip_norm) into r6 and r5; then both coordinates. */
-#define ARMV6M_TRACK(Q, U, V, RATE, CURVE_U, CURVE_V, TIMES, SLOPE) \
-    __asm__ volatile( \
-        ".syntax unified\n\t" \
-        "ldr r1, [r0, #" Q "]\n\t" \
-        TIMES \
-        "ldr r3, [r0, #52]\n\t" \
-        "adds r3, r3, r1\n\t" \
-        "str r3, [r0, #52]\n\t" \
+/* Of q in r3 the leading zeros less one into r4, and its reciprocal (recip_norm) into r6 and r5. */
+#define ARMV6M_RECIP \
         "movs r1, #1\n\t" \
         "lsls r1, r1, #11\n\t" \
         "cmp r3, r1\n\t" \
@@ -204,7 +221,18 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "lsls r5, r1, #19\n\t" \
         "adds r5, r5, r3\n\t" \
         "lsrs r6, r5, #16\n\t" \
-        "uxth r5, r5\n\t" \
+        "uxth r5, r5\n\t"
+
+/* q, its reciprocal, and both coordinates. */
+#define ARMV6M_TRACK(Q, U, V, RATE, CURVE_U, CURVE_V, TIMES, SLOPE) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "ldr r1, [r0, #" Q "]\n\t" \
+        TIMES \
+        "ldr r3, [r0, #52]\n\t" \
+        "adds r3, r3, r1\n\t" \
+        "str r3, [r0, #52]\n\t" \
+        ARMV6M_RECIP \
         RATE \
         ARMV6M_COORDINATE("56", "64", U, "36", "4", "", CURVE_U, TIMES, SLOPE) \
         ARMV6M_COORDINATE("60", "68", V, "40", "8", \
@@ -235,6 +263,53 @@ static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_
     else
         ARMV6M_TRACK("116", "120", "124", "", "", "", ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
 }
+
+#if TRACK_ROWS_ARMV6M
+/* A plane's value, of at, dx and dy at r1, into the track. */
+#define ARMV6M_PLANE \
+        "ldm r1!, {r4, r5, r6}\n\t" \
+        "muls r5, r2\n\t" \
+        "muls r6, r3\n\t" \
+        "adds r4, r4, r5\n\t" \
+        "adds r4, r4, r6\n\t" \
+        "stm r0!, {r4}\n\t"
+
+/* 100 instructions, and 119 where blocks are bent: two thirds of the compiler's. r7 is u's plane until its quotient is known. */
+static SMEAR_NOINLINE void texel_track_start_armv6m(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
+{
+    register struct texel_track *r0 __asm__("r0") = k;
+    register const int32_t *r1 __asm__("r1") = plane;
+    register int32_t r2 __asm__("r2") = x, r3 __asm__("r3") = row;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "adds r0, #52\n\t"
+        ARMV6M_PLANE
+        "mov r12, r4\n\t"
+        ARMV6M_PLANE
+        "movs r7, r4\n\t"
+        ARMV6M_PLANE
+        "mov lr, r4\n\t"
+        "subs r0, #64\n\t"
+        "mov r3, r12\n\t"
+        ARMV6M_RECIP
+        "movs r3, r7\n\t"
+        ARMV6M_QUOTIENT
+        "movs r7, r3\n\t"
+        "mov r3, lr\n\t"
+        ARMV6M_QUOTIENT
+        "str r7, [r0, #64]\n\t"
+        "str r3, [r0, #68]\n\t"
+        "movs r3, #104\n\t"
+        "ldrb r3, [r0, r3]\n\t"
+        "cmp r3, #0\n\t"
+        "beq 5f\n\t"
+        ARMV6M_NEARNESS
+        "5: str r3, [r0, #72]"
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+        :
+        : "r4", "r5", "r6", "r7", "r12", "lr", "cc", "memory");
+}
+#endif
 #endif
 
 static inline void texel_track_next(struct texel_track *k)

@@ -92,8 +92,24 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
     return t;
 }
 
+/* With few registers functions of their own: the loops over pixels take them all. */
+#if UINTPTR_MAX > 0xffffffffu
+#define TRACK_FUNCTION SMEAR_INLINE
+#else
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+#endif
+
+/* Where assembly divides, the choice is not worth a function. */
+#if TRACK_ROWS_ARMV6M
+#define TRACK_GO static SMEAR_NOINLINE
+#define TRACK_NEXT SMEAR_INLINE
+#else
+#define TRACK_GO SMEAR_INLINE
+#define TRACK_NEXT TRACK_FUNCTION
+#endif
+
 /* Goes on by n pixels, at most a block, where no places are divided. */
-SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
+TRACK_GO void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
     const struct place from = k->place;
     k->u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
@@ -102,15 +118,8 @@ SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t,
     texcoord_run(&k->run, texcoord_between(t, from, k->place, n, true));
 }
 
-/* With few registers functions of their own: the loops over pixels take them all. */
-#if UINTPTR_MAX > 0xffffffffu
-#define TRACK_FUNCTION SMEAR_INLINE
-#else
-#define TRACK_FUNCTION static SMEAR_NOINLINE
-#endif
-
 /* Finds the coordinates of the next n pixels. */
-TRACK_FUNCTION void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
+TRACK_NEXT void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
     if (t->mode == TEXTURE_DIVIDED)
         texel_track_part(k, n);
@@ -145,9 +154,17 @@ SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setu
     texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
 }
 
+SMEAR_STATIC_ASSERT(offsetof(struct texture_setup, uv) == offsetof(struct texture_setup, q) + 12, "texel_track_start takes nine words");
+
 /* At pixel (x, y). */
 TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setup *t, int32_t x, int32_t y)
 {
+#if TRACK_ROWS_ARMV6M
+    if (t->mode == TEXTURE_DIVIDED) {
+        texel_track_start_armv6m(k, &t->q.at, x, y);
+        return;
+    }
+#endif
     k->q = plane_at(&t->q, x, y);
     k->u = plane_at(&t->uv[0], x, y);
     k->v = plane_at(&t->uv[1], x, y);

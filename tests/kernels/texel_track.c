@@ -22,14 +22,24 @@ static void prepare(struct kernel_call *c)
     c->word[SLOPE] = c->word[DQ] << 3;
 }
 
+/* Planes whose values at (x, row) are those of the words. */
+static void set_planes(const struct kernel_call *c, int32_t *plane, int32_t x, int32_t row)
+{
+    for (int i = 0; i < 3; i++, plane += 3) {
+        plane[1] = (int32_t)c->word[DQ + i] >> 4;
+        plane[2] = (int32_t)c->word[DQ + (i + 1) % 3] >> 3;
+        plane[0] = (int32_t)(c->word[Q + i] - (uint32_t)plane[1] * (uint32_t)x - (uint32_t)plane[2] * (uint32_t)row);
+    }
+}
+
 /* Whole blocks and others, in the order of the bits of a word. */
-SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *), void part(struct texel_track *, int32_t))
+SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, const int32_t *, int32_t, int32_t),
+                       void next(struct texel_track *), void part(struct texel_track *, int32_t))
 {
     struct texel_track k;
     uint32_t *out = c->plane[0];
-    k.q = (int32_t)c->word[Q];
-    k.u = (int32_t)c->word[U];
-    k.v = (int32_t)c->word[V];
+    const int32_t x = (int32_t)(c->word[KIND] >> 20), row = (int32_t)(c->word[KIND] & 511u);
+    int32_t plane[9];
     k.dq = (int32_t)c->word[DQ];
     k.du = (int32_t)c->word[DU];
     k.dv = (int32_t)c->word[DV];
@@ -41,7 +51,8 @@ SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *), v
     k.qx = k.dq >> 4;
     k.ux = k.du >> 4;
     k.vx = k.dv >> 4;
-    k.place = place_divided(k.q, k.u, k.v, k.slope, k.parabolic);
+    set_planes(c, plane, x, row);
+    start(&k, plane, x, row);
     texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
     for (int32_t i = 0; i < c->n; i++, out += 12) {
         const uint32_t kind = c->word[KIND] >> i;
@@ -63,10 +74,14 @@ SMEAR_INLINE void call(struct kernel_call *c, void next(struct texel_track *), v
     }
 }
 
+#if SMEAR_ASM_ARMV6M && !TRACK_ROWS_ARMV6M
+#define texel_track_start_armv6m texel_track_start_reference
+#endif
+
 #define CALL(FORM) \
     static void FORM(struct kernel_call *c) \
     { \
-        call(c, texel_track_next_##FORM, texel_track_part_##FORM); \
+        call(c, texel_track_start_##FORM, texel_track_next_##FORM, texel_track_part_##FORM); \
     }
 
 CALL(reference)
