@@ -19,22 +19,22 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
                         && offsetof(struct texel_light, mask_v) == 24 && offsetof(struct texel_light, from_u) == 28,
                     "the assembly knows struct texel_light");
 
-/* One pixel, whose depth lies AT bytes and whose colour lies PLACE bytes further on; LABEL is behind it. r0 points to colours,
+/* Pixel I of a round, whose colour has 2^SIZE bytes; LABEL is behind it. r0 points to colours,
  * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
-#define ARMV6M_PIXEL(LOAD, STORE, SIZE, AT, PLACE, LABEL) \
+#define ARMV6M_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
         "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #" AT "]\n\t" \
+        "ldrh r7, [r1, #2*(" I ")]\n\t" \
         "add r2, r8\n\t" \
         "cmp r7, r6\n\t" \
         "bhs " LABEL "f\n\t" \
-        "strh r6, [r1, #" AT "]\n\t" \
+        "strh r6, [r1, #2*(" I ")]\n\t" \
         "lsrs r6, r4, %[from_v]\n\t" \
         "lsls r6, r6, %[to_v]\n\t" \
         "lsrs r7, r3, %[from_u]\n\t" \
         "lsls r7, r7, #" SIZE "\n\t" \
         "orrs r6, r7\n\t" \
         LOAD " r6, [r5, r6]\n\t" \
-        STORE " r6, [r0, #" PLACE "]\n" \
+        STORE " r6, [r0, #(" I ")<<" SIZE "]\n" \
         LABEL ": "
 
 #define ARMV6M_STEP \
@@ -72,6 +72,22 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "beq 33f\n\t" \
         "b 32f\n"
 
+/* Likewise in a round of eight, where each pixel's code has as many bytes as BYTES says: goes on by so many pixels as there are. */
+#define ARMV6M_ENTER_EIGHT(SIZE, BYTES) \
+        "movs r7, #7\n\t" \
+        "ands r7, r6\n\t" \
+        "beq 31f\n\t" \
+        "subs r7, #8\n\t" \
+        "lsls r6, r7, #" SIZE "\n\t" \
+        "adds r0, r6\n\t" \
+        "lsls r6, r7, #1\n\t" \
+        "adds r1, r6\n\t" \
+        "negs r7, r7\n\t" \
+        "movs r6, #" BYTES "\n\t" \
+        "muls r7, r6\n\t" \
+        "add pc, r7\n\t" \
+        "nop\n"
+
 /* Colours, depth and z of the next pixel go into the run. */
 #define ARMV6M_STORE_RUN \
         "pop {r7}\n\t" \
@@ -79,39 +95,52 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "str r1, [r7, #28]\n\t" \
         "str r2, [r7, #32]"
 
-/* Four pixels a round. LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes: AT1 .. AT4 are so many times
- * 1 .. 4. BEND is ARMV6M_BEND or nothing. */
-#define ARMV6M_FOURS(LOAD, STORE, SIZE, AT1, AT2, AT3, AT4, BEND) \
+/* Four pixels of a round, of which FIRST is the first. */
+#define ARMV6M_FOUR(LOAD, STORE, SIZE, FIRST, BEND) \
+        ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST, "2") ARMV6M_STEP BEND \
+        "32: " ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST "+1", "3") ARMV6M_STEP BEND \
+        "33: " ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST "+2", "4") ARMV6M_STEP BEND \
+        "34: " ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST "+3", "5") ARMV6M_STEP BEND
+
+/* How many pixels a round has, how it begins, and how it goes on: eights are too long for a conditional branch. */
+#if SMEAR_SMALL_CODE
+#define ARMV6M_ROUND "4"
+#define ARMV6M_AGAIN "bne 31b\n\t"
+#define ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
+        ARMV6M_ENTER(SIZE) \
+        "31:\n\t" \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", BEND)
+#else
+#define ARMV6M_ROUND "8"
+#define ARMV6M_AGAIN "beq 9f\n\tb 31b\n9:\n\t"
+#define ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
+        ARMV6M_ENTER_EIGHT(SIZE, BYTES) \
+        "31:\n\t" \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", BEND) \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "4", BEND)
+#endif
+
+/* LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes; BEND is ARMV6M_BEND
+ * or nothing, and BYTES the size of a pixel's code. */
+#define ARMV6M_COPY(LOAD, STORE, SIZE, BYTES, BEND) \
     __asm__ volatile( \
         ARMV6M_LOAD_STEPS \
         "ldm r0, {r0, r1, r2, r3, r4, r5}\n\t" \
         "lsls r7, r6, #1\n\t" \
         "add r7, r1\n\t" \
         "mov lr, r7\n\t" \
-        ARMV6M_ENTER(SIZE) \
-        "31:\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "0", "0", "2") \
-        ARMV6M_STEP BEND \
-        "32:\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "2", AT1, "3") \
-        ARMV6M_STEP BEND \
-        "33:\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "4", AT2, "4") \
-        ARMV6M_STEP BEND \
-        "34:\n\t" \
-        ARMV6M_PIXEL(LOAD, STORE, SIZE, "6", AT3, "5") \
-        ARMV6M_STEP BEND \
-        "adds r0, #" AT4 "\n\t" \
-        "adds r1, #8\n\t" \
+        ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
+        "adds r0, #" ARMV6M_ROUND "<<" SIZE "\n\t" \
+        "adds r1, #2*" ARMV6M_ROUND "\n\t" \
         "cmp r1, lr\n\t" \
-        "bne 31b\n\t" \
+        ARMV6M_AGAIN \
         ARMV6M_STORE_RUN \
         : "+r"(r0) \
         : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), \
           [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Copied texels: 16 instructions a pixel, 18 where the changes of coordinates change. The sizes are constants. */
+/* Copied texels: 15 1/2 instructions a pixel, 17 1/2 where the changes of coordinates change. The sizes are constants. */
 static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texel_run *p, int log2_width,
                                                                      int log2_height, enum texel_kind kind)
 {
@@ -119,14 +148,14 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
     register struct texel_run *r0 __asm__("r0") = p;
     if (kind == TEXELS_NARROW) {
         if (bends)
-            ARMV6M_FOURS("ldrh", "strh", "1", "2", "4", "6", "8", ARMV6M_BEND);
+            ARMV6M_COPY("ldrh", "strh", "1", "34", ARMV6M_BEND);
         else
-            ARMV6M_FOURS("ldrh", "strh", "1", "2", "4", "6", "8", "");
+            ARMV6M_COPY("ldrh", "strh", "1", "30", "");
     } else {
         if (bends)
-            ARMV6M_FOURS("ldr", "str", "2", "4", "8", "12", "16", ARMV6M_BEND);
+            ARMV6M_COPY("ldr", "str", "2", "34", ARMV6M_BEND);
         else
-            ARMV6M_FOURS("ldr", "str", "2", "4", "8", "12", "16", "");
+            ARMV6M_COPY("ldr", "str", "2", "30", "");
     }
 }
 
@@ -148,7 +177,7 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         STORE " r6, [r0, #" PLACE "]\n" \
         LABEL ": "
 
-/* On the stack from sp on lie the run's end, pointers to the light and to the run. As ARMV6M_FOURS. */
+/* On the stack from sp on lie the run's end, pointers to the light and to the run. As ARMV6M_COPY, by fours. */
 #define ARMV6M_LIT_FOURS(STORE, SIZE, AT1, AT2, AT3, AT4, BEND) \
     __asm__ volatile( \
         ARMV6M_LOAD_STEPS \
