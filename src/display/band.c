@@ -84,15 +84,22 @@ int smear_band_flush(const struct row_job *r)
     return result;
 }
 
+/* Returns where column 0 would be of a band's first row: within the buffer. */
+static inline uint8_t *band_column_0(const struct row_job *r, smear_format format)
+{
+    const int32_t left = job_left(r);
+    if (left == 0)
+        return r->band;
+    return r->band + smear_format_size(left, job_bottom(r) - job_top(r), format) - smear_format_stride(left, format);
+}
+
 /* Converts columns [x0, x1) of row y of the frame. */
 static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
 {
     const struct smear_rows *rows = r->rows;
     smear_format format = drawn_format(rows->desc);
     const int32_t left = job_left(r), top = job_top(r);
-    uint8_t *band = r->band;
-    if (left != 0)      /* where column 0 would be: within the buffer */
-        band += smear_format_size(left, job_bottom(r) - top, format) - smear_format_stride(left, format);
+    uint8_t *band = band_column_0(r, format);
     smear_format_row(band, smear_format_stride(job_right(r) - left, format), in, x1 - x0, x0, y, top, format,
                      (smear_dither)rows->desc->display.dither);
 }
@@ -122,6 +129,26 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
         convert(r, in + (end - x0), end, x1, y);
 }
 
+#if SMEAR_AVX2
+/* Converts pixels with nothing over them, as many rows at once as lie one behind the other in their ring. False where rows are
+ * converted one by one. */
+static bool convert_at_once(const struct row_job *r, const struct smear_raster_target *t, const struct overlay_box *box)
+{
+    const smear_format format = drawn_format(r->rows->desc);
+    const int32_t left = job_left(r), top = job_top(r);
+    const uint32_t stride = smear_format_stride(job_right(r) - left, format);
+    uint8_t *band = band_column_0(r, format);
+    for (int32_t y = box->y0, n; y < box->y1; y += n) {
+        const int32_t at = target_row(&t->color_rows, t, y), ring_row = (at + t->color_rows.x0) / t->color_rows.stride;
+        n = min_i32(box->y1 - y, t->color_rows.ring - ring_row);
+        if (!smear_format_rows(band + (uint32_t)(y - top) * stride, stride, t->color + at + box->x0, t->color_rows.stride, n,
+                               box->x1 - box->x0, box->x0, y, format, (smear_dither)r->rows->desc->display.dither))
+            return false;
+    }
+    return true;
+}
+#endif
+
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
                              int32_t x1)
 {
@@ -129,6 +156,10 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
     const bool covered = rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
     if (rows_have_points(r->rows))
         smear_points_draw(r->rows, t, &box);
+#if SMEAR_AVX2
+    if (!covered && x0 < x1 && convert_at_once(r, t, &box))
+        return;
+#endif
     for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++) {
         const uint32_t *in = t->color + target_row(&t->color_rows, t, y) + x0;
         if (SMEAR_WITH_OVERLAY && covered)

@@ -83,12 +83,21 @@ static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32
     return smear_dither_ordered + ((y & 7) << 3);
 }
 
+static inline enum row_16bit layout_of(smear_format format)
+{
+    return SMEAR_WITH_RGB && format == SMEAR_RGB555 ? ROW_555 : format == SMEAR_RGB565_SWAPPED ? ROW_565_SWAPPED : ROW_565;
+}
+
+static inline bool format_is_16bit(smear_format format)
+{
+    return (SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
+        || (SMEAR_WITH_RGB && format == SMEAR_RGB555);
+}
+
 static void row_rgb16(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
                       smear_dither dither)
 {
-    const enum row_16bit layout = SMEAR_WITH_RGB && format == SMEAR_RGB555 ? ROW_555
-                                : format == SMEAR_RGB565_SWAPPED           ? ROW_565_SWAPPED
-                                                                           : ROW_565;
+    const enum row_16bit layout = layout_of(format);
     if (!is_dithered(dither)) {
         row_nearest(out, in, n, layout);
         return;
@@ -160,8 +169,7 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
     if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888)
         row_xrgb8888((uint32_t *)(void *)row + x, in, n);
-    else if ((SMEAR_WITH_RGB565 && (format == SMEAR_RGB565 || format == SMEAR_RGB565_SWAPPED))
-             || (SMEAR_WITH_RGB && format == SMEAR_RGB555))
+    else if (format_is_16bit(format))
         row_rgb16((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
     else if (SMEAR_WITH_RGB && format == SMEAR_RGB332)
         row_rgb332(row + x, in, n, x, y, dither);
@@ -174,3 +182,16 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
     else if (SMEAR_WITH_GREY && format == SMEAR_L1_PAGES)
         row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }
+
+#if SMEAR_AVX2
+bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
+                       int32_t y, smear_format format, smear_dither dither)
+{
+    if (!format_is_16bit(format) || !is_dithered(dither) || !smear_has_avx2())
+        return false;
+    struct dithered_rows r = { (uint16_t *)(void *)band + x, in, stride / 2, in_stride, rows, n, x, y, NULL, 0 };
+    r.threshold = thresholds_of(0, dither, &r.mask);
+    smear_rows_dithered_avx2(&r, layout_of(format));
+    return true;
+}
+#endif

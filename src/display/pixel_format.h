@@ -6,6 +6,7 @@
 #include "smear.h"
 
 #include "base/base.h"
+#include "kernels/avx2.h"
 
 /* Whether the format was compiled in, with that dither. */
 bool smear_format_has(int format, int dither);
@@ -20,6 +21,13 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format);
  * pixel need x (SMEAR_L1_PAGES: y0) on a multiple of 8. Rows of a page are added to it, so its band starts at zero. */
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                       int32_t y0, smear_format format, smear_dither dither);
+
+#if SMEAR_AVX2
+/* Writes `rows` rows of n pixels, `in_stride` pixels apart, into `band`, whose first row is y. False where that is no faster than
+ * row by row: then nothing is written. */
+bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
+                       int32_t y, smear_format format, smear_dither dither);
+#endif
 
 /* Whether the bytes of a pixel are not in this machine's order; smear_format_swap exchanges them. */
 static inline bool smear_format_is_swapped(smear_format format)

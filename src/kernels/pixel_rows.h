@@ -157,9 +157,18 @@ void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int
                                int32_t mask, enum row_16bit format);
 #endif
 #if SMEAR_AVX2
-/* Stores sixteen pixels a round; mask is 7 or 31. */
-void smear_row_dithered_avx2(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
-                             int32_t mask, enum row_16bit format);
+/* Rows y, y + 1 ... of n >= 0 columns from x on; row y has the thresholds (y & mask) (mask + 1) and following. */
+struct dithered_rows {
+    uint16_t *out;
+    const uint32_t *in;
+    ptrdiff_t out_stride, in_stride;        /* pixels */
+    int32_t rows, n, x, y;
+    const uint8_t *threshold;
+    int32_t mask;
+};
+
+/* Stores sixteen pixels a round; mask is 7, with thresholds of the form 4 k + 2, or 31, with any. */
+void smear_rows_dithered_avx2(const struct dithered_rows *r, enum row_16bit format);
 #endif
 
 static inline void row_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
@@ -167,7 +176,8 @@ static inline void row_dithered(uint16_t *out, const uint32_t *in, int32_t n, in
 {
 #if SMEAR_AVX2
     if (smear_has_avx2()) {
-        smear_row_dithered_avx2(out, in, n, x, threshold, mask, format);
+        const struct dithered_rows row = { out, in, 0, 0, 1, n, x, 0, threshold, mask };
+        smear_rows_dithered_avx2(&row, format);
         return;
     }
 #endif

@@ -57,62 +57,137 @@ SMEAR_AVX2_FUNCTION void smear_row_nearest_avx2(uint16_t *out, const uint32_t *i
         nearest_avx2(out, in, n, ROW_565);
 }
 
-/* level_q16 / 2^8 and a threshold, of which the upper byte is the level. */
-SMEAR_AVX2_INLINE lanes8 dithered16(lanes8 code, uint32_t levels, lanes8 threshold)
+/* Sixteen pixels, codes 2^8 as halves, a channel each, in the order of places 0 to 3, 8 to 11, 4 to 7, 12 to 15. */
+struct planes {
+    lanes8 red, green, blue;
+};
+
+SMEAR_AVX2_INLINE struct planes planes_of(lanes8 a, lanes8 b)
 {
-    const lanes8 factor = lanes8_all(levels << 16 | levels);
-    const lanes8 part = lanes8_mulh16(lanes8_add16(code, lanes8_right16(code, 7)), lanes8_left16(factor, 8));
-    return lanes8_right16(lanes8_add16(lanes8_add16(lanes8_mul16(code, factor), part), threshold), 8);
+    const __m256i turn = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
+    const __m256i zero = _mm256_setzero_si256();
+    const __m256i c = _mm256_shuffle_epi8((__m256i)a, turn), d = _mm256_shuffle_epi8((__m256i)b, turn);
+    const __m256i low = _mm256_unpacklo_epi32(c, d), high = _mm256_unpackhi_epi32(c, d);
+    return (struct planes){ (lanes8)_mm256_unpacklo_epi8(zero, high), (lanes8)_mm256_unpackhi_epi8(zero, low),
+                            (lanes8)_mm256_unpacklo_epi8(zero, low) };
 }
 
-/* Thresholds of sixteen columns in the order of sixteen_of. */
-SMEAR_AVX2_INLINE struct sixteen sixteen_thresholds(__m128i columns)
+/* What sixteen columns add, in the order of planes: steps for 31 levels and for 63, or thresholds. */
+struct steps {
+    lanes8 of_31, of_63;
+};
+
+/* Finds the steps of thresholds of the form 4 k + 2 (smear_dither_steps), of which there are eight. */
+SMEAR_AVX2_INLINE struct steps steps_of(const uint8_t *threshold)
 {
-    const __m128i low = _mm_unpacklo_epi8(columns, columns), high = _mm_unpackhi_epi8(columns, columns);
-    return (struct sixteen){ (lanes8)_mm256_cvtepu8_epi16(low), (lanes8)_mm256_cvtepu8_epi16(high),
-                             (lanes8)_mm256_permute4x64_epi64(_mm256_cvtepu8_epi16(columns), 0xd8) };
+    const __m256i k = _mm256_srli_epi32(_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)threshold)), 2);
+    const __m256i step = (__m256i)lanes8_of_halves(smear_dither_steps, (lanes8)k);
+    const lanes8 both = (lanes8)_mm256_packus_epi32(step, step);
+    return (struct steps){ both, lanes8_right16(both, 1) };
 }
 
-/* Blocks of sixteen columns, the first of which has a number that sixteen divides. Where thresholds repeat, a block that is
- * like the one before it looks like it: flat areas are long. */
-SMEAR_AVX2_INLINE void dithered_avx2(uint16_t *out, const uint32_t *in, int32_t blocks, int32_t x, const uint8_t *threshold,
-                                     int32_t mask, enum row_16bit format)
+SMEAR_AVX2_INLINE struct steps thresholds_of(const uint8_t *threshold)
 {
-    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555, repeats = mask == 7;
-    const __m128i eight = _mm_loadl_epi64((const __m128i *)(const void *)threshold);
-    struct sixteen step = sixteen_thresholds(_mm_unpacklo_epi64(eight, eight));
-    lanes8 last_a = lanes8_all(0), last_b = last_a, pixels = last_a;
-    for (bool first = true; blocks > 0; blocks--, in += 16, out += 16, x += 16) {
-        const lanes8 a = lanes8_load(in), b = lanes8_load(in + 8);
-        if (!repeats)
-            step = sixteen_thresholds(_mm_loadu_si128((const __m128i *)(const void *)(threshold + (x & mask))));
-        if (first || !repeats || lanes8_any((a ^ last_a) | (b ^ last_b))) {
-            struct sixteen k = sixteen_of(a, b);
-            k.low = dithered16(k.low, 31, step.low);
-            k.high = dithered16(k.high, 31, step.high);
-            k.green = dithered16(k.green, is_555 ? 31 : 63, step.green);
-            pixels = pixels_of(k, format);
-            last_a = a;
-            last_b = b;
-            first = false;
-        }
-        lanes8_store(out, pixels);
+    const __m256i columns = _mm256_cvtepu8_epi16(_mm_loadu_si128((const __m128i *)(const void *)threshold));
+    const lanes8 ordered = (lanes8)_mm256_permute4x64_epi64(columns, 0xd8);
+    return (struct steps){ ordered, ordered };
+}
+
+/* Return sums whose upper five or six bits are a level of 31 or 63, of codes 2^8: by a step, as in pixel_rows.c; or level_q16 / 2^8
+ * and any threshold, times what fills a half. */
+SMEAR_AVX2_INLINE lanes8 sums_by_steps(lanes8 upper, bool is_31, struct steps s)
+{
+    return lanes8_add16(lanes8_mulh16(upper, lanes8_all(is_31 ? 0xf900f900u : 0xfd00fd00u)), is_31 ? s.of_31 : s.of_63);
+}
+
+SMEAR_AVX2_INLINE lanes8 sums_by_thresholds(lanes8 upper, bool is_31, struct steps s)
+{
+    const lanes8 factor = lanes8_all(is_31 ? 0x1f001f00u : 0x3f003f00u), code = lanes8_right16(upper, 8);
+    const lanes8 part = lanes8_mulh16(lanes8_add16(code, lanes8_right16(code, 7)), factor);
+    return lanes8_left16(lanes8_add16(lanes8_add16(lanes8_mulh16(upper, factor), part), s.of_31), is_31 ? 3 : 2);
+}
+
+SMEAR_AVX2_INLINE lanes8 sums_of(lanes8 upper, bool is_31, struct steps s, bool by_steps)
+{
+    return by_steps ? sums_by_steps(upper, is_31, s) : sums_by_thresholds(upper, is_31, s);
+}
+
+SMEAR_AVX2_INLINE lanes8 dithered_sixteen(lanes8 a, lanes8 b, struct steps s, bool by_steps, enum row_16bit format)
+{
+    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555;
+    const struct planes k = planes_of(a, b);
+    const lanes8 high = sums_of(is_555 ? k.blue : k.red, true, s, by_steps) & 0xf800f800u;
+    const lanes8 green = sums_of(k.green, is_555, s, by_steps) & (is_555 ? 0xf800f800u : 0xfc00fc00u);
+    const lanes8 low = sums_of(is_555 ? k.red : k.blue, true, s, by_steps);
+    const lanes8 pixels = lanes8_right16(high, is_555 ? 1 : 0) | lanes8_right16(green, is_555 ? 6 : 5) | lanes8_right16(low, 11);
+    const lanes8 ordered = (lanes8)_mm256_permute4x64_epi64((__m256i)pixels, 0xd8);
+    return format == ROW_565_SWAPPED ? lanes8_left16(ordered, 8) | lanes8_right16(ordered, 8) : ordered;
+}
+
+/* Blocks of sixteen columns by eight thresholds of the form 4 k + 2. A block that is like the one before it looks like it:
+ * flat areas are long. */
+SMEAR_AVX2_INLINE void dithered_by_steps(uint16_t *out, const uint32_t *in, int32_t n, const uint8_t *threshold,
+                                         enum row_16bit format)
+{
+    const struct steps step = steps_of(threshold);
+    for (ptrdiff_t i = 0; i < n;) {
+        const lanes8 a = lanes8_load(in + i), b = lanes8_load(in + i + 8);
+        const lanes8 pixels = dithered_sixteen(a, b, step, true, format);
+        do {
+            lanes8_store(out + i, pixels);
+            i += 16;
+        } while (i < n && !lanes8_any((lanes8_load(in + i) ^ a) | (lanes8_load(in + i + 8) ^ b)));
     }
 }
 
-SMEAR_AVX2_FUNCTION void smear_row_dithered_avx2(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
-                                                 int32_t mask, enum row_16bit format)
+/* By any thresholds. */
+SMEAR_AVX2_INLINE void dithered_by_thresholds(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                                              int32_t mask, enum row_16bit format)
 {
-    const int32_t head = min_i32(-x & 15, n), blocks = (n - head) >> 4, done = head + 16 * blocks;
+    for (int32_t i = 0; i < n; i += 16) {
+        const struct steps step = thresholds_of(threshold + ((x + i) & mask));
+        lanes8_store(out + i, dithered_sixteen(lanes8_load(in + i), lanes8_load(in + i + 8), step, false, format));
+    }
+}
+
+static inline const uint8_t *thresholds_in(const struct dithered_rows *r, int32_t i)
+{
+    return r->threshold + ((r->y + i) & r->mask) * (r->mask + 1);
+}
+
+/* Columns from a first one on whose number sixteen divides. */
+SMEAR_AVX2_INLINE void dithered_avx2(const struct dithered_rows *r, int32_t from, int32_t n, enum row_16bit format)
+{
+    uint16_t *out = r->out + from;
+    const uint32_t *in = r->in + from;
+    for (int32_t i = 0; i < r->rows; i++, out += r->out_stride, in += r->in_stride) {
+        if (r->mask == 7)
+            dithered_by_steps(out, in, n, thresholds_in(r, i), format);
+        else
+            dithered_by_thresholds(out, in, n, r->x + from, thresholds_in(r, i), r->mask, format);
+    }
+}
+
+/* Fewer than sixteen columns, at the ends of rows. */
+static SMEAR_NOINLINE void dithered_ends(const struct dithered_rows *r, int32_t from, int32_t n, enum row_16bit format)
+{
+    for (int32_t i = 0; i < r->rows; i++)
+        smear_row_dithered_vector(r->out + i * r->out_stride + from, r->in + i * r->in_stride + from, n, r->x + from,
+                                  thresholds_in(r, i), r->mask, format);
+}
+
+SMEAR_AVX2_FUNCTION void smear_rows_dithered_avx2(const struct dithered_rows *r, enum row_16bit format)
+{
+    const int32_t head = min_i32(-r->x & 15, r->n), whole = (r->n - head) & ~15, done = head + whole;
     if (head != 0)
-        smear_row_dithered_vector(out, in, head, x, threshold, mask, format);
+        dithered_ends(r, 0, head, format);
     if (SMEAR_WITH_RGB && format == ROW_555)
-        dithered_avx2(out + head, in + head, blocks, x + head, threshold, mask, ROW_555);
+        dithered_avx2(r, head, whole, ROW_555);
     else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
-        dithered_avx2(out + head, in + head, blocks, x + head, threshold, mask, ROW_565_SWAPPED);
+        dithered_avx2(r, head, whole, ROW_565_SWAPPED);
     else if (SMEAR_WITH_RGB565)
-        dithered_avx2(out + head, in + head, blocks, x + head, threshold, mask, ROW_565);
-    if (done != n)
-        smear_row_dithered_vector(out + done, in + done, n - done, x + done, threshold, mask, format);
+        dithered_avx2(r, head, whole, ROW_565);
+    if (done != r->n)
+        dithered_ends(r, done, r->n - done, format);
 }
 #endif

@@ -4,8 +4,8 @@
 
 #include "tests/kernels/kernels.h"
 
-/* Words of a call: the first column, the layout, whether L4 is dithered, eight thresholds. */
-enum { X, LAYOUT, IS_DITHERED, THRESHOLDS, WIDTH = 8 };
+/* Words of a call: the first column, the layout, whether L4 is dithered, eight thresholds, the first row. */
+enum { X, LAYOUT, IS_DITHERED, THRESHOLDS, WIDTH = 8, Y = THRESHOLDS + WIDTH };
 
 static void xrgb8888_reference(struct kernel_call *c) { row_xrgb8888_reference(c->plane[0], c->plane[1], c->n); }
 #if SMEAR_VECTORS
@@ -72,8 +72,8 @@ static void dithered_vector(struct kernel_call *c)
 #if SMEAR_AVX2
 static void dithered_avx2(struct kernel_call *c)
 {
-    smear_row_dithered_avx2(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
-                            (enum row_16bit)c->word[LAYOUT]);
+    const struct dithered_rows row = { c->plane[0], c->plane[1], 0, 0, 1, c->n, (int32_t)c->word[X], 0, thresholds(c), WIDTH - 1 };
+    smear_rows_dithered_avx2(&row, (enum row_16bit)c->word[LAYOUT]);
 }
 #endif
 
@@ -107,10 +107,30 @@ static void blue_vector(struct kernel_call *c)
 #if SMEAR_AVX2
 static void blue_avx2(struct kernel_call *c)
 {
-    smear_row_dithered_avx2(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], many_thresholds(c), 31,
-                            (enum row_16bit)c->word[LAYOUT]);
+    const struct dithered_rows row = { c->plane[0], c->plane[1], 0, 0, 1, c->n, (int32_t)c->word[X], 0, many_thresholds(c), 31 };
+    smear_rows_dithered_avx2(&row, (enum row_16bit)c->word[LAYOUT]);
 }
 #endif
+#endif
+
+#if SMEAR_AVX2
+/* Three rows of a third of the pixels each. */
+static void rows_reference(struct kernel_call *c)
+{
+    const int32_t width = c->n / 3;
+    for (int32_t i = 0; i < 3; i++)
+        row_dithered_reference((uint16_t *)c->plane[0] + i * width, (const uint32_t *)c->plane[1] + i * width, width,
+                               (int32_t)c->word[X], smear_dither_ordered + ((((int32_t)c->word[Y] & 15) + i) & 7) * 8, 7,
+                               (enum row_16bit)c->word[LAYOUT]);
+}
+
+static void rows_avx2(struct kernel_call *c)
+{
+    const int32_t width = c->n / 3;
+    const struct dithered_rows rows = { c->plane[0], c->plane[1], width, width, 3, width, (int32_t)c->word[X],
+                                        (int32_t)c->word[Y] & 15, smear_dither_ordered, 7 };
+    smear_rows_dithered_avx2(&rows, (enum row_16bit)c->word[LAYOUT]);
+}
 #endif
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. */
@@ -181,6 +201,10 @@ const struct kernel kernels_pixel_rows[] = {
                 { "avx2", blue_avx2 },
 #endif
       } },
+#endif
+#if SMEAR_AVX2
+    { .name = "rows_dithered", .most = 201, .size = { 2, 4 }, .prepare = prepare_dithered,
+      .form = { { "reference", rows_reference }, { "avx2", rows_avx2 } } },
 #endif
     { .name = "row_l4", .most = 67, .size = { 1, 4 }, .prepare = prepare_l4,
       .form = { { "reference", l4_reference },
