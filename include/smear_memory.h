@@ -73,14 +73,20 @@
                                       : (size_t)(T), \
                SMEAR_PARTS_(w, T) * (size_t)(T))
 
+/* Bands of sharp frames whose tile is the default, too. */
+#define SMEAR_BAND_ROWS_(m, w, h, r, T) \
+    ((T) != 0 || SMEAR_HAS_TILES_(m) || sizeof(void *) < 8 ? 0u : SMEAR_HIGH_BAND_(h, SMEAR_TILE_OF_(m, w, r, T)))
+#define SMEAR_HIGH_BAND_(h, T) SMEAR_MIN_(SMEAR_PARTS_(h, 4 * (T)) * (size_t)(T), 64u)
+
 #define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
     SMEAR_MEMORY_1_(w, h, SMEAR_OR_(t, 1024u), SMEAR_OR_(d, 16u), SMEAR_SET_OF_(m), T, \
                     SMEAR_REACH_OF_(SMEAR_SET_OF_(m), h, r), s, b, SMEAR_OR_(n, 1u), f, SMEAR_OR_(k, 1u), \
                     SMEAR_OR_(v, 64u), c, a, p, o, q, z)
 #define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
-    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, b, n, f, k, v, c, a, p, o, q, z)
+    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, \
+                    SMEAR_OR_((size_t)(b), SMEAR_BAND_ROWS_(m, w, h, r, T)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
-    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, T), n, f, k, v, c, a, p, o, q, z)
+    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, (size_t)(T)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
     (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \

@@ -118,6 +118,10 @@ static int32_t tile_above(int32_t px)
     return px <= 8 ? 8 : px <= 16 ? 16 : px <= 32 ? 32 : 64;
 }
 
+/* Where memory is plenty and a desc says nothing, bands that need not be tiles are a quarter of the frame in whole tiles, up to
+ * 64 rows: fewer triangles lie in several of them. SMEAR_BAND_ROWS_ has the same. */
+enum { HAS_HIGH_BANDS = sizeof(void *) >= 8 };
+
 static int resolve_tile(smear_desc *d)
 {
     const bool reaches = has_reach(d);
@@ -127,8 +131,11 @@ static int resolve_tile(smear_desc *d)
         d->reach = (int16_t)clamp_i32(d->height * 5 / 100, 1, 64);
     if (d->reach < 0 || d->reach > 64)
         return FAULT(DESC_REACH);
-    if (d->tile == 0)
+    if (d->tile == 0) {
         d->tile = (int16_t)(reaches ? tile_above(d->reach) : min_i32(tile_above((d->width + 19) / 20), 32));
+        if (HAS_HIGH_BANDS && !has_tiles(d) && d->band_rows == 0)
+            d->band_rows = (int16_t)min_i32((d->height + 4 * d->tile - 1) / (4 * d->tile) * d->tile, 64);
+    }
     const bool may_be_4 = !d->filter.scatter && !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
     if (!is_power_of_two((uint32_t)d->tile) || d->tile < (may_be_4 ? 4 : 8) || d->tile > 64
         || (d->tile < d->reach && !d->filter.scatter))
