@@ -5,6 +5,7 @@
 
 #include "kernels/texel_lit.h"
 #include "kernels/texel_rows.h"
+#include "kernels/wrapped_axis.h"
 
 #if SMEAR_AVX2
 
@@ -15,6 +16,19 @@ SMEAR_AVX2_INLINE __m256i texels_all(int32_t a)
     __asm__("" : "+x"(lanes));
     return lanes;
 }
+
+/* How many texels q16 a ratio has. */
+struct ratio_lanes {
+    lanes8i scale;
+    __m128i up, down;
+};
+
+/* A picture that wraps. */
+struct wrap_lanes {
+    struct wrapped_axis across, down;
+    lanes8i width;
+    struct ratio_lanes u, v;
+};
 
 /* What all pixels of a triangle have in common. */
 struct texel_lanes {
@@ -27,6 +41,7 @@ struct texel_lanes {
     ptrdiff_t stride;
     bool narrow;
     struct lit_lanes lit;
+    struct wrap_lanes wrap;
 };
 
 /* A row. */
@@ -39,26 +54,56 @@ struct row_lanes {
 };
 
 /* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn, but those of 16 bits alone in usual
- * light (lights_are_usual). */
-enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT, LOOK_LIT_USUAL };
+ * light (lights_are_usual). Wrapped ones are lit, too. */
+enum look { LOOK_WIDE, LOOK_NARROW, LOOK_LIT, LOOK_LIT_USUAL, LOOK_WRAPPED };
+
+SMEAR_AVX2_INLINE bool look_is_lit(enum look look) { return look >= LOOK_LIT; }
 
 SMEAR_AVX2_INLINE bool look_is_narrow(const struct texel_lanes *k, enum look look)
 {
-    return look == LOOK_LIT ? k->narrow : look != LOOK_WIDE;
+    return look == LOOK_LIT || look == LOOK_WRAPPED ? k->narrow : look != LOOK_WIDE;
 }
 
-SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, struct light_lanes *blocks, enum look look)
+/* Shifts that make an index. */
+SMEAR_AVX2_INLINE void lanes_turns(struct texel_lanes *k, const struct texel_rows *t, int pairs)
 {
-    const int pairs = look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look != LOOK_WIDE;
-    k->texels = t->texels;
-    k->narrow = t->narrow;
-    if (look == LOOK_LIT || look == LOOK_LIT_USUAL)
-        lit_start(&k->lit, t->lights, blocks, look == LOOK_LIT_USUAL);
     k->u_down = _mm256_set1_epi32(32 - t->log2_width + pairs);
     k->v_down = _mm256_set1_epi32(32 - t->log2_height - t->log2_width + pairs);
     k->v_mask = _mm256_set1_epi32((int32_t)(((1u << t->log2_height) - 1u) << (t->log2_width - pairs)));
     k->odd_down = _mm256_set1_epi32(28 - t->log2_width);
     k->half = texels_all(16);
+}
+
+SMEAR_AVX2_INLINE struct ratio_lanes ratio_start(int32_t scale, int shift)
+{
+    return (struct ratio_lanes){ lanes8i_all(scale), _mm_cvtsi32_si128(max_i32(shift, 0)), _mm_cvtsi32_si128(max_i32(-shift, 0)) };
+}
+
+/* As wrapped_texel. */
+SMEAR_AVX2_INLINE __m256i ratio_texels(const struct ratio_lanes *k, __m256i ratio)
+{
+    return _mm256_sra_epi32(_mm256_sll_epi32((__m256i)lanes8i_mulh((lanes8i)ratio, k->scale), k->up), k->down);
+}
+
+SMEAR_AVX2_INLINE void lanes_wraps(struct wrap_lanes *k, const struct texel_wraps *w)
+{
+    k->u = ratio_start(w->scale[0], w->shift[0]);
+    k->v = ratio_start(w->scale[1], w->shift[1]);
+    k->across = wrapped_axis_make(w->size[0], w->wrap[0]);
+    k->down = wrapped_axis_make(w->size[1], w->wrap[1]);
+    k->width = lanes8i_all(w->size[0]);
+}
+
+SMEAR_AVX2_INLINE void lanes_start(struct texel_lanes *k, const struct texel_rows *t, struct light_lanes *blocks, enum look look)
+{
+    k->texels = t->texels;
+    k->narrow = t->narrow;
+    if (look_is_lit(look))
+        lit_start(&k->lit, t->lights, blocks, look == LOOK_LIT_USUAL);
+    if (look == LOOK_WRAPPED)
+        lanes_wraps(&k->wrap, t->wraps);
+    else
+        lanes_turns(k, t, look == LOOK_LIT ? t->lights->format == SMEAR_TEXEL_565 : look != LOOK_WIDE);
     k->x_most = t->x1 - 16;
     k->x_most8 = t->x1 - 8;
     k->color = t->color;
@@ -109,6 +154,25 @@ SMEAR_AVX2_INLINE struct lit_pairs lit_8(const struct texel_lanes *k, const stru
     return lit_texels(&k->lit, texel, x, r->row);
 }
 
+/* The same of a picture that wraps, at coordinates in texels q16. Halves and bytes are read with what lies before them, or with
+ * what comes after the first. */
+SMEAR_AVX2_INLINE struct lit_pairs lit_8_wrapped(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, lanes8 u, lanes8 v)
+{
+    const lanes8i index = wrapped_axis_index(&k->wrap.down, v) * k->wrap.width + wrapped_axis_index(&k->wrap.across, u);
+    lanes8 texel;
+    if (k->lit.format == SMEAR_TEXEL_565) {
+        texel = lanes8_gather_upper_from_0(k->texels, index) >> 16;
+    } else if (k->lit.format == SMEAR_TEXEL_8888) {
+        texel = lanes8_gather(k->texels, index);
+    } else {
+        const lanes8i from = lanes8i_max(index - 3, lanes8i_all(0));
+        const lanes8 word = (lanes8)_mm256_i32gather_epi32((const int *)k->texels, (__m256i)from, 1);
+        const lanes8 byte = lanes8_right(word, (index - from) << 3) & 255u;
+        texel = lanes8_gather(k->lit.palette, (lanes8i)byte);
+    }
+    return lit_texels(&k->lit, (__m256i)texel, x, r->row);
+}
+
 SMEAR_AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
 {
     __m256i_u *const color = (__m256i_u *)((uint32_t *)r->color + x);
@@ -134,8 +198,8 @@ SMEAR_AVX2_INLINE void put_usual_8(const struct texel_lanes *k, const struct row
 SMEAR_AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes *r, int32_t x, __m256i u, __m256i v, __m128i hidden,
                              enum look look)
 {
-    if (look == LOOK_LIT) {
-        const struct lit_pairs p = lit_8(k, r, x, u, v);
+    if (look_is_lit(look)) {
+        const struct lit_pairs p = look == LOOK_WRAPPED ? lit_8_wrapped(k, r, x, (lanes8)u, (lanes8)v) : lit_8(k, r, x, u, v);
         if (k->narrow)
             put_narrow_8(r, x, lit_narrow(p), hidden);
         else

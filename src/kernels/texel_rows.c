@@ -1,10 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_rows.c - places of eight blocks at once, then sixteen pixels of a block, or eight. */
-#include "kernels/texel_lanes.h"
+#include "kernels/place_lanes.h"
+#include "kernels/wrapped_run.h"
 
 #if SMEAR_AVX2
 
 /* ------------------------------------------------------------------ references */
+
+/* Of coordinates in texels q16. */
+static uint32_t wrapped_texel_index(const struct texel_wraps *w, uint64_t uv)
+{
+    return (uint32_t)(wrapped_index((int32_t)(uv >> 32) >> 16, w->size[1], w->wrap[1]) * w->size[0]
+                      + wrapped_index((int32_t)uv >> 16, w->size[0], w->wrap[0]));
+}
+
+/* The texels q16 of a ratio q29 across (axis 0) or down. */
+static int32_t wrapped_texel(const struct texel_wraps *w, int axis, int32_t ratio)
+{
+    const int32_t texels = mulh_i32(ratio, w->scale[axis]), shift = w->shift[axis];
+    return shift >= 0 ? shl_wrap(texels, shift) : texels >> -shift;
+}
 
 static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, uint32_t z, uint64_t uv, const uint32_t light[3])
 {
@@ -14,7 +29,7 @@ static void pixel_reference(const struct texel_rows *t, int32_t row, int32_t x, 
         texel_pixel(color, t->depth + at, z, t->texels, NULL, uv, t->log2_width, t->log2_height,
                     t->narrow ? TEXELS_NARROW : TEXELS_WIDE);
     } else if (z >> 16 > t->depth[at]) {
-        const uint32_t index = packed_index(uv, t->log2_width, t->log2_height);
+        const uint32_t index = t->wraps != NULL ? wrapped_texel_index(t->wraps, uv) : packed_index(uv, t->log2_width, t->log2_height);
         const uint32_t pixel = lit_texel_reference(
             t->lights, texel_fetch(t->texels, t->lights->palette, index, t->lights->format), light);
         t->depth[at] = (uint16_t)(z >> 16);
@@ -30,11 +45,14 @@ static void draw_reference(const struct texel_rows *t, const struct texel_spans 
                            int32_t a, int32_t b, bool single)
 {
     uint32_t light[3] = { 0, 0, 0 };
+    uint64_t uv = packed_uv(c.u, c.v), step = packed_step(c.du, c.dv);
     for (; x < b; x++) {
         if (x >= a && t->lights != NULL)
             light_planes_at(light, &t->lights->planes, s->left[i], s->right[i], single ? 1 : t->lights->planes.block, x, s->row[i]);
         if (x >= a)
-            pixel_reference(t, s->row[i], x, s->z[i] + s->dz[i] * (uint32_t)x, packed_uv(c.u, c.v), light);
+            pixel_reference(t, s->row[i], x, s->z[i] + s->dz[i] * (uint32_t)x, t->wraps != NULL ? uv : packed_uv(c.u, c.v), light);
+        uv += step;
+        step -= packed_step(c.curvature_u, c.curvature_v);
         c.u += c.du;
         c.v += c.dv;
         c.du -= c.curvature_u;
@@ -42,10 +60,17 @@ static void draw_reference(const struct texel_rows *t, const struct texel_spans 
     }
 }
 
-static struct place place_reference(const struct texel_planes *p, int32_t x, int32_t row)
+static struct place place_reference(const struct texel_rows *t, const struct texel_planes *p, int32_t x, int32_t row)
 {
     const int32_t q = texel_plane_at(&p->q, x, row), u = texel_plane_at(&p->u, x, row), v = texel_plane_at(&p->v, x, row);
-    return p->divided ? place_divided(q, u, v, p->slope, p->parabolic) : (struct place){ u, v, 0 };
+    if (!p->divided)
+        return (struct place){ u, v, 0 };
+    struct place here = place_divided(q, u, v, p->slope, p->parabolic);
+    if (t->wraps != NULL) {
+        here.u = wrapped_texel(t->wraps, 0, shl_wrap(here.u, 2));
+        here.v = wrapped_texel(t->wraps, 1, shl_wrap(here.v, 2));
+    }
+    return here;
 }
 
 void smear_texel_rows_places_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_planes *p)
@@ -54,7 +79,7 @@ void smear_texel_rows_places_reference(const struct texel_rows *t, const struct 
         const int32_t left = s->left[i], last = s->right[i] - 1, row = s->row[i];
         if (p->block == 1 || last - left < SHORT_SPAN) {
             for (int32_t x = s->a[i]; x < s->b[i]; x++) {
-                const struct place here = place_reference(p, x, row);
+                const struct place here = place_reference(t, p, x, row);
                 const struct texcoord c = { (uint32_t)here.u << p->up, (uint32_t)here.v << p->up, 0, 0, 0, 0 };
                 draw_reference(t, s, i, c, x, x, x + 1, true);
             }
@@ -62,8 +87,8 @@ void smear_texel_rows_places_reference(const struct texel_rows *t, const struct 
         }
         for (int32_t x = block_start(left, last, s->a[i], p->block), n; x < last; x += n) {
             n = block_next(p->block, last - x);
-            const struct texcoord c = places_between(place_reference(p, x, row), place_reference(p, x + n, row), n, p->up,
-                                                     p->parabolic, true);
+            const struct texcoord c = places_between(place_reference(t, p, x, row), place_reference(t, p, x + n, row), n, p->up,
+                                                     p->parabolic, t->wraps == NULL);
             draw_reference(t, s, i, c, x, s->a[i], min_i32(x + n + (x + n == last), s->b[i]), false);
         }
     }
@@ -80,18 +105,40 @@ static struct texcoord curve_reference(const struct texel_curves *p, int32_t col
     };
 }
 
+/* In texels. */
+static struct texcoord wrapped_curve_reference(const struct texel_wraps *w, const struct texel_curves *p, int32_t column, int32_t row)
+{
+    const struct texcoord c = curve_reference(p, column, row);
+    return (struct texcoord){
+        (uint32_t)wrapped_texel(w, 0, (int32_t)c.u), (uint32_t)wrapped_texel(w, 1, (int32_t)c.v),
+        (uint32_t)wrapped_texel(w, 0, (int32_t)c.du), (uint32_t)wrapped_texel(w, 1, (int32_t)c.dv),
+        (uint32_t)wrapped_texel(w, 0, (int32_t)c.curvature_u), (uint32_t)wrapped_texel(w, 1, (int32_t)c.curvature_v)
+    };
+}
+
+static void wrapped_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p)
+{
+    for (int32_t i = 0; i < s->count; i++) {
+        const int32_t left = s->left[i], last = s->right[i] - 1, row = s->row[i];
+        for (int32_t x = block_start(left, last, s->a[i], p->block), end; x < s->b[i]; x = end) {
+            end = x + block_next(p->block, last - x);
+            end += end == last;
+            draw_reference(t, s, i, wrapped_curve_reference(t->wraps, p, x, row), x, s->a[i], min_i32(end, s->b[i]), false);
+        }
+    }
+}
+
 void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p)
 {
+    if (t->wraps != NULL) {
+        wrapped_curves_reference(t, s, p);
+        return;
+    }
     for (int32_t i = 0; i < s->count; i++)
         draw_reference(t, s, i, curve_reference(p, s->a[i], s->row[i]), s->a[i], s->a[i], s->b[i], false);
 }
 
 /* ------------------------------------------------------------------ pixels */
-
-/* Coordinates of a block's pixel 0, and how they change. */
-struct block_lanes {
-    int32_t u[8], v[8], du[8], dv[8], ddu[8], ddv[8];
-};
 
 SMEAR_AVX2_INLINE __m256i evens_of_16(void) { return _mm256_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14); }
 SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *k, const struct texel_spans *s, int32_t i,
@@ -112,7 +159,7 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
 /* Begins the blocks of light, if there are any. */
 SMEAR_AVX2_INLINE void texels_row_light(const struct texel_lanes *k, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
 {
-    if (look == LOOK_LIT && k->lit.blocks != NULL)
+    if (look_is_lit(look) && k->lit.blocks != NULL)
         light_row(k->lit.blocks, s->left[i], s->right[i], block, s->row[i]);
 }
 
@@ -200,11 +247,37 @@ SMEAR_AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16
     return true;
 }
 
+/* Coordinates u and v of eight pixels that are stepped together, as packed_uv and packed_step have them, from pixel i of a block
+ * on. Pixels 0 1 4 5 of these are found first. */
+SMEAR_AVX2_INLINE void lanes_together(const struct block_lanes *c, int32_t block, int32_t i, __m256i *u, __m256i *v)
+{
+    const uint64_t change = packed_step((uint32_t)c->ddu[block], (uint32_t)c->ddv[block]), number = (uint64_t)(int64_t)i;
+    uint64_t step = packed_step((uint32_t)c->du[block], (uint32_t)c->dv[block]);
+    uint64_t at = packed_uv((uint32_t)c->u[block], (uint32_t)c->v[block]);
+    if (i != 0) {
+        at += step * number + change * (number * (number - 1) >> 1);
+        step += change * number;
+    }
+    const uint64_t two = 2 * step + change, four = at + 2 * two + 4 * change;
+    const __m256i first = _mm256_setr_epi64x((int64_t)at, (int64_t)(at + step), (int64_t)four, (int64_t)(four + step + 4 * change));
+    const __m256i on = _mm256_setr_epi64x((int64_t)two, (int64_t)(two + 2 * change), (int64_t)(two + 8 * change),
+                                          (int64_t)(two + 10 * change));
+    const __m256 a = _mm256_castsi256_ps(first), b = _mm256_castsi256_ps(_mm256_add_epi64(first, on));
+    *u = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0x88));
+    *v = _mm256_castps_si256(_mm256_shuffle_ps(a, b, 0xdd));
+}
+
 /* Writes eight pixels from x on, pixel x being number i of its block, where they are not hidden. */
 SMEAR_AVX2_INLINE void put_block_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
                                    int32_t x, int32_t i, __m128i hidden, enum look look)
 {
     __m256i lane = first_8(), pairs = _mm256_setr_epi32(0, 0, 1, 3, 6, 10, 15, 21);
+    if (look == LOOK_WRAPPED) {
+        __m256i u, v;
+        lanes_together(c, block, i, &u, &v);
+        put_8(k, r, x, u, v, hidden, look);
+        return;
+    }
     if (i != 0) {
         lane = _mm256_add_epi32(lane, _mm256_set1_epi32(i));
         pairs = pairs_of(lane);
@@ -269,145 +342,6 @@ SMEAR_AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_
 
 /* ------------------------------------------------------------------ places */
 
-struct plane_lanes {
-    __m256i at, dx, dy;
-};
-
-struct place_lanes {
-    __m256i u, v, nearness;
-};
-
-/* What places of a triangle have in common. */
-struct planes_lanes {
-    struct plane_lanes q, u, v;
-    __m256i slope;
-    __m128i up;
-    bool divided, parabolic;
-    __m256i least_q, first_up, exponent, seed, half, low, one, turns, center;       /* numbers of recip_norm and others */
-};
-
-SMEAR_AVX2_INLINE struct plane_lanes plane_start(const struct texel_plane *p)
-{
-    return (struct plane_lanes){ _mm256_set1_epi32(p->at), _mm256_set1_epi32(p->dx), _mm256_set1_epi32(p->dy) };
-}
-
-SMEAR_AVX2_INLINE void planes_start(struct planes_lanes *k, const struct texel_planes *p)
-{
-    k->q = plane_start(&p->q);
-    k->u = plane_start(&p->u);
-    k->v = plane_start(&p->v);
-    k->slope = _mm256_set1_epi32(p->slope);
-    k->up = _mm_cvtsi32_si128(p->up);
-    k->divided = p->divided;
-    k->parabolic = p->parabolic;
-    k->least_q = texels_all(1 << 11);
-    k->exponent = texels_all(158);
-    k->first_up = texels_all(157);
-    k->seed = texels_all(255);
-    k->half = texels_all(16);
-    k->low = texels_all(0xffff);
-    k->one = texels_all(INT32_MIN);
-    k->turns = texels_all(~255);
-    k->center = texels_all(128);
-}
-
-SMEAR_AVX2_INLINE __m256i plane_lanes_at(const struct plane_lanes *p, __m256i x, __m256i row)
-{
-    return _mm256_add_epi32(p->at, _mm256_add_epi32(_mm256_mullo_epi32(p->dx, x), _mm256_mullo_epi32(p->dy, row)));
-}
-
-/* As mulh_i32. */
-SMEAR_AVX2_INLINE __m256i mulh_lanes(__m256i a, __m256i b)
-{
-    const __m256i even = _mm256_mul_epi32(a, b), odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(b, 32));
-    return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
-}
-
-/* As part_by. */
-SMEAR_AVX2_INLINE __m256i part_lanes(__m256i a, __m256i part)
-{
-    const __m256i even = _mm256_mul_epi32(a, part);
-    const __m256i odd = _mm256_mul_epi32(_mm256_srli_epi64(a, 32), _mm256_srli_epi64(part, 32));
-    return _mm256_blend_epi32(_mm256_srli_epi64(even, 16), _mm256_slli_epi64(odd, 16), 0xaa);
-}
-
-/* 158 less count_leading_zeros: a float's exponent, of a number without what would round it up to a power of two. */
-SMEAR_AVX2_INLINE __m256i exponent_lanes(__m256i a)
-{
-    const __m256i cut = _mm256_andnot_si256(_mm256_srli_epi32(a, 8), a);
-    return _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps(cut)), 23);
-}
-
-/* As recip_norm. Seeds are gathered in pairs. */
-SMEAR_AVX2_INLINE __m256i recip_lanes(const struct planes_lanes *k, __m256i m)
-{
-    const __m256i index = _mm256_and_si256(_mm256_srli_epi32(m, 23), k->seed);
-    const __m256i second = _mm256_and_si256(_mm256_srli_epi32(m, 18), k->half);
-    const __m256i pair = _mm256_i32gather_epi32((const int *)(const void *)smear_recip_seed, index, 4);
-    const __m256i r = _mm256_and_si256(_mm256_srlv_epi32(pair, second), k->low);
-    const __m256i error = _mm256_sub_epi32(k->one, _mm256_mullo_epi32(_mm256_srli_epi32(m, 11), r));
-    return _mm256_add_epi32(_mm256_slli_epi32(r, 19),
-                            _mm256_srai_epi32(_mm256_mullo_epi32(r, _mm256_srai_epi32(error, 4)), 8));
-}
-
-SMEAR_AVX2_INLINE struct place_lanes places_at(const struct planes_lanes *k, __m256i x, __m256i row)
-{
-    struct place_lanes p = { plane_lanes_at(&k->u, x, row), plane_lanes_at(&k->v, x, row), _mm256_setzero_si256() };
-    if (!k->divided)
-        return p;
-    const __m256i d = _mm256_max_epi32(plane_lanes_at(&k->q, x, row), k->least_q), exponent = exponent_lanes(d);
-    const __m256i r = recip_lanes(k, _mm256_sllv_epi32(d, _mm256_sub_epi32(k->exponent, exponent)));
-    const __m256i up = _mm256_sub_epi32(k->first_up, exponent);
-    p.u = mulh_lanes(_mm256_sllv_epi32(_mm256_srai_epi32(p.u, 1), up), r);
-    p.v = mulh_lanes(_mm256_sllv_epi32(_mm256_srai_epi32(p.v, 1), up), r);
-    if (k->parabolic)
-        p.nearness = _mm256_srav_epi32(mulh_lanes(k->slope, r), _mm256_sub_epi32(exponent, _mm256_set1_epi32(138)));
-    return p;
-}
-
-/* Takes the last lane of `before`, then seven of a. */
-SMEAR_AVX2_INLINE __m256i lanes_before(__m256i before, __m256i a)
-{
-    return _mm256_alignr_epi8(a, _mm256_permute2x128_si256(before, a, 0x21), 12);
-}
-
-/* 2^16 / n for n up to 16, 32 and 64, which come next. */
-static const int32_t lane_inverse[19] = {
-    0, 65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192, 7282, 6554, 5958, 5461, 5041, 4681, 4369, 4096, 2048, 1024
-};
-
-SMEAR_AVX2_INLINE void store_lanes(int32_t *out, __m256i a) { _mm256_storeu_si256((__m256i_u *)out, a); }
-
-/* As places_between, of one coordinate. */
-SMEAR_AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from, __m256i to, __m256i n, __m256i part, __m256i rate,
-                                     __m256i mask, int32_t *step, int32_t *change)
-{
-    __m256i d = part_lanes(_mm256_sub_epi32(to, from), part);
-    if (k->parabolic) {
-        const __m256i b = _mm256_srai_epi32(_mm256_mullo_epi32(_mm256_srai_epi32(d, 10), rate), 5);
-        const __m256i more = _mm256_mullo_epi32(b, _mm256_sub_epi32(n, _mm256_set1_epi32(1)));
-        d = _mm256_add_epi32(d, _mm256_srai_epi32(more, 1));
-        store_lanes(change, _mm256_sub_epi32(_mm256_setzero_si256(), _mm256_and_si256(_mm256_sll_epi32(b, k->up), mask)));
-    }
-    store_lanes(step, _mm256_and_si256(_mm256_sll_epi32(d, k->up), mask));
-}
-
-/* The coordinates of eight blocks that end at `ends`, n pixels long; the places where they begin and end. */
-SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k, __m256i n, struct place_lanes before,
-                                   struct place_lanes to)
-{
-    const struct place_lanes from = { lanes_before(before.u, to.u), lanes_before(before.v, to.v),
-                                      lanes_before(before.nearness, to.nearness) };
-    const __m256i number = _mm256_min_epi32(n, _mm256_add_epi32(_mm256_srli_epi32(n, 5), k->half));
-    const __m256i part = _mm256_i32gather_epi32((const int *)lane_inverse, number, 4);
-    const __m256i nearness = _mm256_add_epi32(from.nearness, to.nearness);
-    const __m256i rate = _mm256_srai_epi32(_mm256_add_epi32(nearness, _mm256_set1_epi32(2)), 1);
-    between_lanes(k, from.u, to.u, n, part, rate, _mm256_set1_epi32(-1), c->du, c->ddu);
-    between_lanes(k, from.v, to.v, n, part, rate, k->turns, c->dv, c->ddv);
-    store_lanes(c->u, _mm256_sll_epi32(from.u, k->up));
-    store_lanes(c->v, _mm256_or_si256(_mm256_and_si256(_mm256_sll_epi32(from.v, k->up), k->turns), k->center));
-}
-
 /* A place for each pixel. */
 SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
                                      int32_t row, int32_t a, int32_t b, enum look look)
@@ -418,7 +352,7 @@ SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct r
         __m128i hidden;
         if (!test_8(r, x, mask, &hidden))
             continue;
-        const struct place_lanes p = places_at(planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), _mm256_set1_epi32(row));
+        const struct place_lanes p = places_of(k, planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), _mm256_set1_epi32(row), look);
         put_8(k, r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, look);
     }
 }
@@ -453,8 +387,8 @@ SMEAR_AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct r
         x = ends_make(end + 1, x, last, block, j == 1);
         const __m256i ends = _mm256_loadu_si256((const __m256i_u *)(end + 1));
         const __m256i n = _mm256_sub_epi32(ends, _mm256_loadu_si256((const __m256i_u *)end));
-        const struct place_lanes places = places_at(planes, ends, row);
-        blocks_make(c, planes, n, before, places);
+        const struct place_lanes places = places_of(k, planes, ends, row, look);
+        blocks_make(c, planes, n, before, places, look);
         before = places;
         for (; j < 8; j++) {
             const int32_t stop = end[j + 1] + (end[j + 1] == last);
@@ -491,7 +425,9 @@ SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct t
 SMEAR_AVX2_FUNCTION void smear_texel_rows_places_avx2(const struct texel_rows *t, const struct texel_spans *s,
                                                       const struct texel_planes *p)
 {
-    if (t->lights != NULL)
+    if (t->wraps != NULL)
+        rows_of_places(t, s, p, LOOK_WRAPPED);
+    else if (t->lights != NULL)
         rows_of_places(t, s, p, LOOK_LIT);
     else if (t->narrow)
         rows_of_places(t, s, p, LOOK_NARROW);
@@ -516,13 +452,13 @@ SMEAR_AVX2_INLINE void curve_start(struct curve_lanes *k, const struct texel_cur
 }
 
 /* Values at eight places, and steps to the right of them. */
-SMEAR_AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, int32_t *value, int32_t *step)
+SMEAR_AVX2_INLINE void curve_at(const struct curve_lanes *k, __m256i x, __m256i y, __m256i *value, __m256i *step)
 {
     const __m256i along = _mm256_mullo_epi32(k->dxx, x), dx = _mm256_add_epi32(k->dx, _mm256_mullo_epi32(k->dxy, y));
     const __m256i down = _mm256_mullo_epi32(_mm256_add_epi32(k->dy, _mm256_mullo_epi32(k->dyy, y)), y);
     const __m256i right = _mm256_mullo_epi32(_mm256_add_epi32(dx, along), x);
-    store_lanes(value, _mm256_add_epi32(k->at, _mm256_add_epi32(down, right)));
-    store_lanes(step, _mm256_add_epi32(dx, _mm256_add_epi32(_mm256_add_epi32(along, along), k->dxx)));
+    *value = _mm256_add_epi32(k->at, _mm256_add_epi32(down, right));
+    *step = _mm256_add_epi32(dx, _mm256_add_epi32(_mm256_add_epi32(along, along), k->dxx));
 }
 
 SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p, enum look look)
@@ -539,8 +475,13 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
     for (int32_t i = 0; i < s->count; i += 8) {
         const __m256i x = _mm256_sub_epi32(_mm256_loadu_si256((const __m256i_u *)(s->a + i)), _mm256_set1_epi32(p->x0));
         const __m256i y = _mm256_sub_epi32(_mm256_loadu_si256((const __m256i_u *)(s->row + i)), _mm256_set1_epi32(p->y0));
-        curve_at(&u, x, y, c.u, c.du);
-        curve_at(&v, x, y, c.v, c.dv);
+        __m256i at, step;
+        curve_at(&u, x, y, &at, &step);
+        store_lanes(c.u, at);
+        store_lanes(c.du, step);
+        curve_at(&v, x, y, &at, &step);
+        store_lanes(c.v, at);
+        store_lanes(c.dv, step);
         const int32_t count = min_i32(s->count - i, 8);
         for (int32_t j = 0; j < count; j++) {
             struct row_lanes r;
@@ -552,10 +493,58 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
     }
 }
 
+/* Blocks of a row, from that of pixel a on. */
+SMEAR_AVX2_INLINE void row_of_wrapped_curves(const struct texel_lanes *k, const struct row_lanes *r, const struct curve_lanes of[2],
+                                             struct block_lanes *c, const struct texel_spans *s, int32_t i, const struct texel_curves *p)
+{
+    const int32_t last = s->right[i] - 1, a = s->a[i], b = s->b[i], block = p->block;
+    const __m256i numbers = _mm256_mullo_epi32(first_8(), _mm256_set1_epi32(block)), y = _mm256_set1_epi32(s->row[i] - p->y0);
+    for (int32_t start = block_start(s->left[i], last, a, block), j = 8;; start += block, j++) {
+        if (j == 8) {
+            const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(start - p->x0), numbers);
+            __m256i at, step;
+            curve_at(&of[0], x, y, &at, &step);
+            store_lanes(c->u, ratio_texels(&k->wrap.u, at));
+            store_lanes(c->du, ratio_texels(&k->wrap.u, step));
+            curve_at(&of[1], x, y, &at, &step);
+            store_lanes(c->v, ratio_texels(&k->wrap.v, at));
+            store_lanes(c->dv, ratio_texels(&k->wrap.v, step));
+            j = 0;
+        }
+        int32_t stop = start + block_next(block, last - start);
+        stop += stop == last;
+        draw_block(k, r, c, j, start, max_i32(start, a), min_i32(stop, b), LOOK_WRAPPED, false);
+        if (stop >= b)
+            return;
+    }
+}
+
+SMEAR_AVX2_INLINE void rows_of_wrapped_curves(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p)
+{
+    struct texel_lanes k;
+    struct light_lanes blocks;
+    struct curve_lanes of[2];
+    struct block_lanes c;
+    const __m256i zero = _mm256_setzero_si256();
+    lanes_start(&k, t, &blocks, LOOK_WRAPPED);
+    curve_start(&of[0], &p->u);
+    curve_start(&of[1], &p->v);
+    store_lanes(c.ddu, _mm256_sub_epi32(zero, ratio_texels(&k.wrap.u, _mm256_slli_epi32(_mm256_sub_epi32(zero, of[0].dxx), 1))));
+    store_lanes(c.ddv, _mm256_sub_epi32(zero, ratio_texels(&k.wrap.v, _mm256_slli_epi32(_mm256_sub_epi32(zero, of[1].dxx), 1))));
+    for (int32_t i = 0; i < s->count; i++) {
+        struct row_lanes r;
+        row_start(&r, &k, s, i, LOOK_WRAPPED);
+        texels_row_light(&k, s, i, t->lights->planes.block, LOOK_WRAPPED);
+        row_of_wrapped_curves(&k, &r, of, &c, s, i, p);
+    }
+}
+
 SMEAR_AVX2_FUNCTION void smear_texel_rows_curves_avx2(const struct texel_rows *t, const struct texel_spans *s,
                                                       const struct texel_curves *p)
 {
-    if (t->lights != NULL)
+    if (t->wraps != NULL)
+        rows_of_wrapped_curves(t, s, p);
+    else if (t->lights != NULL)
         rows_of_curves(t, s, p, LOOK_LIT);
     else if (t->narrow)
         rows_of_curves(t, s, p, LOOK_NARROW);

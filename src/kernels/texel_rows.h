@@ -21,12 +21,22 @@ struct texel_spans {
     uint32_t z[TEXEL_SPANS], dz[TEXEL_SPANS];
 };
 
+/* Pictures of any size, that repeat, stay at their borders or turn back there. Planes are texels q16, or if they are divided
+ * ratios q27; polynomials ratios q29: texels of a ratio q29 are its product with the scale / 2^32, shifted up, or down if that
+ * is negative. Numbers of u, then of v. */
+struct texel_wraps {
+    int32_t size[2], scale[2];
+    int wrap[2], shift[2];              /* smear_wrap */
+};
+
 /* Where texels are taken from, and pixels lie: pixel 0 of row 0, which may lie outside the memory; in all rows columns
  * [x0, x1), which are TEXEL_ROWS_LEAST at least, may be written as they are. */
 struct texel_rows {
     const void *texels;                 /* if copied, RGB565 if narrow, else 32 bits; a multiple of four */
     const struct texel_lights *lights;  /* null: they are copied */
     int log2_width, log2_height;        /* 1 .. 12 */
+    const struct texel_wraps *wraps;    /* or null: sizes are those powers of two, and repeat. With them texels are lit, and four at
+                                         * least */
     void *color;
     uint16_t *depth;
     ptrdiff_t stride;                   /* pixels */
@@ -49,6 +59,7 @@ struct texel_curve {
 struct texel_curves {
     int32_t x0, y0;
     struct texel_curve u, v;
+    int32_t block;                      /* with wraps: 4, 8 or 16 pixels, at whose first coordinates are exact */
 };
 
 void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p);

@@ -13,6 +13,7 @@ static void texel_rows_start(struct texel_rows *t, const struct setup *s, const 
     SMEAR_ASSERT(target->x1 - target->x0 >= TEXEL_ROWS_LEAST);
     t->texels = m->texels;
     t->lights = NULL;
+    t->wraps = NULL;
     t->log2_width = m->log2_width;
     t->log2_height = m->log2_height;
     t->narrow = target_is_direct(target);
@@ -21,6 +22,12 @@ static void texel_rows_start(struct texel_rows *t, const struct setup *s, const 
     t->stride = target->window_rows.stride;
     t->x0 = target->x0;
     t->x1 = target->x1;
+}
+
+static void wraps_start(struct texel_wraps *w, const struct smear_sampler *m)
+{
+    *w = (struct texel_wraps){ { m->width, m->height }, { m->scale[0], m->scale[1] }, { m->wrap_u, m->wrap_v },
+                               { m->shift[0], m->shift[1] } };
 }
 
 /* A light that is the same throughout the triangle: codes, or linear light. */
@@ -62,17 +69,26 @@ static void lights_start(struct texel_lights *l, const struct setup *s, int32_t 
 
 typedef void draw_spans(const struct texel_rows *t, const struct texel_spans *spans, const void *coordinates);
 
+/* What texels become: they are copied, lit, or wrapped and lit. */
+enum rows_look { ROWS_COPIED, ROWS_LIT, ROWS_WRAPPED };
+
 /* Draws all rows, in one go as a rule. */
-SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, const void *coordinates, draw_spans *draw, bool lit)
+SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, const void *coordinates, draw_spans *draw,
+                            enum rows_look look)
 {
     struct texel_rows t;
     struct texel_spans spans;
     struct texel_lights lights;
+    struct texel_wraps wraps;
     struct row_run p;
     texel_rows_start(&t, s, r);
-    if (lit) {
+    if (look != ROWS_COPIED) {
         lights_start(&lights, s, r->y);
         t.lights = &lights;
+    }
+    if (look == ROWS_WRAPPED) {
+        wraps_start(&wraps, &s->draw->sampler);
+        t.wraps = &wraps;
     }
     if (rows_are_plain(s)) {
         spans_of_rows(&spans, s, r);
@@ -103,12 +119,12 @@ static void draw_curves(const struct texel_rows *t, const struct texel_spans *sp
     smear_texel_rows_curves_avx2(t, spans, (const struct texel_curves *)coordinates);
 }
 
-SMEAR_INLINE void places_draw(const struct setup *s, const struct span_rows *r, bool lit)
+SMEAR_INLINE void places_draw(const struct setup *s, const struct span_rows *r, enum rows_look look)
 {
     const struct texture_setup *t = &s->texture;
     const struct texel_planes p = { plane_from(&t->q, r->y), plane_from(&t->uv[0], r->y), plane_from(&t->uv[1], r->y),
                                     t->slope, t->block, t->up, t->mode == TEXTURE_DIVIDED, t->parabolic };
-    draw_rows(s, r, &p, draw_places, lit);
+    draw_rows(s, r, &p, draw_places, look);
 }
 
 static struct texel_curve curve_from(const struct curve *c)
@@ -134,27 +150,44 @@ SMEAR_INLINE void draw_columns(const struct setup *s, const struct span_rows *r,
     smear_texel_columns_avx2(&t, &sides, p);
 }
 
-SMEAR_INLINE void curves_draw(const struct setup *s, const struct span_rows *r, bool lit)
+SMEAR_INLINE void curves_draw(const struct setup *s, const struct span_rows *r, enum rows_look look)
 {
     const struct texture_setup *t = &s->texture;
-    const struct texel_curves p = { t->x0, t->y0 - r->y, curve_from(&t->curve[0]), curve_from(&t->curve[1]) };
-    if (rows_are_whole(s, r) && !(lit && lights_have_blocks(s)))
-        draw_columns(s, r, &p, lit);
+    const struct texel_curves p = { t->x0, t->y0 - r->y, curve_from(&t->curve[0]), curve_from(&t->curve[1]), t->block };
+    if (look != ROWS_WRAPPED && rows_are_whole(s, r) && !(look == ROWS_LIT && lights_have_blocks(s)))
+        draw_columns(s, r, &p, look == ROWS_LIT);
     else
-        draw_rows(s, r, &p, draw_curves, lit);
+        draw_rows(s, r, &p, draw_curves, look);
 }
 
-static void lane_places(const struct setup *s, const struct span_rows *r) { places_draw(s, r, false); }
-static void lane_curves(const struct setup *s, const struct span_rows *r) { curves_draw(s, r, false); }
-static void lane_places_lit(const struct setup *s, const struct span_rows *r) { places_draw(s, r, true); }
-static void lane_curves_lit(const struct setup *s, const struct span_rows *r) { curves_draw(s, r, true); }
+static void lane_places(const struct setup *s, const struct span_rows *r) { places_draw(s, r, ROWS_COPIED); }
+static void lane_curves(const struct setup *s, const struct span_rows *r) { curves_draw(s, r, ROWS_COPIED); }
+static void lane_places_lit(const struct setup *s, const struct span_rows *r) { places_draw(s, r, ROWS_LIT); }
+static void lane_curves_lit(const struct setup *s, const struct span_rows *r) { curves_draw(s, r, ROWS_LIT); }
+static void lane_places_wrapped(const struct setup *s, const struct span_rows *r) { places_draw(s, r, ROWS_WRAPPED); }
+static void lane_curves_wrapped(const struct setup *s, const struct span_rows *r) { curves_draw(s, r, ROWS_WRAPPED); }
 
-smear_rows_fn *smear_lane_rows_choose(const struct setup *s, bool lit)
+/* Kernels read what lies beside halves and bytes. */
+static bool sampler_wraps(const struct smear_sampler *m) { return !m->turns && !m->bilinear && m->width * m->height >= 4; }
+
+/* Whether texels are what the target has. */
+static bool texels_are_copied(const struct setup *s)
 {
-    if (fog_of(s) != FOG_NONE || s->target->x1 - s->target->x0 < TEXEL_ROWS_LEAST || !smear_has_avx2())
+    return s->segment->shade == SHADE_NONE
+        && s->draw->sampler.format == (target_is_direct(s->target) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888);
+}
+
+smear_rows_fn *smear_lane_rows_choose(const struct setup *s)
+{
+    const struct smear_sampler *m = &s->draw->sampler;
+    if (!draw_is_opaque(s->draw) || fog_of(s) != FOG_NONE || s->target->x1 - s->target->x0 < TEXEL_ROWS_LEAST || !smear_has_avx2())
+        return NULL;
+    if (sampler_wraps(m))
+        return s->texture.mode == TEXTURE_CURVED ? lane_curves_wrapped : lane_places_wrapped;
+    if (!m->turns || m->log2_width == 0 || m->log2_height == 0)
         return NULL;
     if (s->texture.mode == TEXTURE_CURVED)
-        return lit ? lane_curves_lit : lane_curves;
-    return lit ? lane_places_lit : lane_places;
+        return texels_are_copied(s) ? lane_curves : lane_curves_lit;
+    return texels_are_copied(s) ? lane_places : lane_places_lit;
 }
 #endif

@@ -613,15 +613,15 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
     if (s->segment->uv == 0)
         return draw_is_opaque(s->draw) && !s->flat && setup_is_shaded(s) ? smear_rows_shade : NULL;
+#if SMEAR_LANE_ROWS
+    smear_rows_fn *lanes = smear_lane_rows_choose(s);
+    if (lanes != NULL)
+        return lanes;
+#endif
     if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
         || t->log2_height == 0 || fog_has_no_rows(s))
         return NULL;
     const bool copied = s->segment->shade == SHADE_NONE && t->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888);
-#if SMEAR_LANE_ROWS
-    smear_rows_fn *lanes = smear_lane_rows_choose(s, !copied);
-    if (lanes != NULL)
-        return lanes;
-#endif
     if (!copied || fog_of(s) != FOG_NONE) {
         if (segment_gouraud(s->segment) && !s->even_color)
             return SMEAR_SHADED_ROWS && fog_of(s) == FOG_NONE ? smear_shaded_rows_choose(s) : NULL;

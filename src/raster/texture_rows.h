@@ -57,8 +57,8 @@ smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
 /* Texels have rows of their own on processors with AVX2, of the same bits. */
 #define SMEAR_LANE_ROWS (SMEAR_AVX2 && SMEAR_SPAN_ROWS && SMEAR_WITH_TEXTURE)
 
-/* Likewise: unlit and in the target's own pixels, or `lit`; null in fog and where there are no such instructions: lane_rows.c. */
-smear_rows_fn *smear_lane_rows_choose(const struct setup *s, bool lit);
+/* Of a triangle whose texels are nearest and opaque; null in fog and where there are no such instructions: lane_rows.c. */
+smear_rows_fn *smear_lane_rows_choose(const struct setup *s);
 
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
