@@ -357,21 +357,20 @@ SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct r
     }
 }
 
-/* Where eight blocks end, the first of them at x if `first`. Returns where the last one does. */
+/* Where eight blocks end, the first of them at x if `first`: whole ones, then the parts that block_next makes of what is left of
+ * long ones. Returns where the last one does. */
 SMEAR_AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t block, bool first)
 {
-    if (block <= COLOR_BLOCK_MAX) {
-        const __m256i number = _mm256_add_epi32(first_8(), _mm256_set1_epi32(!first));
-        const __m256i all = _mm256_add_epi32(_mm256_set1_epi32(x), _mm256_mullo_epi32(number, _mm256_set1_epi32(block)));
-        store_lanes(end, _mm256_min_epi32(all, _mm256_set1_epi32(last)));
-        return end[7];
+    const lanes8i number = lanes8i_numbers() + !first;
+    lanes8i pixels = number * block;
+    if (block > COLOR_BLOCK_MAX) {
+        const int32_t rest = last - x, has_long = (rest & (block - 1)) >= BLOCK_LONG;
+        const lanes8i whole = lanes8i_min(number, lanes8i_all(rest >> (block == BLOCK_LONG ? 5 : 6)));
+        const lanes8i after = number - whole, parts = after - lanes8i_min(after, lanes8i_all(has_long));
+        pixels = whole * block + (after - parts) * BLOCK_LONG + parts * COLOR_BLOCK_MAX;
     }
-    for (int i = 0; i < 8; i++) {
-        if (i != 0 || !first)
-            x += block_next(block, last - x);
-        end[i] = x;
-    }
-    return x;
+    lanes8i_store(end, lanes8i_min(pixels + x, lanes8i_all(last)));
+    return end[7];
 }
 
 /* Blocks from that of pixel a on. */
