@@ -546,9 +546,12 @@ static bool cover_small_shaded(const struct setup *s, const struct pixel_box *bo
 /* ------------------------------------------------------------------ any triangle */
 
 #if SMEAR_SPAN_ROWS
+/* Whether even small triangles without a texture are drawn in rows. */
+static inline bool has_blend_rows(const struct setup *s) { return SMEAR_BLEND_ROWS && draw_is_blended(s->draw); }
+
 void smear_cover_choose(struct setup *s, bool small)
 {
-    s->rows = s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
+    s->rows = s->flat || (small && !segment_textured(s->segment) && !has_blend_rows(s)) ? NULL : smear_rows_choose(s);
 }
 #endif
 

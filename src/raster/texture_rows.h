@@ -66,6 +66,10 @@ static inline bool rows_are_whole(const struct setup *s, const struct span_rows 
     return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
+/* One blended colour without a texture likewise: blend_rows.c. */
+#define SMEAR_BLEND_ROWS (SMEAR_AVX2 && SMEAR_SPAN_ROWS && SMEAR_WITH_ALPHA)
+smear_rows_fn *smear_blend_rows_choose(const struct setup *s);
+
 /* Pixels [a, b) of a row, and depth codes 16.16 from pixel 0 on. */
 struct row_run {
     int32_t a, b;
