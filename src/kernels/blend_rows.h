@@ -40,7 +40,7 @@ static inline void blend_rows_reference(const struct blend_rows *t, const struct
     }
 }
 
-/* A sixth of the reference's instructions. */
+/* A fifth of the instructions of span.c. */
 void smear_blend_rows_avx2(const struct blend_rows *t, const struct texel_spans *s);
 
 #endif
