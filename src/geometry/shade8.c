@@ -41,7 +41,7 @@ SMEAR_AVX2_INLINE void shade8_store(uint32_t *to, const uint32_t word[8], lanes8
                               _mm256_extracti128_si256(high, 1) };
     for (int i = 0; i < 4; i++) {
         _mm_storel_epi64((__m128i *)(void *)(to + word[2 * i]), part[i]);
-        _mm_storeh_pd((double *)(void *)(to + word[2 * i + 1]), _mm_castsi128_pd(part[i]));
+        _mm_storel_epi64((__m128i *)(void *)(to + word[2 * i + 1]), _mm_unpackhi_epi64(part[i], part[i]));
     }
 }
 
