@@ -3,8 +3,8 @@
 #include "raster/raster.h"
 
 #include "kernels/flat_face.h"
-#include "kernels/planes8.h"
 #include "raster/cover_tiny8.h"
+#include "raster/looks8.h"
 
 #if SMEAR_AVX2
 
@@ -93,6 +93,8 @@ struct eight {
     const struct poses *poses;
     const uint32_t *color;
     struct planes8 planes;
+    struct looks8 looks;
+    bool has_looks;                 /* they are made */
     struct flat_area area;          /* where those of one colour are drawn, if they are by flat_face */
 };
 
@@ -112,8 +114,8 @@ static inline void draw_flat(const struct eight *e, int k, uint32_t color, enum 
     smear_flat_face_avx2(&e->area, &face);
 }
 
-/* Draws triangle k; false where its size has it drawn otherwise. */
-static bool draw_known(const struct eight *e, int k)
+/* Draws triangle k of those that are `known`; false where its size has it drawn otherwise. */
+static bool draw_known(struct eight *e, int k, uint32_t known)
 {
     const struct smear_raster_target *const target = e->target;
     const struct planes8 *const planes = &e->planes;
@@ -147,7 +149,10 @@ static bool draw_known(const struct eight *e, int k)
     s.fog = FOG_NONE;
 #endif
     const struct pixel_box box = { whole.left, whole.right, max_i32(whole.top, target->y0), min_i32(whole.bottom, target->y1) };
-    smear_setup_looks(&s);
+    if (!e->has_looks)
+        smear_looks8_avx2(&e->looks, e->frame, segment, e->poses, planes, known);
+    e->has_looks = true;
+    smear_looks8_take(&s, &e->looks, k);
     if (s.flat && e->area.pixels != NULL && s.slope != SLOPE_BOTH) {
         draw_flat(e, k, s.color, s.slope);
     } else {
@@ -168,6 +173,7 @@ static void eight_start(struct eight *e, const struct smear_raster_frame *frame,
     e->segment = segment;
     e->poses = poses;
     e->color = color;
+    e->has_looks = false;
     e->area = (struct flat_area){ .stride = w->stride, .x0 = target->x0, .x1 = target->x1, .y0 = target->y0, .y1 = target->y1,
                                   .narrow = target_is_direct(target) };
     if (target->x1 - target->x0 >= FLAT_FACE_LEAST && rows <= FLAT_FACE_ROWS && w->ring_row + rows <= w->ring) {
@@ -215,7 +221,7 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
                 draw_flat(&eight, k, color[k], slope_of(&eight.planes, k));
                 continue;
             }
-            if (draw_known(&eight, k))
+            if (draw_known(&eight, k, poses->seen & ~alone))
                 continue;
         }
         const int32_t *const v[3] = { poses->record[k][0], poses->record[k][1], poses->record[k][2] }, *const b = poses->bounds[k];

@@ -186,14 +186,6 @@ static void setup_color(struct setup *s)
 
 /* ------------------------------------------------------------------ texture */
 
-enum {
-    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
-                                 * the ends of a block, or affine */
-    PARABOLA_OFF = 4,           /* likewise between the ends of a block that follows a parabola */
-    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
-                                 * 0.46 texel in the farthest corner */
-};
-
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
 {
     int zeros = count_leading_zeros(c);
@@ -445,6 +437,13 @@ static void setup_divided(struct setup *s, const struct corners *k)
     choose_blocks(t, ((uint64_t)worst << 4) * change, seen.width, change);
 }
 
+#if SMEAR_AVX2
+void smear_setup_blocks(struct texture_setup *t, uint32_t worst, int32_t width, uint32_t change)
+{
+    choose_blocks(t, ((uint64_t)worst << 4) * change, width, change);
+}
+#endif
+
 static SMEAR_NOINLINE void setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;
@@ -560,10 +559,3 @@ void smear_setup(struct setup *s, uint64_t area)
     setup_depth(s);
     setup_looks(s);
 }
-
-#if SMEAR_AVX2
-void smear_setup_looks(struct setup *s)
-{
-    setup_looks(s);
-}
-#endif

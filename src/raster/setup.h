@@ -66,6 +66,14 @@ struct texture_setup {
 /* What u carries into v, and borrows, when both are stepped together: a turn's 2^-32 each. */
 enum { CURVE_STEP = 16, CURVE_TURNS = 6 };
 
+enum {
+    TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
+                                 * the ends of a block, or affine */
+    PARABOLA_OFF = 4,           /* likewise between the ends of a block that follows a parabola */
+    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
+                                 * 0.46 texel in the farthest corner */
+};
+
 struct setup;
 struct span_rows;
 
@@ -212,8 +220,9 @@ static inline uint64_t setup_edges(struct setup *s)
 void smear_setup(struct setup *s, uint64_t area);
 
 #if SMEAR_AVX2
-/* Does that where edges, the area and the depth plane are known (kernels/planes8.h). */
-void smear_setup_looks(struct setup *s);
+/* Chooses the blocks of a divided texture: by the texels per pixel (q6) where they are most, by the pixels across of what is seen,
+ * and by how much q changes over 16 pixels (q12) where it is least. */
+void smear_setup_blocks(struct texture_setup *t, uint32_t worst, int32_t width, uint32_t change);
 #endif
 
 /* Finds the level of a texture that has some: so many times smaller that there is still a texel for each pixel. Of the whole

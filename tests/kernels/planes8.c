@@ -3,51 +3,12 @@
  * after the other by raster/setup.h, which is what defines the result. Each call makes many from one number. */
 #include "kernels/planes8.h"
 
-#include "geometry/transform.h"
-#include "raster/setup.h"
-
+#include "tests/kernels/eights.h"
 #include "tests/kernels/kernels.h"
 
 #if SMEAR_AVX2
 
 enum { EIGHTS = 40, SEED = 0 };
-
-static uint32_t next(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return *seed >> 8 ^ *seed << 24;
-}
-
-static int32_t between(uint32_t *seed, int32_t low, int32_t high)
-{
-    return low + (int32_t)(next(seed) % (uint32_t)(high - low + 1));
-}
-
-static uint64_t area_of(int32_t (*const v)[POSES_RECORD])
-{
-    return (uint64_t)((int64_t)(v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (int64_t)(v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
-}
-
-/* Triangles of any size within the guard band, many of them slivers; depths near the break of their code, or any. */
-static void make(struct poses *p, uint32_t *seed)
-{
-    const int32_t guard = SMEAR_GUARD_PX << 8;
-    p->seen = 0;
-    for (int k = 0; k < 8; k++) {
-        const int32_t reach = 1 << between(seed, 2, 19), step = 1 << between(seed, 0, 25);
-        const int32_t middle = (next(seed) & 1u) != 0 ? SLOPE_BREAK : between(seed, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-        for (int i = 0; i < 3; i++)
-            for (int axis = 0; axis < 3; axis++) {
-                int32_t *const out = &p->record[k][i][axis];
-                if (axis == 2)
-                    *out = clamp_i32(middle + between(seed, -step, step), SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-                else
-                    *out = clamp_i32((i == 0 ? between(seed, -3000, 90000) : p->record[k][0][axis]) + between(seed, -reach, reach),
-                                     -guard, guard);
-            }
-        p->seen |= (uint32_t)((int64_t)area_of(p->record[k]) > 0) << k;
-    }
-}
 
 static void one_by_one(struct planes8 *out, const struct poses *p)
 {
@@ -83,7 +44,7 @@ static void many(struct kernel_call *c, void (*find)(struct planes8 *, const str
     struct planes8 p;
     uint32_t seed = c->word[SEED], sum = 0;
     for (int i = 0; i < EIGHTS; i++) {
-        make(&poses, &seed);
+        eight_make(&poses, &seed);
         find(&p, &poses);
         sum = (sum * 31u + (p.far & poses.seen)) * 31u + (p.near & poses.seen);
         for (int k = 0; k < 8; k++) {
@@ -102,7 +63,7 @@ static void make_values(struct plane_values *v, uint32_t *seed)
     for (int i = 0; i < 8; i++)
         for (int corner = 0; corner < 3; corner++) {
             const int32_t most = (1 << (seed[0] >> 9 & 15u) << 15) - 1;
-            v->of[corner][i] = between(seed, -most, most);
+            v->of[corner][i] = eight_between(seed, -most, most);
         }
 }
 
@@ -131,7 +92,7 @@ static void many_values(struct kernel_call *c, void (*find)(struct plane_eight *
     uint32_t seed = c->word[SEED], sum = 0;
     struct poses poses;
     for (int i = 0; i < EIGHTS / 8; i++) {
-        make(&poses, &seed);
+        eight_make(&poses, &seed);
         for (int k = 0; k < 8; k++) {
             struct plane_values values;
             struct plane_eight planes;
