@@ -8,24 +8,14 @@
 
 #include "geometry/clip.h"
 #include "geometry/path.h"
+#include "geometry/path_places.h"
 
 #if SMEAR_WITH_SUBFRAMES
-
-enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
-
-/* A vertex at all three instants: an entry of a direct-mapped cache in the memory of the other one. */
-struct path_vertex {
-    uint32_t tag, stored;               /* as in struct smear_cached_vertex */
-    struct smear_screen screen[KEYS];
-    uint32_t outcodes;                  /* a byte for each instant, see code_at() */
-};
 
 static int code_at(uint32_t outcodes, int key)
 {
     return (int)(outcodes >> 8 * key & 255u);
 }
-
-SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
 static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
 {
@@ -614,7 +604,7 @@ static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
 static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
                                    const struct smear_assembly *d, uint32_t tag,
                                    const struct path_vertex *in_use1, const struct path_vertex *in_use2,
-                                   struct path_vertex *spare)
+                                   struct path_vertex *spare, struct path_places *places)
 {
     struct path_vertex *v = &cache[tag & mask];
     if (v->tag == tag)
@@ -625,7 +615,8 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
     }
     if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
         v = spare;
-    find_vertex(v, a, d, tag);
+    if (!path_places_take(v, places, tag))
+        find_vertex(v, a, d, tag);
     return v;
 }
 
@@ -667,19 +658,22 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     uint32_t mask;
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
+    struct path_places places;
+    path_places_open(&places, a, d);
     const uint32_t first = max_u32(d->first, a->resume.triangle);
     const uint16_t *index = d->mesh->index + 3 * first;
 #ifndef __OPTIMIZE_SIZE__
     /* One after the other they cost less. */
     if (d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
-            find_vertex(&cache[i], a, d, tag + i);
+            if (!path_places_take(&cache[i], &places, tag + i))
+                find_vertex(&cache[i], a, d, tag + i);
 #endif
     for (uint32_t i = first; i < d->end; i++, index += 3) {
         struct path_vertex *v[3];
-        v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
-        v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);
-        v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2]);
+        v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0], &places);
+        v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1], &places);
+        v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2], &places);
         b.parts = 0;
         b.parts_before = (uint16_t)parts_before(a, i);
         if (!add_seen(&b, v, i)) {
