@@ -131,28 +131,41 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     }
 }
 
-/* Returns max(0, cosine) for an object-space normal of any length, components up to 2^14.
- *
- * The normal in the world, h 2^12 + l, has 24 bits: sums of products of the halves fit into 32. */
-static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
+/* Returns how far a normal in the world, of 24 bits, lies along the light, q6 times its length; and the square of that. */
+static inline int32_t along_light(uint64_t *square, const int32_t world[3], const int32_t direction[3])
 {
+#if UINTPTR_MAX > 0xffffffffu && SMEAR_HAS_MUL64
+    *square = square_sum(world[0], world[1], world[2]);
+    return dot_q(world, direction, 8);
+#else
+    /* h 2^12 + l: sums of products of the halves fit into 32 bits. */
     int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
     for (int i = 0; i < 3; i++) {
-        const int32_t *m = s->normal_matrix[i];
-        /* 31 bits to 24 */
-        int32_t world = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;
-        int32_t h = world >> 12, l = world & 4095;
-        along_high += h * s->sun->direction[i];
-        along_low += l * s->sun->direction[i];
+        int32_t h = world[i] >> 12, l = world[i] & 4095;
+        along_high += h * direction[i];
+        along_low += l * direction[i];
         high += h * h;
         cross += h * l;
         low += l * l;
     }
-    int32_t along = along_high * 16 + (along_low >> 8);       /* q6 x length */
+    *square = ((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192) + (uint32_t)low;
+    return along_high * 16 + (along_low >> 8);
+#endif
+}
+
+/* Returns max(0, cosine) for an object-space normal of any length, components up to 2^14. */
+static uint32_t cosine_of(const struct smear_shading *s, const int32_t normal[3])
+{
+    int32_t world[3];
+    uint64_t square;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *m = s->normal_matrix[i];
+        world[i] = (m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2]) >> 7;       /* 31 bits to 24 */
+    }
+    int32_t along = along_light(&square, world, s->sun->direction);
     if (along <= 0)
         return 0;
-    uint32_t length = length_from(((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192)
-                                  + (uint32_t)low);
+    uint32_t length = length_from(square);
     if (length == 0)
         return 0;
     /* along 2^10 / length, by reciprocal */
