@@ -576,11 +576,11 @@ typedef struct smear_desc {
                                  * tiles; 0 means 8 tiles, but 128 pixels at most and one tile at least. Wider is
                                  * faster, up to a point, and takes 22 bytes per pixel for each worker. The picture depends on it, a
                                  * little */
-    int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES); 0 means tile.
-                                 * With SMEAR_NONE and SMEAR_ACCUMULATE alone as many are drawn at once: there, where
-                                 * tile is 0, too, 0 means on 64-bit machines a quarter of the height in whole tiles, 64
-                                 * at most. With a window and without temporal methods, layers and SMEAR_HALF it may
-                                 * divide the tile: a smaller band buffer, the same picture */
+    int16_t band_rows;          /* rows flushed at once, 2 or more (a multiple of 8 for SMEAR_L1_PAGES). 0 means tile, but
+                                 * on 64-bit machines with tile 0 and SMEAR_NONE and SMEAR_ACCUMULATE alone a quarter of
+                                 * the height in whole tiles, 64 at most: with these two as many rows are drawn at once.
+                                 * With a window and without temporal methods, layers and SMEAR_HALF it may divide the
+                                 * tile: a smaller band buffer, the same picture */
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
     uint8_t format;             /* smear_format */
     uint8_t workers;            /* 1..8 cores that assemble draws and run tile jobs; 0 means 1 */

@@ -73,7 +73,7 @@ static inline bool batch_shares(const struct batch *b, bool back)
 void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
                               const struct smear_homogeneous *known);
 
-#if SMEAR_AVX2
+#if SMEAR_AVX2 && SMEAR_WITH_RECONSTRUCT
 /* Stores those of two poses, at h. False where numbers of 32 bits do not do, and nothing is stored. */
 bool smear_store_poses_avx2(uint32_t *out, const struct smear_assembly *d, const struct smear_homogeneous h[2],
                             const struct smear_homogeneous *now, const struct smear_screen *screen,

@@ -50,7 +50,7 @@ void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t ind
         placement_transform(&now, &d->at, index);
         known = &now;
     }
-#if SMEAR_AVX2
+#if SMEAR_AVX2 && SMEAR_WITH_RECONSTRUCT
     if (segment_moves(b->segment) == 2 && smear_has_avx2()) {
         pose_transform(&h[0], d, 0, index);
         pose_transform(&h[1], d, 1, index);

@@ -5,7 +5,7 @@
 
 #include "kernels/wide_lanes.h"
 
-#if SMEAR_AVX2
+#if SMEAR_AVX2 && SMEAR_WITH_RECONSTRUCT
 
 SMEAR_STATIC_ASSERT(MOTION_DX == 0 && MOTION_DY == 1 && MOTION_RATIO == 2 && MOTION_WORDS == 3, "lanes are words of a record");
 

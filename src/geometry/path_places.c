@@ -58,7 +58,7 @@ SMEAR_AVX2_INLINE lanes8i behind8(lanes8i x, lanes8i y, lanes8i w, const struct 
          | only8(less8(y, 2, w, -height), OUT_TOP) | only8(less8(w, height, y, 2), OUT_BOTTOM);
 }
 
-SMEAR_AVX2_FUNCTION static void find_eight(struct path_places *p, uint32_t eight, uint32_t slot)
+static SMEAR_AVX2_FUNCTION void find_eight(struct path_places *p, uint32_t eight, uint32_t slot)
 {
     lanes8i outcodes = lanes8i_all(0);
     p->eight[slot] = eight + 1;

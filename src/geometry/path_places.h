@@ -21,7 +21,7 @@ struct path_vertex {
 SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
 #if SMEAR_AVX2
-enum { PATH_EIGHTS = 16 };              /* that are kept: 6 kB of stack */
+enum { PATH_EIGHTS = 16 };              /* that are kept: 7 kB of stack */
 
 struct path_places {
     const int16_t *position[KEYS];

@@ -54,7 +54,7 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 #endif
 
 #if SMEAR_AVX2
-/* Sets words, or pairs of equal halves and one more: 32 bytes or more. */
+/* Sets 32 bytes or more: words, of which the last may be a half where both halves of `value` are equal. */
 void smear_fill_avx2(void *p, uint32_t value, size_t bytes);
 
 enum { FILL_BYTES_LEAST = 128 };        /* below, a call costs more than it saves */

@@ -142,26 +142,39 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32
     return lit_light_from(r, lit_channel(k, 1, x, row), lit_channel(k, 2, x, row), k->linear);
 }
 
-/* Usual light of eight pixels, and how it changes from row to row. */
+/* Usual light of eight pixels, and how it changes from row to row, unless it is the same throughout the triangle. */
 struct lit_down {
+    bool even;
+    struct lit_light light;
     __m256i at[3], step[3];
 };
 
-SMEAR_AVX2_INLINE void lit_down_start(struct lit_down *d, const struct lit_lanes *k, int32_t x, int32_t row)
-{
-    for (int i = 0; i < (k->white ? 1 : 3); i++) {
-        d->at[i] = lit_channel(k, i, x, row);
-        d->step[i] = _mm256_set1_epi32((int32_t)k->dy[i]);
-    }
-}
-
-SMEAR_AVX2_INLINE struct lit_light lit_down_light(const struct lit_down *d, const struct lit_lanes *k)
+SMEAR_AVX2_INLINE struct lit_light lit_down_made(const struct lit_down *d, const struct lit_lanes *k)
 {
     return k->white ? lit_light_from(d->at[0], d->at[0], d->at[0], true) : lit_light_from(d->at[0], d->at[1], d->at[2], true);
 }
 
+SMEAR_AVX2_INLINE void lit_down_start(struct lit_down *d, const struct lit_lanes *k, int32_t x, int32_t row)
+{
+    uint32_t change = 0;
+    for (int i = 0; i < (k->white ? 1 : 3); i++) {
+        d->at[i] = lit_channel(k, i, x, row);
+        d->step[i] = _mm256_set1_epi32((int32_t)k->dy[i]);
+        change |= k->dx[i] | k->dy[i];
+    }
+    d->even = change == 0;
+    d->light = lit_down_made(d, k);
+}
+
+SMEAR_AVX2_INLINE struct lit_light lit_down_light(const struct lit_down *d, const struct lit_lanes *k)
+{
+    return d->even ? d->light : lit_down_made(d, k);
+}
+
 SMEAR_AVX2_INLINE void lit_down_step(struct lit_down *d, const struct lit_lanes *k)
 {
+    if (d->even)
+        return;
     d->at[0] = _mm256_add_epi32(d->at[0], d->step[0]);
     if (k->white)
         return;

@@ -367,7 +367,7 @@ SMEAR_AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int
         const int32_t rest = last - x, has_long = (rest & (block - 1)) >= BLOCK_LONG;
         const lanes8i whole = lanes8i_min(number, lanes8i_all(rest >> (block == BLOCK_LONG ? 5 : 6)));
         const lanes8i after = number - whole, parts = after - lanes8i_min(after, lanes8i_all(has_long));
-        pixels = whole * block + (after - parts) * BLOCK_LONG + parts * COLOR_BLOCK_MAX;
+        pixels = whole * block + (after - parts) * (int32_t)BLOCK_LONG + parts * (int32_t)COLOR_BLOCK_MAX;
     }
     lanes8i_store(end, lanes8i_min(pixels + x, lanes8i_all(last)));
     return end[7];

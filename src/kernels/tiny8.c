@@ -398,7 +398,7 @@ SMEAR_AVX2_INLINE __m256i tiny8_code_of_light(__m256i light)
     return _mm256_srli_epi32(v8_add(_mm256_min_epu32(light, v8_all(0xff00)), v8_all(128)), 8);
 }
 
-/* Where 65535 was one, 65536 is. */
+/* Returns light of which 65536 is one from that of which 65535 is. */
 SMEAR_AVX2_INLINE __m256i v8_whole(__m256i light) { return v8_add(light, _mm256_srli_epi32(light, 15)); }
 
 SMEAR_AVX2_INLINE struct lit_pairs v8_lit(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight,

@@ -29,7 +29,7 @@ SMEAR_AVX2_INLINE lanes8i product8_without(struct product8 p, int bits, lanes8i 
     return rest;
 }
 
-/* Returns scale_sat(a, shift) for shift of -31 .. 31; where it saturates `beyond` is set. */
+/* Returns scale_sat(a, shift) for |a| < 2^30 and shift of -31 .. 31; where it saturates `beyond` is set. */
 SMEAR_AVX2_INLINE lanes8i lanes8i_scale(lanes8i a, lanes8i shift, lanes8i *beyond)
 {
     const lanes8i up = lanes8i_max(shift, lanes8i_all(0)), down = lanes8i_max(-shift, lanes8i_all(0));

@@ -46,7 +46,9 @@ static inline void spans_add_row(struct texel_spans *spans, const struct setup *
         spans_add_slope(spans, s, r, row, stop, b);
 }
 
-/* All rows together: SPAN_ROWS of them at most, of which each makes two spans at most. */
+/* All rows together. */
+SMEAR_STATIC_ASSERT(2 * SPAN_ROWS <= TEXEL_SPANS, "a row makes two spans at most");
+
 static void rows_blend(const struct setup *s, const struct span_rows *r)
 {
     struct blend_rows t;

@@ -237,6 +237,7 @@ SMEAR_AVX2_INLINE void part_draw(const struct setup *s, const struct places8 *k,
 {
     const struct span *const p = part->span;
     const lanes8i number = lanes8i_numbers();
+    const uint32_t value = target_pixel(s->target, s->color);
     const int32_t before = p->a - part->x;          /* less than 8 pixels */
     int32_t at = p->at - before;
     uint16_t *depth = p->depth - before;
@@ -255,7 +256,7 @@ SMEAR_AVX2_INLINE void part_draw(const struct setup *s, const struct places8 *k,
             }
             velocity8_write(s->target, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13, drawn);
             if (flat)
-                flat8_write(color, depth, s->color, code, old, drawn);
+                flat8_write(color, depth, value, code, old, drawn);
         }
         x += 8;
         at += 8;
@@ -335,6 +336,7 @@ static inline void span_from(struct span *p, const struct setup *s, const struct
     }
     p->a = a;
     p->b = a + n;
+    p->left = r->side[row].left;
     p->right = r->side[row].edge;
     p->y = y;
     p->color = t->color + at;
@@ -353,6 +355,7 @@ void smear_rows_motion(const struct setup *s, const struct span_rows *r)
         const int32_t end = min_i32(r->side[row].right, s->target->x1);
         for (int32_t a = max_i32(r->side[row].left, s->target->x0); a < end;) {
             struct span *const p = &spans[count];
+            SMEAR_ASSERT(count < 2 * SPAN_ROWS);        /* a row crosses the break once */
             span_from(p, s, r, row, a);
             a = p->b;
             if (!span_has_blocks(s, p)) {

@@ -131,7 +131,7 @@ static void rows(struct kernel_call *c, bool marks)
         .velocity8 = (shape >> 10 & 1u) ? c->plane[VELOCITY] : NULL, .velocity16 = (shape >> 10 & 1u) ? NULL : c->plane[VELOCITY],
         .moving = marks ? moving : NULL, .tile_shift = 4, .window_rows = { .stride = stride }
     };
-    struct setup s = { .frame = &frame, .target = &target, .v = { vertex, vertex, vertex }, .color = 0x336699, .flat = true,
+    struct setup s = { .frame = &frame, .target = &target, .v = { vertex, vertex, vertex }, .color = 0xff336699u, .flat = true,
                        .writes_velocity = true };
     if (stride == 0)
         return;
