@@ -54,15 +54,22 @@ static void make_setup(struct setup *s, uint32_t *seed, uint32_t shape)
         make_pose(s, i, seed, shape);
 }
 
+static const struct smear_raster_frame frame = { .width = 1024, .velocity_scale = 32768, .reach_q3 = 13 * 8 };
+
+/* A vertex within some pixels of (LEFT, ROW). */
+static void make_vertex(int32_t vertex[8], uint32_t *seed)
+{
+    vertex[VERTEX_X] = LEFT * 256 + around_0(seed, 12);
+    vertex[VERTEX_Y] = ROW * 256 + around_0(seed, 12);
+}
+
 static void spans(struct kernel_call *c, bool marks)
 {
     uint32_t seed = c->word[SEED];
     const uint32_t shape = c->word[SHAPE];
     int32_t vertex[8] = { 0 };
     uint8_t moving[64] = { 0 };
-    vertex[VERTEX_X] = LEFT * 256 + around_0(&seed, 12);
-    vertex[VERTEX_Y] = ROW * 256 + around_0(&seed, 12);
-    const struct smear_raster_frame frame = { .width = 1024, .velocity_scale = 32768, .reach_q3 = 13 * 8 };
+    make_vertex(vertex, &seed);
     const struct smear_raster_target target = {
         .x0 = LEFT, .x1 = LEFT + (c->n & ~7), .depth = c->plane[DEPTH], .velocity8 = (shape >> 10 & 1u) ? c->plane[VELOCITY] : NULL,
         .velocity16 = (shape >> 10 & 1u) ? NULL : c->plane[VELOCITY], .moving = marks ? moving : NULL, .tile_shift = 4
@@ -123,9 +130,7 @@ static void rows(struct kernel_call *c, bool marks)
     const int32_t stride = c->n / ROWS & ~7;
     int32_t vertex[8] = { 0 };
     uint8_t moving[64] = { 0 };
-    vertex[VERTEX_X] = LEFT * 256 + around_0(&seed, 12);
-    vertex[VERTEX_Y] = ROW * 256 + around_0(&seed, 12);
-    const struct smear_raster_frame frame = { .width = 1024, .velocity_scale = 32768, .reach_q3 = 13 * 8 };
+    make_vertex(vertex, &seed);
     const struct smear_raster_target target = {
         .x0 = LEFT, .x1 = LEFT + stride - (int32_t)(shape >> 12 & 1u) * 3, .depth = c->plane[DEPTH], .color = c->plane[COLOR],
         .velocity8 = (shape >> 10 & 1u) ? c->plane[VELOCITY] : NULL, .velocity16 = (shape >> 10 & 1u) ? NULL : c->plane[VELOCITY],
