@@ -25,7 +25,11 @@
 #include <immintrin.h>
 
 #define SMEAR_AVX2_FUNCTION __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt")))
+#if SMEAR_INLINE_FORCED
 #define SMEAR_AVX2_INLINE static inline __attribute__((always_inline)) SMEAR_AVX2_FUNCTION
+#else
+#define SMEAR_AVX2_INLINE static inline SMEAR_AVX2_FUNCTION
+#endif
 
 /* Whether this processor has them; some instructions, no call. */
 static inline bool smear_has_avx2(void)

@@ -4,7 +4,7 @@
 
 #if SMEAR_AVX2
 
-#define POSES_INLINE static inline __attribute__((always_inline)) SMEAR_AVX2_FUNCTION
+#define POSES_INLINE SMEAR_AVX2_INLINE
 
 /* Four words of each triangle. */
 struct poses_words {

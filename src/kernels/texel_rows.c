@@ -325,14 +325,12 @@ SMEAR_AVX2_INLINE int32_t eight_from(const struct texel_lanes *k, int32_t a, int
 SMEAR_AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
                                   int32_t start, int32_t a, int32_t b, enum look look, bool eights)
 {
-    if (!eights) {
+    if (!look_is_lit(look) && !eights) {    /* of lit ones a copy would be large */
         for (; b - a >= 16; a += 16)
             draw_16(k, r, c, block, a, a - start, NULL, look);
-        if (b - a > 8 && a <= k->x_most) {
-            draw_16(k, r, c, block, a, a - start, lane_masks + 32 - (b - a), look);
-            return;
-        }
     }
+    for (; !eights && b - a > 8 && a <= k->x_most; a += 16)
+        draw_16(k, r, c, block, a, a - start, lane_masks + 32 - min_i32(b - a, 16), look);
     for (; a < b; a += 8) {
         const uint16_t *mask;
         const int32_t x = eight_from(k, a, b, &mask);

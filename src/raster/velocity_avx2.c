@@ -241,7 +241,7 @@ SMEAR_AVX2_INLINE void part_draw(const struct setup *s, const struct places8 *k,
     const int32_t before = p->a - part->x;          /* less than 8 pixels */
     int32_t at = p->at - before;
     uint16_t *depth = p->depth - before;
-    uint32_t *color = (uint32_t *)p->color - before;
+    int32_t place = -before;                        /* of column x, from the span's first pixel; only flat rows have colours */
     lanes8 z = p->z + ((lanes8)number - (uint32_t)before) * (uint32_t)p->dz;
     for (int32_t i = part->lane, x = part->x; i < part->lane + part->blocks; i++) {
         const lanes8i column = number + x, code = (lanes8i)(z >> 16), old = lanes8i_load_halves(depth);
@@ -256,12 +256,12 @@ SMEAR_AVX2_INLINE void part_draw(const struct setup *s, const struct places8 *k,
             }
             velocity8_write(s->target, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13, drawn);
             if (flat)
-                flat8_write(color, depth, value, code, old, drawn);
+                flat8_write((uint32_t *)p->color + place, depth, value, code, old, drawn);
         }
         x += 8;
         at += 8;
         depth += 8;
-        color += 8;
+        place += 8;
         z += 8u * (uint32_t)p->dz;
     }
 }
