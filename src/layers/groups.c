@@ -242,18 +242,15 @@ void smear_groups_list_end(struct smear_layers *l)
 void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint32_t head)
 {
     smear_groups_list_begin(l);
-    const struct smear_triangle *t;
-    struct smear_group *group = l->group;
-    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = t->next) {
-        t = bins_triangle(g, i);
-        /* Of i >= end, Clang 14 at -Oz concludes that i is never SMEAR_NO_TRIANGLE, and does not end. */
-        while (group->end - 1 < i)
-            group++;
-        if (group->head == SMEAR_NO_TRIANGLE)
-            group->head = i;
-        group->tail = i;
-        extend(group, g, t);
-    }
+    /* Numbers grow along the list, group by group; a group may have none. */
+    uint32_t i = head;
+    for (struct smear_group *group = l->group; group < l->group + l->group_count; group++)
+        for (; i < group->end; i = bins_triangle(g, i)->next) {         /* none is the largest number */
+            if (group->head == SMEAR_NO_TRIANGLE)
+                group->head = i;
+            group->tail = i;
+            extend(group, g, bins_triangle(g, i));
+        }
     smear_groups_list_end(l);
 }
 

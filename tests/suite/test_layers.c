@@ -422,6 +422,24 @@ static void test_two_movers_each_have_their_way_and_their_depth(void)
     }
 }
 
+/* What moves out of view, first or last, leaves its way to no other. */
+static void test_movers_out_of_view_change_nothing(void)
+{
+    static uint32_t alone[W * H];
+    struct mover beside, seen;
+    mover_make(&beside, 4 * W, 0, 10, 8, 8, 0, 16);
+    mover_make(&seen, 0, 0, 10, 8, 12, 16, 0);
+    const smear_draw draw[3] = { draw_of(&beside, &green), draw_of(&seen, &red), draw_of(&beside, &green) };
+    for (int k = 0; k < 2; k++) {
+        const smear_frame frame = frame_of(both[k]);
+        if (!render(alone, &frame, &draw[1], 1))
+            return;
+        for (int i = 0; i < 3; i++)
+            if (render(picture, &frame, &draw[i == 2], i == 0 ? 3 : 2))
+                CHECK_EQ(difference(picture, alone, 0, 0, W, H), 0);
+    }
+}
+
 /* Two that lean through each other: each is seen where it is nearer. */
 static void test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel(void)
 {
@@ -902,6 +920,7 @@ void suite_layers(void)
     RUN(test_a_frame_in_which_nothing_moves_is_that_of_none);
     RUN(test_a_fence_before_a_mover_keeps_its_pixels);
     RUN(test_two_movers_each_have_their_way_and_their_depth);
+    RUN(test_movers_out_of_view_change_nothing);
     RUN(test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel);
     RUN(test_parts_of_one_thing_are_blurred_as_one);
     RUN(test_what_turns_is_blurred_by_its_pixels);
