@@ -385,8 +385,9 @@ static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int 
         finish_static(&finish, run->first, run->end, 0);
     else if (rows->refill == NULL)
         smear_jobs_run(&rows->jobs, finish_job, &finish, strips + begin_next(&finish, end));
-    for (int strip = 0; rows->refill != NULL && strip < strips; strip++)
-        finish_job(&finish, strip, 0);
+    else
+        for (int strip = 0; strip < strips; strip++)
+            finish_job(&finish, strip, 0);
     stage_end(rows, &rows->stats->time.blur, start);
     if (rows->refill != NULL && rows->refill->failed)
         return SMEAR_ERR_ROOM;
