@@ -73,10 +73,12 @@ static inline void smear_plain_trap(void)
 
 /* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. Builds that
  * look for faults do without: what a compiler adds for them to hundreds of such loops takes it minutes. */
+#ifndef SMEAR_INLINE_FORCED
 #if SMEAR_CHECK || !defined(__OPTIMIZE__)
 #define SMEAR_INLINE_FORCED 0
 #else
 #define SMEAR_INLINE_FORCED 1
+#endif
 #endif
 #if SMEAR_GNU && SMEAR_INLINE_FORCED
 #define SMEAR_INLINE_ALWAYS static inline __attribute__((always_inline))

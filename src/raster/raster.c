@@ -93,8 +93,9 @@ SMEAR_INLINE void start(struct setup *s, const struct smear_raster_frame *frame,
 
 static inline void start_fog(struct setup *s, bool in_fog)
 {
-    if (SMEAR_WITH_FOG)
-        s->fog = FOG_NONE;
+    if (!SMEAR_WITH_FOG)
+        return;
+    s->fog = FOG_NONE;
     if (in_fog)
         smear_fog_triangle(s);
 }

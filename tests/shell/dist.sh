@@ -11,7 +11,8 @@ base=$PWD/build/dist-test
 version=$(sh tools/dist/version.sh)
 rm -rf "$base"
 mkdir -p "$base"
-# The library is compiled once for all projects that want it alike.
+# The library is compiled once for all projects that want it alike. Those of boards do without what boards do not have.
+board_flags=-DSMEAR_AVX2=0
 SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
 CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
 export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
@@ -97,7 +98,7 @@ claim "idf_component.yml" idf_manifest
 mkdir -p "$base/plain"
 cp tests/examples/stand_ins/plain.h "$base/plain/display.h"
 plain_panel() {
-    ${CC:-cc} -std=c11 -O1 -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples -o "$base/plain/program" \
+    ${CC:-cc} -std=c11 -O1 $board_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples -o "$base/plain/program" \
         tests/examples/flush.c "$dist/single/smear/smear.c" && "$base/plain/program" >"$base/plain/panel"
 }
 claim "one file, on a panel" plain_panel
@@ -113,7 +114,7 @@ END
 cat >"$board/platform.txt" <<END
 name=This machine
 version=1.0.0
-compiler.flags=-O1 -Wall -Wextra -Werror -DARDUINO={runtime.ide.version}
+compiler.flags=-O1 -Wall -Wextra -Werror $board_flags -DARDUINO={runtime.ide.version}
 recipe.c.o.pattern=sh "$PWD/tests/shell/launch_cached.sh" ${CC:-cc} -std=gnu11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.cpp.o.pattern=${CXX:-c++} -std=gnu++11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.ar.pattern=ar rcs "{archive_file_path}" "{object_file}"
@@ -166,10 +167,15 @@ else
     echo "not run without arduino-builder and arduino-ctags"
 fi
 
+# As PlatformIO builds: each source by itself.
 example() {
-    # shellcheck disable=SC2046
-    ${CC:-cc} -std=gnu11 -O1 -I"$dist/platformio/smear/include" -I"$dist/platformio/smear/src" -o "$base/example" \
-        $(find "$dist/platformio/smear/src" -name '*.c') "$dist/platformio/smear/examples/plain/src/main.c" && "$base/example" >"$base/example.ppm"
+    objects=$base/platformio
+    mkdir -p "$objects" && find "$dist/platformio/smear/src" -name '*.c' | xargs -P 2 -I{} sh -c '
+        object=$1/$(echo "$2" | cksum | tr " " -).o
+        sh tests/shell/launch_cached.sh $3 -std=gnu11 -O1 -Wall -Wextra -Werror $4 -I"$5/include" -I"$5/src" -o "$object" -c "$2"' \
+        sh "$objects" {} "${CC:-cc}" "$board_flags" "$dist/platformio/smear" &&
+        ${CC:-cc} -std=gnu11 -I"$dist/platformio/smear/include" -o "$base/example" "$dist/platformio/smear/examples/plain/src/main.c" \
+            "$objects"/*.o && "$base/example" >"$base/example.ppm"
 }
 claim "plain example of platformio" example
 claim "arduino example of platformio" ${CXX:-c++} -std=gnu++11 -Wall -Wextra -Werror -fsyntax-only -I"$dist/platformio/smear/include" \
@@ -239,6 +245,8 @@ END
     cat >"$base/esp-idf/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
+set(CMAKE_C_STANDARD 11)
+add_compile_options($board_flags)
 function(idf_component_register)
     cmake_parse_arguments(c "" "" "SRCS;INCLUDE_DIRS;PRIV_INCLUDE_DIRS" \${ARGN})
     list(TRANSFORM c_SRCS PREPEND $dist/esp-idf/smear/)
@@ -258,6 +266,8 @@ END
     cat >"$base/zephyr/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
+set(CMAKE_C_STANDARD 11)
+add_compile_options($board_flags)
 macro(zephyr_library_named name)
     add_library(\${name} STATIC)
     set(zephyr_library \${name})
@@ -287,6 +297,7 @@ END
     cat >"$base/pico-sdk/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
+add_compile_options($board_flags)
 add_subdirectory($dist/pico-sdk/smear smear)
 add_executable(program main.c)
 target_link_libraries(program smear)

@@ -106,9 +106,9 @@ draws() {
         $program -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I$single -I. -o $base/NUMBER $programs $base/NUMBER.o && ${4:-} $base/NUMBER"
 }
 draws "gcc, C99" "gcc -std=c99 -O2 $strict -Wconversion"
-draws "gcc, C23" "gcc -std=c2x -O1 $strict -Wconversion"
+draws "gcc, C23" "gcc -std=c2x -O0 $strict -Wconversion"
 draws "g++, C++11" "g++ -x c++ -std=c++11 -O1 $strict"
-draws "g++, C++20" "g++ -x c++ -std=c++20 -O1 $strict"
+draws "g++, C++20" "g++ -x c++ -std=c++20 -O0 $strict"
 draws "clang, C11" "clang-14 -std=c11 -O2 $strict"
 draws "gcc without extensions" "gcc -DSMEAR_GNU=0 -std=c99 -pedantic-errors -fno-strict-aliasing -O1 $strict"
 draws "tcc" "tcc -Wall -Werror" "tcc"
