@@ -51,8 +51,9 @@ SMEAR_AVX2_INLINE void shade_rows_of(const struct shade_rows *t, const struct te
 {
     const lanes8 numbers = lanes8_numbers();
     const int32_t x_most = t->x1 - 8;
-    struct light_lanes light = { .p = &t->light };
+    struct light_lanes light;
     struct shade_planes planes;
+    light_start(&light, &t->light);
     for (int i = 0; i < 3; i++)
         planes.c[i] = lanes8_ramp((uint32_t)t->light.c[i].at, (uint32_t)t->light.c[i].dx, numbers);
     for (int32_t i = 0; i < s->count; i++) {
@@ -63,7 +64,7 @@ SMEAR_AVX2_INLINE void shade_rows_of(const struct shade_rows *t, const struct te
         uint16_t *const depth = t->depth + at;
         void *const pixels = narrow ? (void *)((uint16_t *)t->color + at) : (uint32_t *)t->color + at;
         if (blocks)
-            light_row(&light, s->left[i], s->right[i], t->light.block, row);
+            light_row(&light, s, i, t->light.block);
         for (int32_t next = a; next < b; next += 8) {
             const int32_t x = min_i32(next, x_most);        /* columns before `next` are drawn already, or not at all */
             const lanes8i column = lanes8i_all(x) + (lanes8i)numbers;

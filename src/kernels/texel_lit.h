@@ -105,7 +105,7 @@ SMEAR_AVX2_INLINE void lit_start(struct lit_lanes *k, const struct texel_lights 
     k->linear = usual || lights->linear;
     k->plain = !usual && lights->plain;
     k->blocks = !usual && l->block != 0 ? blocks : NULL;
-    blocks->p = l;
+    light_start(blocks, l);
     k->even = !usual && l->block == 0 && (l->c[0].dx | l->c[0].dy | l->c[1].dx | l->c[1].dy | l->c[2].dx | l->c[2].dy) == 0;
     k->white = lit_planes_equal(&l->c[0], &l->c[1]) && lit_planes_equal(&l->c[0], &l->c[2]);
     k->light.c[0] = k->light.c[1] = k->light.c[2] = _mm256_setzero_si256();

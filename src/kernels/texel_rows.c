@@ -160,7 +160,7 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
 SMEAR_AVX2_INLINE void texels_row_light(const struct texel_lanes *k, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
 {
     if (look_is_lit(look) && k->lit.blocks != NULL)
-        light_row(k->lit.blocks, s->left[i], s->right[i], block, s->row[i]);
+        light_row(k->lit.blocks, s, i, block);
 }
 
 /* a + i da + i (i - 1) / 2 dda. */

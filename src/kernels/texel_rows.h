@@ -8,18 +8,12 @@
 #include "kernels/texel_lit.h"
 #include "kernels/texel_places.h"
 #include "kernels/texel_run.h"
+#include "kernels/texel_spans.h"
 
 #if SMEAR_AVX2
 
-/* The most spans of a call, a multiple of eight; TEXEL_ROWS_LEAST: of columns that may be written. */
-enum { TEXEL_SPANS = 32, TEXEL_ROWS_LEAST = 16 };
-
-/* Pixels [a, b) of rows that reach from `left` to `right`: left <= a < b <= right. Depth codes 16.16 are z + x dz. */
-struct texel_spans {
-    int32_t count;
-    int32_t row[TEXEL_SPANS], left[TEXEL_SPANS], right[TEXEL_SPANS], a[TEXEL_SPANS], b[TEXEL_SPANS];
-    uint32_t z[TEXEL_SPANS], dz[TEXEL_SPANS];
-};
+/* The least columns that may be written. */
+enum { TEXEL_ROWS_LEAST = 16 };
 
 /* Pictures of any size, that repeat, stay at their borders or turn back there. Planes are texels q16, or if they are divided
  * ratios q27; polynomials ratios q29: texels of a ratio q29 are its product with the scale / 2^32, shifted up, or down if that
