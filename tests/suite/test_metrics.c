@@ -336,7 +336,7 @@ static void test_ssim_of_plain_pictures_by_hand(void)
 
 static void test_ssim_equals_the_direct_definition(void)
 {
-    static const int sizes[][2] = {{23, 17}, {11, 11}, {10, 20}, {30, 5}, {1, 1}, {12, 1}};
+    static const int sizes[][2] = {{23, 17}, {11, 11}, {10, 20}, {30, 5}, {1, 1}, {12, 1}, {133, 12}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct image a = busy_image(sizes[i][0], sizes[i][1], 2);
         struct image b = busy_image(sizes[i][0], sizes[i][1], 5);
@@ -378,6 +378,25 @@ static void test_flip_equals_the_direct_definition(void)
         CHECK_CLOSE(got, want, 1e-7);
         CHECK(want > 0.02 && want < 0.98);
         CHECK_CLOSE(compare(&b, &a, densities[i]).flip, got, 1e-12);
+        image_free(&a);
+        image_free(&b);
+    }
+}
+
+/* Bands of columns (metrics.c) end in these, and the windows of some see no difference. */
+static void test_wide_pictures_alike_but_for_dots_equal_the_direct_definitions(void)
+{
+    static const int sizes[][2] = {{300, 22}, {257, 21}, {128, 21}, {129, 40}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        int width = sizes[i][0], height = sizes[i][1];
+        struct image a = busy_image(width, height, 8), b = busy_image(width, height, 8);
+        int dots[][2] = {{2, 3}, {127, 20}, {width - 1, height - 1}};
+        for (size_t k = 0; k < sizeof dots / sizeof dots[0]; k++)
+            b.rgba[(dots[k][1] * width + dots[k][0]) * 4 + 1] ^= 0x80;
+        struct image_distance got = compare(&a, &b, 34);
+        CHECK_CLOSE(got.ssim, direct_ssim(&a, &b), 1e-9);
+        CHECK_CLOSE(got.flip, direct_flip(&a, &b, 34), 1e-7);
+        CHECK(got.flip > 0 && got.ssim < 1);
         image_free(&a);
         image_free(&b);
     }
@@ -436,6 +455,7 @@ void suite_metrics(void)
     RUN(test_ssim_equals_the_direct_definition);
     RUN(test_flip_of_plain_pictures_is_their_colour_difference);
     RUN(test_flip_equals_the_direct_definition);
+    RUN(test_wide_pictures_alike_but_for_dots_equal_the_direct_definitions);
     RUN(test_flip_of_tiny_pictures_and_extreme_densities_is_in_range);
     RUN(test_fine_noise_weighs_less_from_afar);
     RUN(test_pictures_that_cannot_be_compared_are_refused);
