@@ -119,12 +119,12 @@ bool image_difference(const struct image *a, const struct image *b, int gain, st
         return fail(f, "gain is negative (%d)", gain);
     if (!image_alloc(out, a->width, a->height, f))
         return false;
+    uint8_t scaled[256];
+    for (int i = 0; i < 256; i++)
+        scaled[i] = (uint8_t)((int64_t)i * gain > 255 ? 255 : i * gain);
     size_t bytes = (size_t)a->width * (size_t)a->height * 4;
-    for (size_t i = 0; i < bytes; i++) {
-        if (i % 4 == 3)
-            continue;
-        int64_t scaled = (int64_t)abs(a->rgba[i] - b->rgba[i]) * gain;
-        out->rgba[i] = (uint8_t)(scaled > 255 ? 255 : scaled);
-    }
+    for (size_t i = 0; i < bytes; i += 4)
+        for (size_t k = i; k < i + 3; k++)
+            out->rgba[k] = scaled[abs(a->rgba[k] - b->rgba[k])];
     return true;
 }

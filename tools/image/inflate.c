@@ -262,13 +262,13 @@ static bool copy_match(struct inflater *s, size_t length, size_t distance, struc
         return too_large(s, f);
     uint8_t *to = s->out + s->used;
     const uint8_t *from = to - distance;
-    if (distance >= length) {
-        memcpy(to, from, length);
-    } else {
-        for (size_t i = 0; i < length; i++)     /* overlapping: repeats the last `distance` bytes */
-            to[i] = from[i];
-    }
     s->used += length;
+    while (length > 0) {        /* overlapping: repeats the last bytes, twice as many each time */
+        size_t run = (size_t)(to - from) < length ? (size_t)(to - from) : length;
+        memcpy(to, from, run);
+        to += run;
+        length -= run;
+    }
     return true;
 }
 

@@ -263,7 +263,7 @@ static bool unfilter(unsigned filter, uint8_t *row, const uint8_t *up, size_t si
 }
 
 /* Sample number i of a row. */
-static unsigned sample(const struct reader *r, const uint8_t *row, size_t i)
+static inline unsigned sample(const struct reader *r, const uint8_t *row, size_t i)
 {
     if (r->depth == 8)
         return row[i];
@@ -274,10 +274,15 @@ static unsigned sample(const struct reader *r, const uint8_t *row, size_t i)
     return (unsigned)row[i / per_byte] >> shift & ((1u << r->depth) - 1);
 }
 
-/* To 8 bits, rounded to nearest; exact for depths below 8, which divide 255. */
+/* To 8 bits, rounded to nearest; exact for depths below 8, which divide 255. The two common depths
+ * are spared the division, which compilers make a product for a number they know. */
 static uint8_t to_8_bits(const struct reader *r, unsigned value)
 {
     unsigned largest = (1u << r->depth) - 1;
+    if (largest == 255)
+        return (uint8_t)value;
+    if (largest == 65535)
+        return (uint8_t)((value * 255 + 32767) / 65535);
     return (uint8_t)((value * 255 + largest / 2) / largest);
 }
 

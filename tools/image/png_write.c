@@ -93,7 +93,8 @@ bool png_compress(struct buffer *out, const struct image *image, struct png_area
     size_t size = (size_t)area.width * step, total = (size + 1) * (size_t)area.height;
     /* Two candidates: rows as they are, which may be best for flat colours and text, and each row
      * with the filter of the least cost, best for everything smooth. The smaller one is kept;
-     * pictures of many colours are spared the first, which is the slow one for them. */
+     * pictures of many colours are spared the first, which is the slow one for them, and so are
+     * those whose rows are all best as they are. */
     struct palette palette;
     bool try_plain = palette_exact(&(struct marked_image){image, NULL}, 256, &palette);
     uint8_t *plain = malloc(total), *filtered = malloc(total);
@@ -107,7 +108,7 @@ bool png_compress(struct buffer *out, const struct image *image, struct png_area
         copy_row(row, image, area, y, step);
         filter_row(0, best, row, up, size, step);
         uint64_t least = row_cost(best + 1, size);
-        for (unsigned filter = 1; filter <= 4; filter++) {
+        for (unsigned filter = 1; filter <= 4 && least > 0; filter++) {
             filter_row(filter, trial, row, up, size, step);
             uint64_t cost = row_cost(trial + 1, size);
             if (cost < least) {
@@ -116,6 +117,7 @@ bool png_compress(struct buffer *out, const struct image *image, struct png_area
             }
         }
     }
+    try_plain = try_plain && ok && memcmp(plain, filtered, total) != 0;
     ok = ok && deflate_zlib(filtered, total, &a) && (!try_plain || deflate_zlib(plain, total, &b));
     if (ok) {
         const struct buffer *smaller = try_plain && b.size < a.size ? &b : &a;
