@@ -86,6 +86,14 @@ claim "an OBJ's materials from elsewhere are left out" eval '[ $rc -eq 0 ] && ha
 printf 'mtllib pipe.bin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >model/pipe.obj
 limited info model/pipe.obj
 claim "nor does it wait for any" eval '[ $rc -eq 0 ] && has err "is no regular file"'
+{
+    i=0
+    while [ $((i += 1)) -le 4097 ]; do echo 'mtllib gone.mtl'; done
+    printf 'mtllib near.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'
+} >model/many.obj
+printf 'newmtl m\nKd 1 0 0\n' >model/near.mtl
+limited info model/many.obj
+claim "nor look for more than 4096" eval '[ $rc -eq 0 ] && has out "\"m\" opaque, colour 1 1 1 1"'
 
 # ------------------------------------------------------------------ sizes, before anything is read
 

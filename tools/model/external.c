@@ -30,8 +30,9 @@ static char *join(const char *folder, const char *name)
 
 static bool read_path(struct external *e, const char *path, uint8_t **bytes, size_t *size, struct failure *f)
 {
-    if (e->files++ == MODEL_MAX_FILES)
+    if (e->files == MODEL_MAX_FILES)
         return fail(f, "more than %d files for one model", MODEL_MAX_FILES);
+    e->files++;
     if (!e->anywhere && !file_lies_in(path, e->folder, f))
         return false;
     FILE *stream = file_open_regular(path, f);
