@@ -14,7 +14,9 @@
 
 enum {
     SLOTS = 64,                 /* smear_desc.vertex_cache by default */
-    MAX_LOOKS = 128             /* triangles at a vertex that are looked at: more share none but the hubs of wheels */
+    MAX_LOOKS = 128,            /* triangles at a vertex that are looked at: more share none but the hubs of wheels */
+    FEW_LOOKS = 4,              /* in a try that has looked at so many, as only tangles do: a second */
+    MANY_LOOKS = 1 << 26
 };
 
 int count_transforms(const uint32_t *index, int triangles)
@@ -48,6 +50,7 @@ struct walk {
     int *number;                /* per vertex: its new number, or -1 */
     int *vertex;                /* per new number: the vertex */
     int numbers;
+    int looks;                  /* in this try */
     int slot[SLOTS];            /* new number, or -1 */
     bool *taken;
     struct taste taste;
@@ -73,14 +76,16 @@ static int cost_of(const struct walk *w, int triangle)
     return 4096 * misses + w->taste.left * (left < 60 ? left : 60) - w->taste.age * (age < 192 ? age : 192);
 }
 
-static int next_triangle(const struct walk *w, int *lowest)
+static int next_triangle(struct walk *w, int *lowest)
 {
+    const int most = w->looks < MANY_LOOKS ? MAX_LOOKS : FEW_LOOKS;
     int best = -1, best_cost = INT_MAX;
     for (int i = 0; i < SLOTS; i++) {
         if (w->slot[i] < 0)
             continue;
         int v = w->vertex[w->slot[i]];
-        for (int k = 0; k < w->left[v] && k < MAX_LOOKS; k++) {
+        for (int k = 0; k < w->left[v] && k < most; k++) {
+            w->looks++;
             int t = w->triangle[w->first[v] + k];
             int cost = cost_of(w, t);
             if (cost < best_cost || (cost == best_cost && t < best)) {
@@ -138,6 +143,7 @@ static int walk_all(struct walk *w, bool keep_order, int *order, uint32_t *index
         w->slot[i] = -1;
     memset(w->taken, 0, (size_t)m->triangle_count * sizeof *w->taken);
     w->numbers = 0;
+    w->looks = 0;
     for (int i = 0; i < m->triangle_count; i++) {
         order[i] = keep_order ? i : next_triangle(w, &lowest);
         take(w, order[i]);
