@@ -49,9 +49,11 @@ struct light_lanes {
     const struct light_planes *p;
     const struct texel_spans *spans;
     int32_t span, left, last, block, log2_block;
-    int32_t first, from_x, until_x;     /* of pixels in [from_x, until_x) the blocks are known */
+    int32_t from_x, until_x;            /* of pixels in [from_x, until_x) the blocks are known */
     int32_t found, found_end, found_block, found_lanes;     /* spans of which all blocks are known, of as many lanes each */
-    lanes8i most;                       /* the last pixel that begins a block, or lies in the last one, less `left` */
+    __m128i log2_lanes;                 /* log2_block */
+    lanes8i left_lanes, most;           /* the last pixel that begins a block, or lies in the last one, less `left` */
+    lanes8i first;                      /* of the blocks that are known; lanes are counted from it */
     lanes8i from[3], step[3];
 };
 
@@ -68,7 +70,7 @@ SMEAR_AVX2_INLINE void light_start(struct light_lanes *k, const struct light_pla
 /* Takes the present span's blocks from those that were found. */
 SMEAR_AVX2_INLINE void light_take(struct light_lanes *k)
 {
-    k->first = -((k->span - k->found) * k->found_lanes);
+    k->first = lanes8i_all(-((k->span - k->found) * k->found_lanes));
     k->from_x = INT32_MIN;
     k->until_x = INT32_MAX;
 }
@@ -82,6 +84,8 @@ SMEAR_AVX2_INLINE void light_row(struct light_lanes *k, const struct texel_spans
     k->last = s->right[i] - 1;
     k->block = block;
     k->log2_block = 31 - count_leading_zeros((uint32_t)block);
+    k->log2_lanes = _mm_cvtsi32_si128(k->log2_block);
+    k->left_lanes = lanes8i_all(k->left);
     k->most = lanes8i_all(max_i32(k->last - k->left - (block > 1), 0));
     k->until_x = INT32_MIN;
     if (i < k->found_end && block == k->found_block)
@@ -148,9 +152,10 @@ SMEAR_AVX2_INLINE void light_find(struct light_lanes *k, int32_t at)
         k->found_lanes = lanes;
         light_take(k);
     } else {
-        k->first = max_i32(min_i32(at, k->last - (k->block > 1)) - k->left, 0) >> k->log2_block;
-        const int32_t start = k->left + (k->first << k->log2_block), until = start + ((k->block > 1 ? 7 : 8) << k->log2_block);
-        k->from_x = k->first == 0 ? INT32_MIN : start;
+        const int32_t first = max_i32(min_i32(at, k->last - (k->block > 1)) - k->left, 0) >> k->log2_block;
+        const int32_t start = k->left + (first << k->log2_block), until = start + ((k->block > 1 ? 7 : 8) << k->log2_block);
+        k->first = lanes8i_all(first);
+        k->from_x = first == 0 ? INT32_MIN : start;
         k->until_x = until >= k->last + (k->block == 1) ? INT32_MAX : until;
         x = lanes8i_all(start);
     }
@@ -168,14 +173,14 @@ SMEAR_AVX2_INLINE lanes8i light_channel8(const struct light_lanes *k, int i, lan
     return (lanes8i)((lanes8)lanes8i_permute(k->from[i], at) + (lanes8)lanes8i_permute(k->step[i], at) * (lanes8)beyond);
 }
 
-/* The colours of eight pixels from x on; of those beyond the row any numbers. */
-SMEAR_AVX2_INLINE struct planes_light planes_light_at(struct light_lanes *k, int32_t x)
+/* The colours of eight pixels from x on, whose columns these are; of those beyond the row any numbers. */
+SMEAR_AVX2_INLINE struct planes_light planes_light_at(struct light_lanes *k, int32_t x, lanes8i column)
 {
     if (x < k->from_x || x + 7 >= k->until_x)
         light_find(k, x);
-    const lanes8i column = lanes8i_all(x - k->left) + lanes8i_numbers();
-    const lanes8i number = lanes8i_min(column, k->most) >> k->log2_block;
-    const lanes8i beyond = column - (number << k->log2_block), at = number - k->first;
+    const lanes8i along = column - k->left_lanes;
+    const lanes8i number = (lanes8i)_mm256_sra_epi32((__m256i)lanes8i_min(along, k->most), k->log2_lanes);
+    const lanes8i beyond = along - (lanes8i)_mm256_sll_epi32((__m256i)number, k->log2_lanes), at = number - k->first;
     const lanes8i r = light_channel8(k, 0, at, beyond), g = light_channel8(k, 1, at, beyond), b = light_channel8(k, 2, at, beyond);
     return (struct planes_light){ { r, g, b } };
 }

@@ -43,7 +43,9 @@ struct lit_numbers {
     uint32_t five[8], six[8], code[8], half[8];             /* masks */
     uint32_t most[8];                                       /* where light is found in the table of codes at most */
     uint32_t by_rb[8], more_rb[8], by_g[8], more_g[8];      /* rgb565_nearest: of pairs, and of words */
-    uint32_t green[8];                                      /* where it lies in RGB565 */
+    uint32_t green[8], red[8];                              /* where they lie in RGB565, red shifted up by 5 */
+    uint32_t by_five[8], more_five[8], by_six[8], more_six[8];      /* codes of levels: of pairs, and of words */
+    uint32_t pair[8], round[8];                             /* mask of pairs, and 1/2 in pairs q8 */
 };
 
 extern const struct lit_numbers smear_lit_numbers;
@@ -133,7 +135,7 @@ SMEAR_AVX2_INLINE struct lit_light lit_light_at(const struct lit_lanes *k, int32
     if (k->even)
         return k->light;
     if (k->blocks != NULL) {
-        const struct planes_light c = planes_light_at(k->blocks, x);
+        const struct planes_light c = planes_light_at(k->blocks, x, lanes8i_numbers() + x);
         return lit_light_from((__m256i)c.c[0], (__m256i)c.c[1], (__m256i)c.c[2], k->linear);
     }
     const __m256i r = lit_channel(k, 0, x, row);
@@ -189,25 +191,26 @@ struct lit_pairs {
 
 SMEAR_AVX2_INLINE struct lit_pairs lit_pairs_of_565(__m256i t)
 {
-    const __m256i five = _mm256_set1_epi32(31), red = _mm256_set1_epi32(31 << 16), six = _mm256_set1_epi32(63);
-    const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, five), _mm256_and_si256(_mm256_slli_epi32(t, 5), red));
-    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), six);
+    const struct lit_numbers *const n = &smear_lit_numbers;
+    const __m256i red = _mm256_and_si256(_mm256_slli_epi32(t, 5), lit_number(n->red));
+    const __m256i rb = _mm256_or_si256(_mm256_and_si256(t, lit_number(n->five)), red);
+    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), lit_number(n->six));
     return (struct lit_pairs){
-        _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, _mm256_set1_epi16(527)), _mm256_set1_epi16(23)), 6),
-        _mm256_srli_epi32(_mm256_add_epi32(_mm256_mullo_epi16(g, _mm256_set1_epi32(259)), _mm256_set1_epi32(33)), 6)
+        _mm256_srli_epi16(_mm256_add_epi16(_mm256_mullo_epi16(rb, lit_number(n->by_five)), lit_number(n->more_five)), 6),
+        _mm256_srli_epi32(_mm256_add_epi32(_mm256_mullo_epi16(g, lit_number(n->by_six)), lit_number(n->more_six)), 6)
     };
 }
 
 SMEAR_AVX2_INLINE struct lit_pairs lit_pairs_of_8888(__m256i t)
 {
-    return (struct lit_pairs){ _mm256_and_si256(t, _mm256_set1_epi32(0xff00ff)),
-                               _mm256_and_si256(_mm256_srli_epi32(t, 8), _mm256_set1_epi32(255)) };
+    return (struct lit_pairs){ _mm256_and_si256(t, lit_number(smear_lit_numbers.pair)),
+                               _mm256_and_si256(_mm256_srli_epi32(t, 8), lit_number(smear_lit_numbers.code)) };
 }
 
 /* code_times */
 SMEAR_AVX2_INLINE __m256i lit_times(__m256i a, __m256i b)
 {
-    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), _mm256_set1_epi16(128));
+    const __m256i t = _mm256_add_epi16(_mm256_mullo_epi16(a, b), lit_number(smear_lit_numbers.round));
     return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
 }
 
