@@ -7,9 +7,10 @@
 
 #if SMEAR_AVX2
 
-/* Coordinates of a block's pixel 0, and how they change. */
+/* Coordinates of a block's pixel 0, and how they change; `bent`: steps change, too. */
 struct block_lanes {
     int32_t u[8], v[8], du[8], dv[8], ddu[8], ddv[8];
+    bool bent;
 };
 
 struct plane_lanes {

@@ -163,11 +163,15 @@ SMEAR_AVX2_INLINE void texels_row_light(const struct texel_lanes *k, const struc
         light_row(k->lit.blocks, s, i, block);
 }
 
-/* a + i da + i (i - 1) / 2 dda. */
-SMEAR_AVX2_INLINE __m256i lanes_at(int32_t a, int32_t da, int32_t dda, __m256i i, __m256i pairs)
+SMEAR_AVX2_INLINE __m256i lanes_at(int32_t a, int32_t da, __m256i i)
 {
-    return _mm256_add_epi32(_mm256_add_epi32(_mm256_set1_epi32(a), _mm256_mullo_epi32(i, _mm256_set1_epi32(da))),
-                            _mm256_mullo_epi32(pairs, _mm256_set1_epi32(dda)));
+    return _mm256_add_epi32(_mm256_set1_epi32(a), _mm256_mullo_epi32(i, _mm256_set1_epi32(da)));
+}
+
+/* a + i da + i (i - 1) / 2 dda. */
+SMEAR_AVX2_INLINE __m256i lanes_bent_at(int32_t a, int32_t da, int32_t dda, __m256i i, __m256i pairs)
+{
+    return _mm256_add_epi32(lanes_at(a, da, i), _mm256_mullo_epi32(pairs, _mm256_set1_epi32(dda)));
 }
 
 /* How far that is from the value at i + 1. */
@@ -220,8 +224,8 @@ SMEAR_AVX2_INLINE void draw_narrow_16(const struct texel_lanes *k, const struct 
         lane = _mm256_add_epi32(lane, _mm256_set1_epi32(i));
         pairs = pairs_of(lane);
     }
-    const __m256i u = lanes_at(c->u[block], c->du[block], c->ddu[block], lane, pairs);
-    const __m256i v = lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs);
+    const __m256i u = lanes_bent_at(c->u[block], c->du[block], c->ddu[block], lane, pairs);
+    const __m256i v = lanes_bent_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs);
     const __m256i u1 = _mm256_add_epi32(u, lanes_step(c->du[block], c->ddu[block], lane));
     const __m256i v1 = _mm256_add_epi32(v, lanes_step(c->dv[block], c->ddv[block], lane));
     const __m256i even = _mm256_srlv_epi32(lanes_gather(k, lanes_index(k, u, v)),
@@ -271,19 +275,20 @@ SMEAR_AVX2_INLINE void lanes_together(const struct block_lanes *c, int32_t block
 SMEAR_AVX2_INLINE void put_block_8(const struct texel_lanes *k, const struct row_lanes *r, const struct block_lanes *c, int32_t block,
                                    int32_t x, int32_t i, __m128i hidden, enum look look)
 {
-    __m256i lane = first_8(), pairs = _mm256_setr_epi32(0, 0, 1, 3, 6, 10, 15, 21);
+    __m256i u, v;
     if (look == LOOK_WRAPPED) {
-        __m256i u, v;
         lanes_together(c, block, i, &u, &v);
-        put_8(k, r, x, u, v, hidden, look);
-        return;
+    } else {
+        const __m256i lane = i == 0 ? first_8() : _mm256_add_epi32(first_8(), _mm256_set1_epi32(i));
+        u = lanes_at(c->u[block], c->du[block], lane);
+        v = lanes_at(c->v[block], c->dv[block], lane);
+        if (c->bent) {
+            const __m256i pairs = i == 0 ? _mm256_setr_epi32(0, 0, 1, 3, 6, 10, 15, 21) : pairs_of(lane);
+            u = _mm256_add_epi32(u, _mm256_mullo_epi32(pairs, _mm256_set1_epi32(c->ddu[block])));
+            v = _mm256_add_epi32(v, _mm256_mullo_epi32(pairs, _mm256_set1_epi32(c->ddv[block])));
+        }
     }
-    if (i != 0) {
-        lane = _mm256_add_epi32(lane, _mm256_set1_epi32(i));
-        pairs = pairs_of(lane);
-    }
-    put_8(k, r, x, lanes_at(c->u[block], c->du[block], c->ddu[block], lane, pairs),
-          lanes_at(c->v[block], c->dv[block], c->ddv[block], lane, pairs), hidden, look);
+    put_8(k, r, x, u, v, hidden, look);
 }
 
 /* Eight pixels, as draw_narrow_16. */
@@ -405,6 +410,7 @@ SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct t
     struct block_lanes c;
     lanes_start(&k, t, &blocks, look);
     planes_start(&planes, p);
+    c.bent = p->parabolic;
     store_lanes(c.ddu, _mm256_setzero_si256());
     store_lanes(c.ddv, _mm256_setzero_si256());
     for (int32_t i = 0; i < s->count; i++) {
@@ -467,6 +473,7 @@ SMEAR_AVX2_INLINE void rows_of_curves(const struct texel_rows *t, const struct t
     lanes_start(&k, t, &blocks, look);
     curve_start(&u, &p->u);
     curve_start(&v, &p->v);
+    c.bent = true;
     store_lanes(c.ddu, _mm256_add_epi32(u.dxx, u.dxx));
     store_lanes(c.ddv, _mm256_add_epi32(v.dxx, v.dxx));
     for (int32_t i = 0; i < s->count; i += 8) {
