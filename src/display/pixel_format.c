@@ -187,7 +187,13 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
                        int32_t y, smear_format format, smear_dither dither)
 {
-    if (!format_is_16bit(format) || !is_dithered(dither) || !smear_has_avx2())
+    if (!smear_has_avx2())
+        return false;
+    if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888) {
+        smear_rows_xrgb8888_avx2((uint32_t *)(void *)band + x, stride / 4, in, in_stride, rows, n);
+        return true;
+    }
+    if (!format_is_16bit(format) || !is_dithered(dither))
         return false;
     struct dithered_rows r = { (uint16_t *)(void *)band + x, in, stride / 2, in_stride, rows, n, x, y, NULL, 0 };
     r.threshold = thresholds_of(0, dither, &r.mask);

@@ -56,6 +56,12 @@ static inline void row_xrgb8888_vector(uint32_t *out, const uint32_t *in, int32_
 }
 #endif
 
+#if SMEAR_AVX2
+/* Stores rows of n >= 0 pixels, strides in pixels: a tile's rows are too short for a call each. */
+void smear_rows_xrgb8888_avx2(uint32_t *out, ptrdiff_t out_stride, const uint32_t *in, ptrdiff_t in_stride, int32_t rows,
+                              int32_t n);
+#endif
+
 static inline void row_xrgb8888(uint32_t *out, const uint32_t *in, int32_t n)
 {
 #if SMEAR_VECTORS

@@ -1,9 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel_rows_avx2.c - sixteen pixels of 16 bits a round. */
+/* pixel_rows_avx2.c - sixteen pixels of 16 bits a round, or eight of 32. */
 #include "kernels/lanes8.h"
 #include "kernels/pixel_rows.h"
 
 #if SMEAR_AVX2
+/* Eight pixels; the last eight of a row overlap those before them. */
+SMEAR_AVX2_FUNCTION void smear_rows_xrgb8888_avx2(uint32_t *out, ptrdiff_t out_stride, const uint32_t *in, ptrdiff_t in_stride,
+                                                  int32_t rows, int32_t n)
+{
+    for (; rows > 0; rows--, out += out_stride, in += in_stride) {
+        if (n < 8) {
+            row_xrgb8888_vector(out, in, n);
+            continue;
+        }
+        for (ptrdiff_t i = 0; i < n - 7; i += 8)
+            lanes8_store(out + i, lanes8_load(in + i) & 0xffffffu);
+        if ((n & 7) != 0)
+            lanes8_store(out + n - 8, lanes8_load(in + n - 8) & 0xffffffu);
+    }
+}
+
 /* Sixteen pixels as halves: blue and red of the first eight by turns, of the last eight; green of all, in the order of
  * places 0 to 3, 8 to 11, 4 to 7, 12 to 15, which is that of packing. */
 struct sixteen {

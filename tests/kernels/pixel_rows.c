@@ -12,6 +12,22 @@ static void xrgb8888_reference(struct kernel_call *c) { row_xrgb8888_reference(c
 static void xrgb8888_vector(struct kernel_call *c) { row_xrgb8888_vector(c->plane[0], c->plane[1], c->n); }
 #endif
 
+#if SMEAR_AVX2
+/* Three rows of a third of the pixels each. */
+static void xrgb8888_rows_reference(struct kernel_call *c)
+{
+    const int32_t width = c->n / 3;
+    for (int32_t i = 0; i < 3; i++)
+        row_xrgb8888_reference((uint32_t *)c->plane[0] + i * width, (const uint32_t *)c->plane[1] + i * width, width);
+}
+
+static void xrgb8888_rows_avx2(struct kernel_call *c)
+{
+    const int32_t width = c->n / 3;
+    smear_rows_xrgb8888_avx2(c->plane[0], width, c->plane[1], width, 3, width);
+}
+#endif
+
 static void prepare_nearest(struct kernel_call *c) { c->word[LAYOUT] %= 3u; }
 
 static void nearest_reference(struct kernel_call *c)
@@ -170,6 +186,10 @@ const struct kernel kernels_pixel_rows[] = {
                 { "vector", xrgb8888_vector },
 #endif
       } },
+#if SMEAR_AVX2
+    { .name = "rows_xrgb8888", .most = 105, .size = { 4, 4 },
+      .form = { { "reference", xrgb8888_rows_reference }, { "avx2", xrgb8888_rows_avx2 } } },
+#endif
     { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
       .form = { { "reference", nearest_reference },
 #ifndef __OPTIMIZE_SIZE__
