@@ -97,13 +97,6 @@ static void collect(struct neighbors *n, const struct smear_window *w, int32_t r
     }
 }
 
-/* Beyond these, measured on the scenes of the quality suite, the mean along the own velocity loses to weighted taps. */
-enum {
-    small_step = 16,            /* 1/8 px: the largest step of velocity from pixel to pixel that does not show, */
-    small_share = 2,            /* or 1/2^small_share of the longest motion */
-    small_carry = 32            /* 1/8 px: less motion along an axis hardly carries anything out of a tile */
-};
-
 /* Whether all motion that can carry anything into or out of the tile is alike or changes without a step.
  * Along an axis on which nothing moves far, neighbours do not matter. */
 static bool is_uniform(const struct neighbors *n, const struct smear_tile_motion *here)
@@ -118,7 +111,7 @@ static bool is_uniform(const struct neighbors *n, const struct smear_tile_motion
     }
     int32_t widest = max_i32(max_i32(all.max_x, -all.min_x), max_i32(all.max_y, -all.min_y));
     int32_t spread = max_i32(all.max_x - all.min_x, all.max_y - all.min_y);
-    if (spread <= max_i32(6, widest >> small_share))
+    if (spread <= max_i32(small_spread, widest >> small_share))
         return true;
     bool sideways = max_i32(all.max_x, -all.min_x) >= small_carry;
     bool upright = max_i32(all.max_y, -all.min_y) >= small_carry;
@@ -212,7 +205,7 @@ static void scattered(const struct smear_window *w, int32_t row, int32_t column,
     out->kind = is_static ? TILE_STATIC : TILE_COMPLEX;
 }
 
-void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
+static void neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
 {
     for (int32_t column = 0; column < w->columns; column++) {
         if (SMEAR_WITH_FILTERS && w->lag > 1)       /* desc.filter.scatter */
@@ -221,3 +214,21 @@ void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t kn
             neighborhood(w, row, column, known, corner);
     }
 }
+
+void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
+{
+#if SMEAR_AVX2
+    if (w->lag == 1 && !corner && smear_has_avx2()) {
+        smear_neighbormax_row_avx2(w, row, known);
+        return;
+    }
+#endif
+    neighbormax_row(w, row, known, corner);
+}
+
+#if SMEAR_AVX2
+void smear_neighbormax_row_reference(const struct smear_window *w, int32_t row, int32_t known)
+{
+    neighbormax_row(w, row, known, false);
+}
+#endif

@@ -24,10 +24,24 @@ static inline void smear_tilemax(const struct smear_window *w, int32_t row, int3
     smear_tilemax_reference(w, row, column);
 }
 
+/* Beyond these, measured on the scenes of the quality suite, the mean along the own velocity loses to weighted taps. */
+enum {
+    small_spread = 6,           /* 1/8 px: the widest range of velocities that all count as one, */
+    small_step = 16,            /* 1/8 px: the largest step of velocity from pixel to pixel that does not show, */
+    small_share = 2,            /* or 1/2^small_share of the longest motion */
+    small_carry = 32            /* 1/8 px: less motion along an axis hardly carries anything out of a tile */
+};
+
 /* Finds the 3 x 3 neighbourhood of every tile in `row`, where rows up to `known` have been reduced: the row being
  * finished knows all three, the one below it is looked at with two. With `corner`, a diagonal neighbour counts only if
  * its motion points along the diagonal [Guertin14]. Where the reach exceeds a tile, all tiles within it count whose
  * motion leads here. */
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner);
+
+#if SMEAR_AVX2
+/* The same, where the reach is a tile at most and all neighbours count. */
+void smear_neighbormax_row_reference(const struct smear_window *w, int32_t row, int32_t known);
+void smear_neighbormax_row_avx2(const struct smear_window *w, int32_t row, int32_t known);
+#endif
 
 #endif

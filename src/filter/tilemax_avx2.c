@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* tilemax_avx2.c - the tile maximum, eight pixels at once, to the bits of smear_tilemax_reference(). It takes a seventh of
- * the instructions. */
+/* tilemax_avx2.c - the tile maximum, eight pixels at once, and the neighbour maximum, eight tiles at once, to the bits of
+ * tilemax.c. They take a seventh of the instructions. */
 #include "filter/tilemax.h"
 
 #include "kernels/lanes8.h"
@@ -81,6 +81,122 @@ void smear_tilemax_avx2(const struct smear_window *w, int32_t row, int32_t colum
     window_motion(w, row)[column] = (struct smear_tile_motion){ velocity[2 * best], velocity[2 * best + 1], low[0], high[0], low[1],
                                                                 high[1] };
     window_around(w, row)[column].rough = (uint8_t)min_i32(most, 255);
+}
+
+/* ------------------------------------------------------------------ neighbours */
+
+/* Motions of eight tiles: the longest, and their lowest and highest component along x and y; pairs of halves. */
+struct motions8 {
+    lanes8 longest, x, y;
+};
+
+SMEAR_AVX2_INLINE struct motions8 motions8_load(const struct smear_tile_motion *motion, lanes8i column)
+{
+    const char *const words = (const char *)motion;         /* three each */
+    const lanes8i at = column + column + column;
+    return (struct motions8){ lanes8_gather(words, at), lanes8_gather(words + 4, at), lanes8_gather(words + 8, at) };
+}
+
+/* What is known of the neighbourhoods of eight tiles. */
+struct neighbors8 {
+    struct motions8 own;
+    lanes8 square, longest;             /* the winner's, which is 1.01^2 times as long where it is the tile itself */
+    lanes8i scale;                      /* of the winner */
+    lanes8 low_x, high_x, low_y, high_y;        /* of all: lowest of the lower halves, highest of the upper ones */
+    /* The largest step of velocity within a tile or from it to the own range, as halves: of those above and below it, beside it,
+     * at its corners and of the tile itself. */
+    lanes8 upright, sideways, diagonal, here;
+};
+
+/* How far ranges of velocities lie apart, as halves: to one side, to the other. */
+SMEAR_AVX2_INLINE lanes8 gap8(lanes8 a, lanes8 b)
+{
+    const lanes8 swapped = b << 16 | b >> 16, flip = lanes8_all(0xffff0001u);
+    return (lanes8)_mm256_sign_epi16(_mm256_subs_epi16((__m256i)a, (__m256i)swapped), (__m256i)flip);
+}
+
+/* Adds the tiles of one row at the columns given; returns their steps. */
+SMEAR_AVX2_INLINE lanes8 neighbors8_add(struct neighbors8 *n, const struct smear_tile_motion *motion,
+                                        const struct smear_tile_neighborhood *around, lanes8i column, bool is_centre)
+{
+    const struct motions8 m = motions8_load(motion, column);
+    const lanes8 square = (lanes8)lanes8_dot(m.longest, m.longest) * (is_centre ? 10201u : 10000u);
+    const lanes8 most = (lanes8)_mm256_max_epu32((__m256i)square, (__m256i)n->square);
+    const lanes8i kept = most == n->square;
+    n->longest = lanes8_choose(kept, n->longest, m.longest);
+    n->scale = lanes8i_choose(kept, n->scale, lanes8i_all(is_centre ? 65536 : 64887));
+    n->square = most;
+    n->low_x = lanes8i_min16(n->low_x, m.x);
+    n->high_x = lanes8i_max16(n->high_x, m.x);
+    n->low_y = lanes8i_min16(n->low_y, m.y);
+    n->high_y = lanes8i_max16(n->high_y, m.y);
+    /* The upper byte of a word that ends with the record. */
+    const lanes8 rough = lanes8_gather_upper((const char *)around + 4, column + column + column) >> 24;
+    const lanes8i still = (m.x | m.y) == lanes8_all(0);
+    return lanes8i_max16(lanes8_choose(still, lanes8_all(0), rough), lanes8i_max16(gap8(m.x, n->own.x), gap8(m.y, n->own.y)));
+}
+
+/* Adds the tiles at the columns and beside them, in their order; beyond the frame the nearest inside stands twice, which changes
+ * nothing. */
+SMEAR_AVX2_INLINE void neighbors8_row(struct neighbors8 *n, const struct smear_window *w, int32_t row, lanes8i column, bool is_own)
+{
+    const struct smear_tile_motion *const motion = window_motion(w, row);
+    const struct smear_tile_neighborhood *const around = window_around(w, row);
+    const lanes8i left = lanes8i_max(column - 1, lanes8i_all(0)), right = lanes8i_min(column + 1, lanes8i_all(w->columns - 1));
+    lanes8 *const middle = is_own ? &n->here : &n->upright, *const beside = is_own ? &n->sideways : &n->diagonal;
+    *beside = lanes8i_max16(*beside, neighbors8_add(n, motion, around, left, false));
+    *middle = lanes8i_max16(*middle, neighbors8_add(n, motion, around, column, is_own));
+    *beside = lanes8i_max16(*beside, neighbors8_add(n, motion, around, right, false));
+}
+
+SMEAR_AVX2_INLINE lanes8i lanes8_greater_half(lanes8 a) { return lanes8i_max(lanes8_pair_x(a), lanes8_pair_y(a)); }
+
+/* Returns the kinds of tiles: as neighborhood() and is_uniform(). */
+SMEAR_AVX2_INLINE lanes8i neighbors8_kind(const struct neighbors8 *n)
+{
+    const lanes8i low_x = lanes8_pair_x(n->low_x), high_x = lanes8_pair_y(n->high_x);
+    const lanes8i low_y = lanes8_pair_x(n->low_y), high_y = lanes8_pair_y(n->high_y);
+    const lanes8i far_x = lanes8i_max(high_x, -low_x), far_y = lanes8i_max(high_y, -low_y);
+    const lanes8i share = lanes8i_max(far_x, far_y) >> small_share, spread = lanes8i_max(high_x - low_x, high_y - low_y);
+    const lanes8 carried_x = (lanes8)(far_x >= small_carry), carried_y = (lanes8)(far_y >= small_carry);
+    const lanes8 beside = lanes8i_max16(n->here, n->sideways & carried_x);
+    const lanes8 above = lanes8i_max16(n->upright & carried_y, n->diagonal & carried_x & carried_y);
+    const lanes8i rough = lanes8_greater_half(lanes8i_max16(beside, above)) > lanes8i_max(share, lanes8i_all(small_step));
+    const lanes8i complex = rough & (spread > lanes8i_max(share, lanes8i_all(small_spread)));
+    const lanes8i still = (low_x | high_x | low_y | high_y) == lanes8i_all(0);
+    return lanes8i_choose(still, lanes8i_all(TILE_STATIC), TILE_UNIFORM - complex);
+}
+
+/* Eight tiles from a column on, as far as there are so many. */
+static inline SMEAR_AVX2_FUNCTION void neighbormax8(const struct smear_window *w, int32_t row, int32_t known, int32_t first)
+{
+    const lanes8i column = lanes8i_min(lanes8i_numbers() + first, lanes8i_all(w->columns - 1));
+    const lanes8 none = lanes8_all(0);
+    struct neighbors8 n = { .own = motions8_load(window_motion(w, row), column), .square = none, .longest = none,
+                            .scale = lanes8i_all(0), .upright = none, .sideways = none, .diagonal = none, .here = none };
+    n.low_x = n.high_x = n.own.x;
+    n.low_y = n.high_y = n.own.y;
+    if (row > 0)
+        neighbors8_row(&n, w, row - 1, column, false);
+    neighbors8_row(&n, w, row, column, true);
+    if (row < known)
+        neighbors8_row(&n, w, row + 1, column, false);
+    int32_t x[8], y[8], kind[8];
+    lanes8i_store(x, (lanes8_pair_x(n.longest) * n.scale + 0x400) >> 11);
+    lanes8i_store(y, (lanes8_pair_y(n.longest) * n.scale + 0x400) >> 11);
+    lanes8i_store(kind, neighbors8_kind(&n));
+    struct smear_tile_neighborhood *const out = window_around(w, row) + first;
+    for (int32_t i = 0; i < min_i32(w->columns - first, 8); i++) {
+        out[i].x = (int16_t)x[i];
+        out[i].y = (int16_t)y[i];
+        out[i].kind = (uint8_t)kind[i];
+    }
+}
+
+SMEAR_AVX2_FUNCTION void smear_neighbormax_row_avx2(const struct smear_window *w, int32_t row, int32_t known)
+{
+    for (int32_t first = 0; first < w->columns; first += 8)
+        neighbormax8(w, row, known, first);
 }
 
 #endif
