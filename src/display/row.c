@@ -101,9 +101,9 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
         pixels_fill(t->color + at, color, n);
         pixels_clear_narrow(t->depth + at, n);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)
-            __builtin_memset(t->velocity8 + 2 * at, velocity, (size_t)n * 2);
+            pixels_fill_bytes((uint16_t *)(void *)(t->velocity8 + 2 * at), velocity, n);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity16 != NULL)
-            __builtin_memset(t->velocity16 + 2 * at, velocity, (size_t)n * 4);
+            pixels_fill_bytes((uint16_t *)(t->velocity16 + 2 * at), velocity, 2 * n);
         if (target_is_inspected(t))
             __builtin_memset(t->inspect + 2 * at, 0, (size_t)n * 8);
     }

@@ -130,4 +130,14 @@ static inline void pixels_clear_narrow(uint16_t *p, int32_t n)
 #endif
 }
 
+/* Sets both bytes of each to the lowest one of `byte`: by vectors, where there are any. */
+static inline void pixels_fill_bytes(uint16_t *p, int byte, int32_t n)
+{
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+    pixels_fill_narrow(p, (uint8_t)byte * 0x101u, n);
+#else
+    __builtin_memset(p, byte, (size_t)n * sizeof *p);
+#endif
+}
+
 #endif
