@@ -8,9 +8,11 @@
 
 #if SMEAR_AVX2
 
-/* Directions of neighbourhoods, as struct direction has them. */
+enum { NEIGHBORS = 9 };
+
+/* Directions of neighbourhoods, as struct direction has them; 2 pairs + 1 taps, or none. */
 struct lanes_direction {
-    lanes8i x, y, length, pairs, spacing;
+    lanes8i x, y, length, taps, spacing;
     lanes8 center;
 };
 
@@ -41,8 +43,12 @@ struct lanes_taps {
 struct lanes_tile {
     const struct gathering *g;
     lanes8i left, right;      /* columns of the frame */
+    lanes8i sine_scale;         /* of tile_jump() */
+    lanes8 noise_apart;         /* from a pixel's noise to that which chooses its neighbourhood */
     bool edge, fence;
-    int32_t field[6][9];        /* of each neighbourhood: x, y, length, pairs, spacing, center */
+    /* Of each neighbourhood: x, y, length, taps, spacing, center. A row of pixels takes those of two rows of tiles, the first six
+     * or the last six. */
+    int32_t field[6][NEIGHBORS + 2];
 };
 
 /* ------------------------------------------------------------------ arithmetic, see reconstruct.c */
@@ -50,8 +56,9 @@ struct lanes_tile {
 SMEAR_AVX2_INLINE lanes8 lanes_inverse_speed(lanes8i speed)
 {
     const lanes8i log2 = lanes8_log2((lanes8)speed);
-    const lanes8 seed = lanes8_of_halves(smear_recip_seed, lanes8_left((lanes8)speed, 31 - log2) >> 22 & 511u);
-    return lanes8_left(seed, 17 - log2);
+    const lanes8 places = lanes8_left((lanes8)speed, lanes8i_word(LANES8_31) - log2) >> 22;
+    const lanes8 seed = lanes8_of_halves(smear_recip_seed, places & lanes8_word(LANES8_511));
+    return lanes8_left(seed, lanes8i_word(LANES8_17) - log2);
 }
 
 /* Velocities, gathered as the upper halves of words or whole, as pairs of halves in 1/8 px. */
@@ -65,32 +72,32 @@ SMEAR_AVX2_INLINE lanes8 lanes_of_bytes(lanes8 upper)
 /* Returns |32 v| of velocities in 1/8 px, whose squares are `square`; speed: of v. Those below 128 are 128. */
 SMEAR_AVX2_INLINE lanes8i lanes_length(lanes8 square, lanes8i speed)
 {
-    const lanes8i big = (lanes8i)square >= 1 << 10;
+    const lanes8i big = (lanes8i)square > lanes8i_word(LANES8_1023);
     const lanes8 small = lanes8_sqrt_q3(square << 10 & ~(lanes8)big) >> 3;
-    const lanes8 root = (lanes8)lanes8i_max((lanes8i)lanes8_choose(big, (lanes8)speed, small), lanes8i_all(1));
+    const lanes8 root = (lanes8)lanes8i_max((lanes8i)lanes8_choose(big, (lanes8)speed, small), lanes8i_word(LANES8_1));
     const lanes8i log2 = lanes8_log2(root);
-    const lanes8 quotient = lanes8_mulh(square << 10, lanes8_recip_norm(lanes8_left(root, 31 - log2)));
+    const lanes8 quotient = lanes8_mulh(square << 10, lanes8_recip_norm(lanes8_left(root, lanes8i_word(LANES8_31) - log2)));
     const lanes8i length = (lanes8i)((root + lanes8_right(quotient, log2 - 2) + 1u) >> 1);
-    return lanes8i_max(length, lanes8i_all(128));
+    return lanes8i_max(length, lanes8i_word(LANES8_128));
 }
 
 /* Returns 2^30 / x for 0 < x < 2^16. */
 SMEAR_AVX2_INLINE lanes8 lanes_inverse_q30(lanes8 x)
 {
     const lanes8i log2 = lanes8_log2(x);
-    return lanes8_right(lanes8_recip_norm(lanes8_left(x, 31 - log2)), log2);
+    return lanes8_right(lanes8_recip_norm(lanes8_left(x, lanes8i_word(LANES8_31) - log2)), log2);
 }
 
 SMEAR_AVX2_INLINE lanes8 lanes_units(lanes8 code)
 {
-    return lanes8_choose((lanes8i)code < 32768, code, (code << 4) - 15u * 32768u);
+    return (lanes8)lanes8i_max((lanes8i)code, (lanes8i)((code << 4) - lanes8_word(LANES8_BREAK_15)));      /* 16 to 1 from there on */
 }
 
 /* At least 1. */
 SMEAR_AVX2_INLINE lanes8 lanes_part_of(lanes8 units, uint32_t share_q20)
 {
     const lanes8 small = units * share_q20 >> 20, large = (units >> 4) * share_q20 >> 16;
-    return (lanes8)lanes8i_max((lanes8i)lanes8_choose((lanes8i)units < 1 << 16, small, large), lanes8i_all(1));
+    return (lanes8)lanes8i_max((lanes8i)lanes8_choose((lanes8i)units > lanes8i_word(LANES8_65535), large, small), lanes8i_word(LANES8_1));
 }
 
 /* ------------------------------------------------------------------ what belongs to a pixel */
@@ -101,15 +108,15 @@ SMEAR_AVX2_INLINE struct lanes_motion lanes_motion_make(lanes8 velocity, const s
     const lanes8i speed = (lanes8i)lanes8_sqrt_q3(square) << 2;
     const lanes8i x = (lanes8i)(velocity << 16) >> 11, y = (lanes8i)velocity >> 16 << 5;
     const lanes8i length = lanes_length(square, speed), log2 = lanes8_log2((lanes8)length);
-    const lanes8 r = lanes8_recip_norm(lanes8_left((lanes8)length, 31 - log2));
+    const lanes8 r = lanes8_recip_norm(lanes8_left((lanes8)length, lanes8i_word(LANES8_31) - log2));
     const lanes8i factor = (lanes8i)lanes8_right(lanes8_mulh((lanes8)top->length << 16, r), log2 - 2);
-    const lanes8i far = 2 * lanes8i_max(speed, lanes8i_all(128)) > top->length;
+    const lanes8i far = 2 * lanes8i_max(speed, lanes8i_word(LANES8_128)) > top->length;
     struct lanes_motion m;
-    m.x = lanes8i_choose(far, (x * factor + 0x8000) >> 16, top->x);
-    m.y = lanes8i_choose(far, (y * factor + 0x8000) >> 16, top->y);
-    m.background = lanes8i_max(speed, lanes8i_all(256));
+    m.x = lanes8i_choose(far, (x * factor + lanes8i_word(LANES8_32768)) >> 16, top->x);
+    m.y = lanes8i_choose(far, (y * factor + lanes8i_word(LANES8_32768)) >> 16, top->y);
+    m.background = lanes8i_max(speed, lanes8i_word(LANES8_256));
     m.over = lanes_inverse_speed(m.background);
-    m.slow = speed <= 128;
+    m.slow = ~(speed > lanes8i_word(LANES8_128));
     return m;
 }
 
@@ -160,9 +167,9 @@ SMEAR_AVX2_INLINE lanes8 lanes_weights(const struct lanes_tile *t, struct lanes_
             lanes_depth_front(own);
         const lanes8 part = (units - own->units) * own->front_scale >> 22;
         const lanes8i whole = (lanes8i)units >= (lanes8i)own->front;
-        const lanes8i share = lanes8i_choose(whole, lanes8i_all(256), (lanes8i)part);
+        const lanes8i share = lanes8i_choose(whole, lanes8i_word(LANES8_256), (lanes8i)part);
         const lanes8i change = (lanes_speed_at(t, at) - s->background) * share >> 8;
-        const lanes8i speed = lanes8i_max(s->background + change, lanes8i_all(16)), faster = front & (change > 0);
+        const lanes8i speed = lanes8i_max(s->background + change, lanes8i_word(LANES8_16)), faster = front & (change > 0);
         const lanes8 own_inverse = lanes_inverse_speed(speed);
         cover = lanes8i_choose(front, speed - distance, cover);
         inverse = lanes8_choose(front, own_inverse, inverse);
@@ -170,7 +177,7 @@ SMEAR_AVX2_INLINE lanes8 lanes_weights(const struct lanes_tile *t, struct lanes_
         s->over = lanes8_choose(faster, own_inverse, s->over);
     }
     cover = lanes8i_max(cover, lanes8i_all(0));
-    lanes8 weight = ((inverse >> 6) * shape >> 10) * (lanes8)lanes8i_min(cover, lanes8i_all(256)) >> 12;
+    lanes8 weight = ((inverse >> 6) * shape >> 10) * (lanes8)lanes8i_min(cover, lanes8i_word(LANES8_256)) >> 12;
     const lanes8i behind = s->fence & ((lanes8i)code < (lanes8i)own->code);
     if (t->fence && lanes8i_any(behind)) {
         const lanes8 units = lanes_units(code);
@@ -195,10 +202,10 @@ SMEAR_AVX2_INLINE void lanes_add(struct lanes_taps *s, lanes8 pixel, lanes8 weig
         return;
     }
     const lanes8 weights = weight | other_weight << 16;
-    const lanes8 green_blue = lanes8_pair(pixel, other), red = lanes8_upper_pair(pixel, other) & 0xff00ffu;
+    const lanes8 green_blue = lanes8_pair(pixel, other), red = lanes8_upper_pair(pixel, other) & lanes8_word(LANES8_RED_BLUE);
     s->r += (lanes8)lanes8_dot(red, weights);
     s->g += (lanes8)lanes8_dot(lanes8_right16(green_blue, 8), weights);
-    s->b += (lanes8)lanes8_dot(green_blue & 0xff00ffu, weights);
+    s->b += (lanes8)lanes8_dot(green_blue & lanes8_word(LANES8_RED_BLUE), weights);
 }
 
 /* Places of pixels in q20 px: columns from the tile's first, rows from the table's. */
@@ -232,9 +239,10 @@ SMEAR_AVX2_INLINE void lanes_pair(const struct lanes_tile *t, struct lanes_taps 
 SMEAR_AVX2_INLINE lanes8 lanes_mean(const struct lanes_taps *s, bool linear)
 {
     const lanes8i log2 = lanes8_log2(s->weight);
-    const lanes8 r = lanes8_recip_norm(lanes8_left(s->weight, 31 - log2));
+    const lanes8 r = lanes8_recip_norm(lanes8_left(s->weight, lanes8i_word(LANES8_31) - log2));
+    const lanes8i up = lanes8i_word(LANES8_15) - log2;           /* weights are below 2^15 */
     if (linear) {
-        const lanes8i up = 15 - log2, most = lanes8i_all(4095);
+        const lanes8i most = lanes8i_all(4095);
         const lanes8i red = (lanes8i)(lanes8_mulh(lanes8_left(s->r, up), r) >> 17);
         const lanes8i green = (lanes8i)(lanes8_mulh(lanes8_left(s->g, up), r) >> 17);
         const lanes8i blue = (lanes8i)(lanes8_mulh(lanes8_left(s->b, up), r) >> 17);
@@ -242,11 +250,10 @@ SMEAR_AVX2_INLINE lanes8 lanes_mean(const struct lanes_taps *s, bool linear)
              | lanes8_encode((lanes8)lanes8i_min(green, most)) << 8
              | lanes8_encode((lanes8)lanes8i_min(blue, most));
     }
-    const lanes8i down = log2 - 11, up = -down;           /* of one of the two nothing is left, but where both are 0 */
-    const lanes8 r12 = r >> 18;
-    const lanes8 red = (lanes8_right(s->r, down) | lanes8_left(s->r, up)) * r12 + (1u << 22);
-    const lanes8 green = (lanes8_right(s->g, down) | lanes8_left(s->g, up)) * r12 + (1u << 22);
-    const lanes8 blue = (lanes8_right(s->b, down) | lanes8_left(s->b, up)) * r12 + (1u << 22);
+    const lanes8 r12 = r >> 18, half = lanes8_word(LANES8_2_22);
+    const lanes8 red = (lanes8_left(s->r, up) >> 4) * r12 + half;
+    const lanes8 green = (lanes8_left(s->g, up) >> 4) * r12 + half;
+    const lanes8 blue = (lanes8_left(s->b, up) >> 4) * r12 + half;
     return (red >> 23 << 16) | (green >> 23 << 8) | blue >> 23;
 }
 
@@ -255,17 +262,17 @@ SMEAR_AVX2_INLINE lanes8 lanes_gather(const struct lanes_tile *t, const struct l
                                       struct lanes_depth *own, lanes8 pixel, int32_t x, int32_t y, lanes8 noise)
 {
     struct lanes_taps s = { .near_code = (lanes8i)own->code, .background = m->background, .over = m->over, .fence = m->slow };
-    const lanes8i offset = ((lanes8i)noise - 32768) * top->spacing >> 16, shift = top->length * offset;
-    const lanes8i x20 = ((lanes8i_numbers() + x) << 20) + (1 << 19), y20 = lanes8i_all((y << 20) + (1 << 19));
+    const lanes8i offset = ((lanes8i)noise - lanes8i_word(LANES8_32768)) * top->spacing >> 16, shift = top->length * offset;
+    const lanes8i x20 = ((lanes8i_numbers() + x) << 20) + lanes8i_word(LANES8_2_19), y20 = lanes8i_all((y << 20) + (1 << 19));
     const struct lanes_place base = { x20 + top->x * offset, y20 + top->y * offset };
     const struct lanes_place second = { x20 + m->x * offset, y20 + m->y * offset };
     const bool box = t->g->box;
-    lanes8i left = (4096 - (top->spacing >> 1)) & (top->pairs > 0);
+    lanes8i left = (lanes8i_word(LANES8_4096) - (top->spacing >> 1)) & (top->taps > 0);
     for (int k = 0; lanes8i_any(left > 0); left -= top->spacing, k ^= 1) {
         const lanes8i more = left > 0, at = lanes8i_max(left, lanes8i_all(0));
-        const lanes8 shape = (box ? lanes8_all(4096) : (lanes8)(4915 - at)) & (lanes8)more;
+        const lanes8 shape = (box ? lanes8_word(LANES8_4096) : (lanes8)(lanes8i_word(LANES8_4915) - at)) & (lanes8)more;
         const lanes8i distance = top->length * at;
-        s.near_code = lanes8i_choose(more, s.near_code, lanes8i_all(65535));
+        s.near_code = lanes8i_choose(more, s.near_code, lanes8i_word(LANES8_65535));
         if (k == 0)
             lanes_pair(t, &s, own, base, (struct lanes_place){ top->x * at, top->y * at }, distance, shift, shape);
         else
@@ -274,40 +281,49 @@ SMEAR_AVX2_INLINE lanes8 lanes_gather(const struct lanes_tile *t, const struct l
     const lanes8i none = s.weight == lanes8_all(0);
     if (lanes8_all_set((lanes8)none))
         return pixel;
-    const lanes8 center = (lanes8)lanes8i_max((lanes8i)((s.over >> 8) * top->center >> 12), lanes8i_all(1));
+    const lanes8 center = (lanes8)lanes8i_max((lanes8i)((s.over >> 8) * top->center >> 12), lanes8i_word(LANES8_1));
     lanes_add(&s, pixel, center, pixel, lanes8_all(0), t->g->linear);
     return lanes8_choose(none, pixel, lanes_mean(&s, t->g->linear));
 }
 
 /* ------------------------------------------------------------------ the tile */
 
-SMEAR_AVX2_INLINE lanes8i lanes_of_nine(const int32_t of[9], lanes8i which)
+SMEAR_AVX2_INLINE lanes8i lanes_field(const struct lanes_tile *t, int i, int first, lanes8i which)
 {
-    const lanes8i low = lanes8i_permute(lanes8i_load(of), which);
-    return lanes8i_choose(which == 8, lanes8i_all(of[8]), low);
+    return lanes8i_permute(lanes8i_load(t->field[i] + first), which);
 }
 
-SMEAR_AVX2_INLINE struct lanes_direction lanes_direction_of(const struct lanes_tile *t, lanes8i which)
+/* Takes directions of neighbourhoods counted from a first one on, fewer than eight. */
+SMEAR_AVX2_INLINE struct lanes_direction lanes_direction_of(const struct lanes_tile *t, int first, lanes8i which)
 {
     return (struct lanes_direction){
-        lanes_of_nine(t->field[0], which), lanes_of_nine(t->field[1], which), lanes_of_nine(t->field[2], which),
-        lanes_of_nine(t->field[3], which), lanes_of_nine(t->field[4], which), (lanes8)lanes_of_nine(t->field[5], which)
+        lanes_field(t, 0, first, which), lanes_field(t, 1, first, which), lanes_field(t, 2, first, which),
+        lanes_field(t, 3, first, which), lanes_field(t, 4, first, which), (lanes8)lanes_field(t, 5, first, which)
     };
 }
 
 /* As tile_jump(), for sines of eight pixels. */
-SMEAR_AVX2_INLINE lanes8i lanes_jump(lanes8i place, lanes8i sine, int shift)
+SMEAR_AVX2_INLINE lanes8i lanes_jump(const struct lanes_tile *t, lanes8i place, lanes8i sine)
 {
-    return ((place << 8) + 128 + (sine * (258 * (64 << shift)) >> 15)) >> (shift + 8);
+    return ((place << 8) + lanes8i_word(LANES8_128) + (sine * t->sine_scale >> 15)) >> (t->g->w->tile_shift + 8);
 }
 
-/* As choose(): returns which of the 3 x 3 neighbourhoods each pixel takes. */
-SMEAR_AVX2_INLINE lanes8i lanes_choose(const struct smear_window *w, int32_t x, int32_t y, lanes8 inner)
+/* The first neighbourhood that row y of a tile may take: rows jump a quarter tile at most. */
+static inline int first_neighbor(const struct smear_window *w, int32_t y) { return 2 * y < w->tile ? 0 : 3; }
+
+/* As choose(): returns which of the 3 x 3 neighbourhoods each pixel takes, counted from the first one of its row. */
+SMEAR_AVX2_INLINE lanes8i lanes_choose(const struct lanes_tile *t, int32_t x, int32_t y, lanes8 inner)
 {
-    const lanes8 angle = (lanes8_noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
-    const lanes8i dx = lanes_jump(lanes8i_numbers() + x, lanes8i_of_bytes(smear_sine, (angle + 64u) & 255u), w->tile_shift);
-    const lanes8i dy = lanes_jump(lanes8i_all(y), lanes8i_of_bytes(smear_sine, angle & 255u), w->tile_shift);
-    return 3 * dy + dx + 4;
+    const struct smear_window *w = t->g->w;
+    const uint32_t quarter = (uint32_t)w->tile >> 2;
+    const lanes8 angle = (lanes8_noise_of(inner + t->noise_apart) + lanes8_word(LANES8_128)) >> 8;
+    const lanes8 other = (angle + lanes8_word(LANES8_64)) & lanes8_word(LANES8_255);
+    const lanes8i dx = lanes_jump(t, lanes8i_numbers() + x, lanes8i_of_bytes(smear_sine, other));
+    const lanes8i which = dx + (4 - first_neighbor(w, y));
+    if ((uint32_t)y - quarter < 2u * quarter)
+        return which;
+    const lanes8i dy = lanes_jump(t, lanes8i_all(y), lanes8i_of_bytes(smear_sine, angle & lanes8_word(LANES8_255)));
+    return which + dy + dy + dy;
 }
 
 static void lanes_tile_make(struct lanes_tile *t, const struct gathering *g, const struct choice *choice, bool edge)
@@ -315,15 +331,17 @@ static void lanes_tile_make(struct lanes_tile *t, const struct gathering *g, con
     t->g = g;
     t->edge = edge;
     t->fence = g->fence;
-    for (int k = 0; k < 9; k++) {
+    for (int k = 0; k < NEIGHBORS; k++) {
         const struct direction *d = choice->at[k / 3][k % 3];
         t->field[0][k] = d->v.x;
         t->field[1][k] = d->v.y;
         t->field[2][k] = d->length;
-        t->field[3][k] = d->pairs;
+        t->field[3][k] = d->pairs != 0 ? 2 * d->pairs + 1 : 0;
         t->field[4][k] = d->spacing;
         t->field[5][k] = (int32_t)d->center;
     }
+    for (int i = 0; i < 6; i++)         /* which no pixel takes */
+        t->field[i][NEIGHBORS] = t->field[i][NEIGHBORS + 1] = 0;
 }
 
 /* Loads words of eight velocities, as window_velocity_word(), and makes velocities of them. */
@@ -346,12 +364,16 @@ uint32_t smear_reconstruct_avx2(uint32_t *out, const struct gathering *g, const 
     lanes_tile_make(&t, g, choice, edge);
     t.left = lanes8i_all(-g->x0);
     t.right = lanes8i_all(w->width - 1 - g->x0);
+    t.sine_scale = lanes8i_all(258 * (64 << w->tile_shift));
+    t.noise_apart = lanes8_all(2u * (uint32_t)w->width * NOISE_X);
     lanes8i which = lanes8i_all(4), taps = lanes8i_all(0);
-    struct lanes_direction top = lanes_direction_of(&t, which);
+    struct lanes_direction top = lanes_direction_of(&t, 0, which);
+    int from = 0;               /* `which` counts from there on */
     lanes8 words = lanes8_all(0);
     struct lanes_motion motion = lanes_motion_make(words, &top);
     struct lanes_depth own = { .code = lanes8_all(0), .units = lanes8_all(0) };
     for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
+        const int first = first_neighbor(w, y - y0);
         const uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)g->x0;
         lanes8 inner = lanes8_all((uint32_t)g->x0 * NOISE_X + (uint32_t)y * NOISE_Y) + (lanes8)lanes8i_numbers() * NOISE_X;
         for (int32_t x = 0; x < n; x += 8, inner += 8 * NOISE_X) {
@@ -359,14 +381,15 @@ uint32_t smear_reconstruct_avx2(uint32_t *out, const struct gathering *g, const 
             const lanes8 here = lanes_words(w, at + (uint32_t)x);
             bool same = lanes8_equal(here, words);
             if (!choice->alike) {
-                const lanes8i now = lanes_choose(w, x, y - y0, inner);
-                if (!lanes8_equal((lanes8)now, (lanes8)which)) {
+                const lanes8i now = lanes_choose(&t, x, y - y0, inner);
+                if (first != from || !lanes8_equal((lanes8)now, (lanes8)which)) {
+                    from = first;
                     which = now;
-                    top = lanes_direction_of(&t, which);
+                    top = lanes_direction_of(&t, first, which);
                     same = false;
                 }
             }
-            if (!lanes8i_any(top.pairs)) {
+            if (!lanes8i_any(top.taps)) {
                 lanes8_store(out + x, pixel);
                 continue;
             }
@@ -380,7 +403,7 @@ uint32_t smear_reconstruct_avx2(uint32_t *out, const struct gathering *g, const 
                 own.has_front = own.has_behind = false;
             }
             lanes8_store(out + x, lanes_gather(&t, &top, &motion, &own, pixel, x, y - g->rows->first, lanes8_noise_of(inner)));
-            taps += (2 * top.pairs + 1) & (top.pairs > 0);
+            taps += top.taps;
         }
     }
     uint32_t count[8], sum = 0;

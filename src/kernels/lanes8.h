@@ -24,6 +24,27 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_all(int32_t a) { return (lanes8i)_mm256_set1_e
 SMEAR_AVX2_INLINE lanes8 lanes8_numbers(void) { return (lanes8){ 0, 1, 2, 3, 4, 5, 6, 7 }; }
 SMEAR_AVX2_INLINE lanes8i lanes8i_numbers(void) { return (lanes8i){ 0, 1, 2, 3, 4, 5, 6, 7 }; }
 
+/* Constants that loops often need lie in memory, where they are an operand of an instruction. Of any other, GCC 12 makes one by
+ * three, and again wherever it runs out of registers. */
+enum lanes8_constant {
+    LANES8_1, LANES8_15, LANES8_16, LANES8_17, LANES8_24, LANES8_31, LANES8_53, LANES8_64, LANES8_127, LANES8_128, LANES8_135,
+    LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535,
+    LANES8_LESS_2,              /* all bits but the lowest */
+    LANES8_RED_BLUE,            /* of a pixel */
+    LANES8_2_19, LANES8_2_22, LANES8_2_31,      /* powers of two */
+    LANES8_BREAK_15,            /* fifteen times the depth code from where units are 16 to one */
+    LANES8_WORDS
+};
+
+extern const uint32_t smear_lanes8_words[LANES8_WORDS][8];
+
+SMEAR_AVX2_INLINE lanes8 lanes8_word(enum lanes8_constant c)
+{
+    return (lanes8)_mm256_loadu_si256((const __m256i *)(const void *)smear_lanes8_words[c]);
+}
+
+SMEAR_AVX2_INLINE lanes8i lanes8i_word(enum lanes8_constant c) { return (lanes8i)lanes8_word(c); }
+
 /* first + number step */
 SMEAR_AVX2_INLINE lanes8 lanes8_ramp(uint32_t first, uint32_t step, lanes8 numbers)
 {
@@ -232,18 +253,21 @@ SMEAR_AVX2_INLINE lanes8 lanes8_gather_upper_from_0(const void *halves, lanes8i 
 /* Reads halves of a table of an even number of them. */
 SMEAR_AVX2_INLINE lanes8 lanes8_of_halves(const void *table, lanes8 at)
 {
-    return lanes8_right(lanes8_gather(table, (lanes8i)(at >> 1)), (lanes8i)(at << 4 & 16u)) & 0xffffu;
+    return lanes8_right(lanes8_gather(table, (lanes8i)(at >> 1)), (lanes8i)(at << 4 & lanes8_word(LANES8_16)))
+         & lanes8_word(LANES8_65535);
 }
 
 /* Reads bytes of a table of a multiple of four. */
 SMEAR_AVX2_INLINE lanes8 lanes8_of_bytes(const void *table, lanes8 at)
 {
-    return lanes8_right(lanes8_gather(table, (lanes8i)(at >> 2)), (lanes8i)(at << 3 & 24u)) & 0xffu;
+    return lanes8_right(lanes8_gather(table, (lanes8i)(at >> 2)), (lanes8i)(at << 3 & lanes8_word(LANES8_24)))
+         & lanes8_word(LANES8_255);
 }
 
 SMEAR_AVX2_INLINE lanes8i lanes8i_of_bytes(const void *table, lanes8 at)
 {
-    return (lanes8i)lanes8_left(lanes8_gather(table, (lanes8i)(at >> 2)), (lanes8i)(~at << 3 & 24u)) >> 24;
+    const lanes8 bits = lanes8_word(LANES8_24);
+    return (lanes8i)lanes8_left(lanes8_gather(table, (lanes8i)(at >> 2)), (lanes8i)((at << 3 & bits) ^ bits)) >> 24;
 }
 
 /* Finds the code of linear light 0 .. 4095, and the light of a code. */
@@ -264,7 +288,8 @@ SMEAR_AVX2_INLINE lanes8 lanes8_narrow(lanes8 p)
 /* Returns the place of the highest bit of x < 2^24, the exponent of a float; 0 for 0 as for 1. */
 SMEAR_AVX2_INLINE lanes8i lanes8_log2(lanes8 x)
 {
-    return lanes8i_max((lanes8i)_mm256_castps_si256(_mm256_cvtepi32_ps((__m256i)x)) >> 23, lanes8i_all(127)) - 127;
+    const lanes8i exponent = (lanes8i)_mm256_castps_si256(_mm256_cvtepi32_ps((__m256i)x)) >> 23;
+    return (lanes8i)_mm256_subs_epu16((__m256i)exponent, (__m256i)lanes8_word(LANES8_127));
 }
 
 /* Returns how many leading zeros a number has that is greater than 0: it loses what would round it up to a power of two. */
@@ -277,24 +302,25 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_zeros(lanes8i a)
 /* Returns recip_norm(m). */
 SMEAR_AVX2_INLINE lanes8 lanes8_recip_norm(lanes8 m)
 {
-    const lanes8 pair = lanes8_gather(smear_recip_seed, (lanes8i)(m >> 23 & 255u));
-    const lanes8 r = lanes8_right(pair, (lanes8i)(m >> 18 & 16u)) & 0xffffu;
-    const lanes8i error = (lanes8i)(lanes8_all(0x80000000u) - (m >> 11) * r);
+    const lanes8 pair = lanes8_gather(smear_recip_seed, (lanes8i)(m >> 23 & lanes8_word(LANES8_255)));
+    const lanes8 r = lanes8_right(pair, (lanes8i)(m >> 18 & lanes8_word(LANES8_16))) & lanes8_word(LANES8_65535);
+    const lanes8i error = (lanes8i)(lanes8_word(LANES8_2_31) - (m >> 11) * r);
     return (r << 19) + (lanes8)((lanes8i)(r * (lanes8)(error >> 4)) >> 8);
 }
 
 /* Returns sqrt_q3(x) for x < 2^20. */
 SMEAR_AVX2_INLINE lanes8 lanes8_sqrt_q3(lanes8 x)
 {
-    const lanes8i a = (lanes8i)x;
-    const lanes8i shift = -((a >= 1 << 10) + (a >= 1 << 12) + (a >= 1 << 14) + (a >= 1 << 16) + (a >= 1 << 18));
-    return lanes8_left(lanes8_of_bytes(smear_sqrt_q3, lanes8_right(x, shift + shift)), shift);
+    /* Half of what its highest bit's place, the exponent of a float, is above 8. */
+    const __m256i exponent = _mm256_srli_epi32(_mm256_castps_si256(_mm256_cvtepi32_ps((__m256i)x)), 23);
+    const lanes8i above = (lanes8i)_mm256_subs_epu16(exponent, (__m256i)lanes8_word(LANES8_135));
+    return lanes8_left(lanes8_of_bytes(smear_sqrt_q3, lanes8_right(x, above & lanes8i_word(LANES8_LESS_2))), above >> 1);
 }
 
 /* Returns noise_of(inner). */
 SMEAR_AVX2_INLINE lanes8 lanes8_noise_of(lanes8 inner)
 {
-    return (inner * 53u - ((inner >> 16) * 35822u >> 5)) >> 16;
+    return (inner * lanes8_word(LANES8_53) - ((inner >> 16) * lanes8_word(LANES8_35822) >> 5)) >> 16;
 }
 #endif
 
