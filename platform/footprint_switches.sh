@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# footprint_switches.sh [TARGET:OPTIMIZATION...]
+# [SWITCHES="SMEAR_WITH_TEXTURE ..."] footprint_switches.sh [TARGET:OPTIMIZATION...]
 # What the library takes with everything in it, what each switch of smear_config.h saves, and what
 # useful sets take:
 #
@@ -9,7 +9,7 @@
 #   sharp, window, auto, both
 #            memory of contexts of 240x240 (platform/footprint_arena.c); -: refused
 #
-# A switch's row says how much less flash there is than with everything.
+# A switch's row says how much less flash there is than with everything. SWITCHES: only these.
 set -u
 [ $# -gt 0 ] || set -- cortex-m0plus:-Os cortex-m33:-O2
 . tests/shell/lib.sh
@@ -51,7 +51,7 @@ for pair in "$@"; do
     everything=$flash
     printf '%-34s %7s %7s  %7s %7s %7s %7s\n' "$target $optimization" flash stack sharp window auto both
     printf '%-34s %7d %s\n' everything "$flash" "$line"
-    for switch in $(switches); do
+    for switch in ${SWITCHES:-$(switches)}; do
         # shellcheck disable=SC2046
         measure "$switch" $(without "$switch")
         printf '%-34s %7d %s\n' "  $switch=0" $((flash - everything)) "$line"

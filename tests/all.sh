@@ -57,7 +57,9 @@ targets() {
         done
         suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
         suite tiny $make -s TARGET=microbit tiny-test
-        suite footprint $make -s footprint FOOTPRINT=cortex-m3:-O2
+        # Of the switches some: that each can be off is what the suite `switches` shows.
+        suite footprint env SWITCHES="SMEAR_WITH_RECONSTRUCT SMEAR_WITH_SUBFRAMES SMEAR_WITH_TEXTURE SMEAR_WITH_MODEL" \
+            $make -s footprint FOOTPRINT=cortex-m3:-O2
         suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
         suite target-raspi0 $make -s TARGET=raspi0 target-test
         if needs python3 "python3"; then
