@@ -4,6 +4,7 @@
 
 #include "geometry/clip.h"
 #include "geometry/path.h"
+#include "kernels/even_faces.h"
 #include "base/pixel.h"
 
 enum { FLAT_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
@@ -84,39 +85,13 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
 }
 
 #if SMEAR_FIND_FLAT
-/* Compares normals without a loop or branch: it is called for all triangles of all draws of each frame. */
-static inline bool same_normal(const uint8_t *a, const uint8_t *b)
-{
-    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
-}
-
-static inline bool same_color(const uint8_t *a, const uint8_t *b)
-{
-    uint32_t first, second;
-    __builtin_memcpy(&first, a, sizeof first);
-    __builtin_memcpy(&second, b, sizeof second);
-    return first == second;
-}
-
 bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 {
-    const uint8_t *normal = lit ? (const uint8_t *)mesh->normal : NULL, *color = mesh->color;
-    const uint16_t *index = mesh->index, *const end = index + 3 * mesh->triangle_count;
-    if (normal == NULL && color == NULL)
-        return false;
-    for (; index < end; index += 3) {
-        const uint32_t a = index[0], b = index[1], c = index[2];
-        if (max_u32(a, max_u32(b, c)) >= mesh->vertex_count)
-            return false;
-        if (normal != NULL
-            && !(same_normal(normal + 3 * a, normal + 3 * b) && same_normal(normal + 3 * a, normal + 3 * c)))
-            return false;
-        if (color != NULL && !(same_color(color + 4 * a, color + 4 * b) && same_color(color + 4 * a, color + 4 * c)))
-            return false;
-    }
-    return true;
+    const struct even_faces faces = {
+        mesh->index, mesh->triangle_count, mesh->vertex_count, lit ? (const uint8_t *)mesh->normal : NULL, mesh->color
+    };
+    return (faces.normal != NULL || faces.color != NULL) && even_faces(&faces);
 }
-
 #endif
 
 /* Returns the cosine of the light at a vertex with a normal, or at its back. */

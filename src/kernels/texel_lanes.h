@@ -50,7 +50,7 @@ struct row_lanes {
     void *color;                        /* of pixel 0 */
     uint16_t *depth;
     uint32_t z, dz;
-    __m256i evens, eight;               /* i dz for i = 0 2 .. 14 if texels are copied to narrow pixels, and 0 .. 7 */
+    __m256i evens, eight;               /* i dz for i = 0 2 .. 14, and 0 .. 7 */
 };
 
 /* Texels are copied as pixels of 32 or 16 bits, or lit: then both of them are drawn, but those of 16 bits alone in usual

@@ -152,8 +152,7 @@ SMEAR_AVX2_INLINE void row_start(struct row_lanes *r, const struct texel_lanes *
     r->z = s->z[i];
     r->dz = s->dz[i];
     r->eight = _mm256_mullo_epi32(first_8(), dz);
-    if (look == LOOK_NARROW)
-        r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
+    r->evens = _mm256_mullo_epi32(evens_of_16(), dz);
 }
 
 /* Begins the blocks of light, if there are any. */
@@ -194,12 +193,11 @@ static const uint16_t lane_masks[48] = {
 };
 
 /* Tests sixteen depths from x on, of which those of a mask are drawn if there is one. Which are hidden; false if all. */
-SMEAR_AVX2_INLINE bool test_16(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m256i *hidden, enum look look)
+SMEAR_AVX2_INLINE bool test_16(const struct row_lanes *r, int32_t x, const uint16_t *mask, __m256i *hidden)
 {
     __m256i_u *const depth = (__m256i_u *)(r->depth + x);
     const __m256i dz = _mm256_set1_epi32((int32_t)r->dz);
-    const __m256i evens = look == LOOK_NARROW ? r->evens : _mm256_mullo_epi32(evens_of_16(), dz);
-    const __m256i even = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x)), evens);
+    const __m256i even = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x)), r->evens);
     __m256i code = _mm256_blend_epi16(_mm256_srli_epi32(even, 16), _mm256_add_epi32(even, dz), 0xaa);
     if (mask != NULL)
         code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)mask));
@@ -217,7 +215,7 @@ SMEAR_AVX2_INLINE void draw_narrow_16(const struct texel_lanes *k, const struct 
 {
     __m256i_u *const color = (__m256i_u *)((uint16_t *)r->color + x);
     __m256i hidden;
-    if (!test_16(r, x, mask, &hidden, LOOK_NARROW))
+    if (!test_16(r, x, mask, &hidden))
         return;
     __m256i lane = evens_of_16(), pairs = _mm256_setr_epi32(0, 1, 6, 15, 28, 45, 66, 91);
     if (i != 0) {
@@ -309,7 +307,7 @@ SMEAR_AVX2_INLINE void draw_16(const struct texel_lanes *k, const struct row_lan
         return;
     }
     __m256i hidden;
-    if (!test_16(r, x, mask, &hidden, look))
+    if (!test_16(r, x, mask, &hidden))
         return;
     put_block_8(k, r, c, block, x, i, _mm256_castsi256_si128(hidden), look);
     put_block_8(k, r, c, block, x + 8, i + 8, _mm256_extracti128_si256(hidden, 1), look);
