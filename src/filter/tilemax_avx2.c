@@ -157,14 +157,14 @@ SMEAR_AVX2_INLINE lanes8i neighbors8_kind(const struct neighbors8 *n)
     const lanes8i low_x = lanes8_pair_x(n->low_x), high_x = lanes8_pair_y(n->high_x);
     const lanes8i low_y = lanes8_pair_x(n->low_y), high_y = lanes8_pair_y(n->high_y);
     const lanes8i far_x = lanes8i_max(high_x, -low_x), far_y = lanes8i_max(high_y, -low_y);
-    const lanes8i share = lanes8i_max(far_x, far_y) >> small_share, spread = lanes8i_max(high_x - low_x, high_y - low_y);
-    const lanes8 carried_x = (lanes8)(far_x >= small_carry), carried_y = (lanes8)(far_y >= small_carry);
+    const lanes8i share = lanes8i_max(far_x, far_y) >> (int32_t)small_share, spread = lanes8i_max(high_x - low_x, high_y - low_y);
+    const lanes8 carried_x = (lanes8)(far_x >= (int32_t)small_carry), carried_y = (lanes8)(far_y >= (int32_t)small_carry);
     const lanes8 beside = lanes8i_max16(n->here, n->sideways & carried_x);
     const lanes8 above = lanes8i_max16(n->upright & carried_y, n->diagonal & carried_x & carried_y);
     const lanes8i rough = lanes8_greater_half(lanes8i_max16(beside, above)) > lanes8i_max(share, lanes8i_all(small_step));
     const lanes8i complex = rough & (spread > lanes8i_max(share, lanes8i_all(small_spread)));
     const lanes8i still = (low_x | high_x | low_y | high_y) == lanes8i_all(0);
-    return lanes8i_choose(still, lanes8i_all(TILE_STATIC), TILE_UNIFORM - complex);
+    return lanes8i_choose(still, lanes8i_all(TILE_STATIC), (int32_t)TILE_UNIFORM - complex);
 }
 
 /* Eight tiles from a column on, as far as there are so many. */
