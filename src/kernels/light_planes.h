@@ -51,7 +51,7 @@ struct light_lanes {
     int32_t span, left, last, block, log2_block;
     int32_t from_x, until_x;            /* of pixels in [from_x, until_x) the blocks are known */
     int32_t found, found_end, found_block, found_lanes;     /* spans of which all blocks are known, of as many lanes each */
-    __m128i log2_lanes;                 /* log2_block */
+    __m128i down;                       /* log2_block, as shifts of lanes take it */
     lanes8i left_lanes, most;           /* the last pixel that begins a block, or lies in the last one, less `left` */
     lanes8i first;                      /* of the blocks that are known; lanes are counted from it */
     lanes8i from[3], step[3];
@@ -84,7 +84,7 @@ SMEAR_AVX2_INLINE void light_row(struct light_lanes *k, const struct texel_spans
     k->last = s->right[i] - 1;
     k->block = block;
     k->log2_block = 31 - count_leading_zeros((uint32_t)block);
-    k->log2_lanes = _mm_cvtsi32_si128(k->log2_block);
+    k->down = _mm_cvtsi32_si128(k->log2_block);
     k->left_lanes = lanes8i_all(k->left);
     k->most = lanes8i_all(max_i32(k->last - k->left - (block > 1), 0));
     k->until_x = INT32_MIN;
@@ -96,10 +96,10 @@ SMEAR_AVX2_INLINE void light_row(struct light_lanes *k, const struct texel_spans
 SMEAR_AVX2_INLINE int32_t light_sharers(const struct light_lanes *k)
 {
     const struct texel_spans *const s = k->spans;
-    const int32_t i = k->span, left = s->count - i, one = 1 << k->log2_block, three = 3 << k->log2_block;
-    if (k->last - k->left > three || left < 2)
+    const int32_t i = k->span, rest = s->count - i, one = 1 << k->log2_block, three = 3 << k->log2_block;
+    if (k->last - k->left > three || rest < 2)
         return 1;
-    if (left >= 4 && k->last - k->left <= one) {
+    if (rest >= 4 && k->last - k->left <= one) {
         const __m128i right4 = _mm_loadu_si128((const __m128i *)(const void *)(s->right + i));
         const __m128i width = _mm_sub_epi32(right4, _mm_loadu_si128((const __m128i *)(const void *)(s->left + i)));
         if (_mm_movemask_epi8(_mm_cmpgt_epi32(width, _mm_set1_epi32(one + 1))) == 0)
@@ -179,8 +179,8 @@ SMEAR_AVX2_INLINE struct planes_light planes_light_at(struct light_lanes *k, int
     if (x < k->from_x || x + 7 >= k->until_x)
         light_find(k, x);
     const lanes8i along = column - k->left_lanes;
-    const lanes8i number = (lanes8i)_mm256_sra_epi32((__m256i)lanes8i_min(along, k->most), k->log2_lanes);
-    const lanes8i beyond = along - (lanes8i)_mm256_sll_epi32((__m256i)number, k->log2_lanes), at = number - k->first;
+    const lanes8i number = (lanes8i)_mm256_sra_epi32((__m256i)lanes8i_min(along, k->most), k->down);
+    const lanes8i beyond = along - (lanes8i)_mm256_sll_epi32((__m256i)number, k->down), at = number - k->first;
     const lanes8i r = light_channel8(k, 0, at, beyond), g = light_channel8(k, 1, at, beyond), b = light_channel8(k, 2, at, beyond);
     return (struct planes_light){ { r, g, b } };
 }
