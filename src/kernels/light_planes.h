@@ -154,6 +154,7 @@ SMEAR_AVX2_INLINE void light_find(struct light_lanes *k, int32_t at)
     } else {
         const int32_t first = max_i32(min_i32(at, k->last - (k->block > 1)) - k->left, 0) >> k->log2_block;
         const int32_t start = k->left + (first << k->log2_block), until = start + ((k->block > 1 ? 7 : 8) << k->log2_block);
+        k->found_end = 0;               /* blocks of another length may have been found of spans to come */
         k->first = lanes8i_all(first);
         k->from_x = first == 0 ? INT32_MIN : start;
         k->until_x = until >= k->last + (k->block == 1) ? INT32_MAX : until;

@@ -63,7 +63,7 @@ static void spans_make(struct texel_spans *s, const struct kernel_call *c)
     for (int i = 0; i < SPANS; i++) {
         seed = seed * 1664525u + 1013904223u;
         const int32_t left = FIRST - 40 + (int32_t)(seed >> 8) % (40 + c->n), most = FIRST + c->n;
-        const int32_t wide = 1 + (int32_t)(seed >> 16) % ((seed & 1u) != 0 ? 12 : 100), right = left + wide;
+        const int32_t wide = 1 + (int32_t)(seed >> 16) % ((seed >> 20 & 3u) != 0 ? 20 : 100), right = left + wide;
         const int32_t first = max_i32(left, FIRST), end = min_i32(right, most);
         s->row[i] = i;
         s->left[i] = left;
