@@ -396,9 +396,11 @@ static void list_row(const struct layers_row *r, bool first)
     struct smear_layers *l = r->layers;
     if (rows->refill != NULL) {
         smear_groups_list_begin(l);
-        for (uint32_t i = 0; i < l->group_count; i++)
+        for (uint32_t i = 0; i < l->group_count; i++) {
+            rows->refill->counted &= (uint8_t)~FILL_GROUP;      /* this is the first way through each group */
             for (bool any = fill_group(r, &l->group[i], false); any; any = fill_group(r, &l->group[i], true))
                 smear_groups_list_add(&l->group[i], &rows->bins, rows->moving);
+        }
         smear_groups_list_end(l);
         return;
     }

@@ -440,6 +440,35 @@ static void test_movers_out_of_view_change_nothing(void)
     }
 }
 
+/* A tile row whose movers do not find room at once: the same picture, and as many triangles. */
+static void test_movers_of_several_fills_count_once(void)
+{
+    enum { COUNT = 6, ROW = 16 };
+    static uint32_t whole[W * H];
+    struct mover mover[COUNT];
+    smear_draw draw[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        mover_make(&mover[i], 10 * i - 30, 0, 10 + 5 * i, 6, 4, i & 1 ? 8 : -6, 0);
+        draw[i] = draw_of(&mover[i], i & 1 ? &green : &red);
+    }
+    for (int k = 0; k < 2; k++) {
+        const smear_frame frame = frame_of(both[k]);
+        smear_desc desc = desc_of(whole);
+        desc.height = ROW;
+        if (!render_with(&desc, &frame, draw, COUNT))
+            return;
+        const smear_stats once = stats;
+        desc.user = picture;
+        desc.max_triangles = 4;
+        if (!render_with(&desc, &frame, draw, COUNT))
+            return;
+        CHECK(stats.parts_added != 0);
+        CHECK_EQ(stats.triangles_drawn, once.triangles_drawn);
+        CHECK_EQ(once.triangles_drawn, 2 * COUNT);
+        CHECK_EQ(difference(picture, whole, 0, 0, W, ROW), 0);
+    }
+}
+
 /* Two that lean through each other: each is seen where it is nearer. */
 static void test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel(void)
 {
@@ -921,6 +950,7 @@ void suite_layers(void)
     RUN(test_a_fence_before_a_mover_keeps_its_pixels);
     RUN(test_two_movers_each_have_their_way_and_their_depth);
     RUN(test_movers_out_of_view_change_nothing);
+    RUN(test_movers_of_several_fills_count_once);
     RUN(test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel);
     RUN(test_parts_of_one_thing_are_blurred_as_one);
     RUN(test_what_turns_is_blurred_by_its_pixels);
