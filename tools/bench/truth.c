@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -48,9 +49,14 @@ static bool kept_path(char out[PATH_LIMIT], const char *folder, const char *scen
     return length < PATH_LIMIT || fail(f, "the folder's name is too long");
 }
 
+/* The chart draws truths on several threads; outputs are written by one at a time (tools/image/file.h). */
 static bool keep(const char *path, struct float_image *truth, struct failure *f)
 {
-    if (pfm_save(path, truth, f))
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&lock);
+    const bool kept = pfm_save(path, truth, f);
+    pthread_mutex_unlock(&lock);
+    if (kept)
         return true;
     float_image_free(truth);
     return false;

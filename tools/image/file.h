@@ -38,7 +38,8 @@ bool file_is_kept(const char *path);
  *
  * An output is written into a new file beside the one it will be, .smear-*.tmp, which no other program has; only when
  * it is complete and has reached the disk does it take the other's place. A command that writes several holds them
- * (outputs_hold), and gives all their names at its end, or none. */
+ * (outputs_hold), and gives all their names at its end, or none. What is unfinished is kept in one list of the program:
+ * one thread writes at a time. */
 
 struct output_name;
 struct output {
