@@ -217,8 +217,8 @@ static void break_teleport(void)
 {
     set(kind_find("teleport"), "auto fine", 1.2, 0.45, 0.4);
 }
-static void break_any_target(void) { for_group(GROUP_OBJECT, "auto balanced", 2.2, 1.15); }
-static void break_any_fine_target(void) { for_group(GROUP_CAMERA, "auto balanced", 9.0, 1.15); }
+static void break_any_target(void) { for_group(GROUP_OBJECT, "auto balanced", 7.5, 1.15); }
+static void break_any_fine_target(void) { for_group(GROUP_CAMERA, "auto balanced", 40.0, 1.15); }
 static void break_flicker(void)
 {
     for (int k = 0; k < KINDS; k++)
