@@ -188,7 +188,7 @@ footprint-readme:
 footprint-arena: $(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o $(RUN_NEEDS)
 
 print-footprint:
-	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
+	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g1 -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
 ## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them;
