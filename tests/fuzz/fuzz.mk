@@ -2,16 +2,30 @@
 # Fuzzers, and the generator of frames (cases.c) under sanitizers and in other builds.
 
 FUZZ_CC := clang-14
-FUZZ_BASE := -std=c11 -g -Iinclude -Isrc -I. -MMD -MP
+FUZZ_BASE := -std=c11 -g1 -Iinclude -Isrc -I. -MMD -MP
 FUZZ_FLAGS := $(FUZZ_BASE) -D_POSIX_C_SOURCE=200809L -O1 -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c \
     $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
 
+# As in the Makefile, what compilers know of vectors is read once for all sources of a build: `vectors` is what says so, for those
+# of src/. Clang looks for it beside the header, and so does GCC.
+define fuzz_vectors
+build/fuzz/$(1)/src/%.o: private vectors := -include build/fuzz/$(1)/vectors.h
+$(LIB_SRC:%.c=build/fuzz/$(1)/%.o): | build/fuzz/$(1)/vectors.h.gch
+build/fuzz/$(1)/vectors.h.gch: tests/fuzz/fuzz.mk
+	$$(call say,CC,$$(@:.gch=))
+	@mkdir -p $$(@D)
+	printf '#ifdef __x86_64__\n#include <immintrin.h>\n#endif\n' > $$(@:.gch=)
+	$(2) -x c-header -o $$@ $$(@:.gch=)
+endef
+
+FUZZ_OBJ_FLAGS := $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined
 build/fuzz/obj/%.o: %.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -c -o $@ $<
+	$(FUZZ_CC) $(FUZZ_OBJ_FLAGS) $(vectors) -c -o $@ $<
+$(eval $(call fuzz_vectors,obj,$(FUZZ_CC) $(filter-out -MMD -MP,$(FUZZ_OBJ_FLAGS))))
 
 build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	$(call say,LD)
@@ -40,11 +54,12 @@ define frames_build
 build/fuzz/$(1)/%.o: %.c
 	$$(call say,CC,$$<)
 	@mkdir -p $$(@D)
-	$(2) $(FUZZ_BASE) -D_GNU_SOURCE $(3) -c -o $$@ $$<
+	$(2) $(FUZZ_BASE) -D_GNU_SOURCE $(3) $$(vectors) -c -o $$@ $$<
 build/fuzz/frames-$(1): $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.o)
 	$$(call say,LD)
 	$(2) $(3) -o $$@ $$^ -lpthread
 -include $(if $(FUZZ_GOALS),$(FRAMES_SRC:%.c=build/fuzz/$(1)/%.d))
+$(call fuzz_vectors,$(1),$(2) $(filter-out -MMD -MP,$(FUZZ_BASE)) -D_GNU_SOURCE $(3))
 endef
 
 # Beside undefined behaviour, conversions that nobody wrote may not change a value. (A comma within a call would end its
