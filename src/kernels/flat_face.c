@@ -2,7 +2,7 @@
 /* flat_face.c - see flat_face.h: the ends of eight rows at once, then sixteen pixels of a row. */
 #include "kernels/flat_face.h"
 
-#include "kernels/lanes8.h"
+#include "kernels/edge_lanes.h"
 
 #if SMEAR_AVX2
 
@@ -21,28 +21,6 @@ struct face_rows {
     uint32_t z[FLAT_FACE_ROWS + 16];    /* their depth codes */
     int32_t few[FLAT_FACE_ROWS + 16];   /* pixels, less one: 0 .. 14 of what is drawn in one go, any other number of what is not */
 };
-
-/* Pixels of an edge in n rows from y on. */
-SMEAR_AVX2_INLINE void face_side(int32_t *out, const int32_t *a, const int32_t *b, int32_t y, int32_t n)
-{
-    struct edge_walk e;
-    edge_start(&e, a, b, y);
-    /* Rows 0 1 4 5 and 2 3 6 7: their upper halves are in order, then. */
-    const __m128i step = _mm_cvtsi64_si128((int64_t)e.step), step1 = _mm_slli_si128(step, 8);
-    const __m256i step4 = _mm256_slli_epi64(_mm256_broadcastq_epi64(step), 2);
-    __m256i first = _mm256_add_epi64(_mm256_set1_epi64x((int64_t)e.x), _mm256_broadcastsi128_si256(step1));
-    first = _mm256_add_epi64(first, _mm256_blend_epi32(_mm256_setzero_si256(), step4, 0xf0));
-    __m256i second = _mm256_add_epi64(first, _mm256_slli_epi64(_mm256_broadcastq_epi64(step), 1));
-    for (;; out += 8) {
-        const __m256 high = _mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), 0xdd);
-        lanes8i_store(out, (lanes8i)_mm256_castps_si256(high) >> 10);
-        n -= 8;
-        if (n <= 0)
-            return;
-        first = _mm256_add_epi64(first, _mm256_slli_epi64(step4, 1));
-        second = _mm256_add_epi64(second, _mm256_slli_epi64(step4, 1));
-    }
-}
 
 /* What pixels have in common: depth steps of pixels 0 2 .. 14 and 1 3 .. 15; the colour. */
 struct face_lanes {
@@ -131,18 +109,13 @@ SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct flat_ar
 /* A third of the instructions of the loops that call flat_run. */
 SMEAR_AVX2_FUNCTION void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f)
 {
-    struct flat_corners c;
+    struct corners c;
     struct face_rows r;
-    flat_corners_find(&c, a, f);
+    corners_find(&c, f->corner, a->y0, a->y1);
     const int32_t n = c.end - c.first, row = c.first - a->y0;
     if (n <= 0)
         return;
-    int32_t *const whole = c.whole_is_left ? r.left : r.right, *const part = c.whole_is_left ? r.right : r.left;
-    face_side(whole, c.top, c.bottom, c.first, n);
-    if (c.knee > c.first)
-        face_side(part, c.top, c.middle, c.first, c.knee - c.first);
-    if (c.knee < c.end)
-        face_side(part + (c.knee - c.first), c.middle, c.bottom, c.knee, c.end - c.knee);
+    corners_sides(r.left, r.right, &c, c.first, n);
     face_cut(&r, a, f, row, n);
     if (a->narrow)
         face_fill(&r, a, f, n, true);

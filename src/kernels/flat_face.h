@@ -3,6 +3,7 @@
 #ifndef SMEAR_KERNELS_FLAT_FACE_H
 #define SMEAR_KERNELS_FLAT_FACE_H
 
+#include "kernels/corners.h"
 #include "kernels/edge_walk.h"
 #include "kernels/flat_run.h"
 
@@ -22,51 +23,11 @@ struct flat_face {
     uint32_t color;
 };
 
-/* Corners from top to bottom, and the rows between them that lie in the area. */
-struct flat_corners {
-    const int32_t *top, *middle, *bottom;
-    int32_t first, knee, end;
-    bool whole_is_left;             /* the side without the middle corner */
-};
-
-/* Clockwise from the top, the next corner lies right of the long edge, so that is the left one; each swap turns the
- * triangle over. */
-SMEAR_INLINE void flat_corners_find(struct flat_corners *c, const struct flat_area *a, const struct flat_face *f)
-{
-    const int32_t *top = f->corner[0], *middle = f->corner[1], *bottom = f->corner[2], *swap;
-    bool whole_is_left = true;
-    if (middle[1] < top[1]) {
-        swap = top;
-        top = middle;
-        middle = swap;
-        whole_is_left = false;
-    }
-    if (bottom[1] < middle[1]) {
-        swap = middle;
-        middle = bottom;
-        bottom = swap;
-        whole_is_left = !whole_is_left;
-        if (middle[1] < top[1]) {
-            swap = top;
-            top = middle;
-            middle = swap;
-            whole_is_left = !whole_is_left;
-        }
-    }
-    c->top = top;
-    c->middle = middle;
-    c->bottom = bottom;
-    c->first = max_i32((top[1] + 127) >> 8, a->y0);
-    c->end = min_i32((bottom[1] + 127) >> 8, a->y1);
-    c->knee = clamp_i32((middle[1] + 127) >> 8, c->first, max_i32(c->end, c->first));
-    c->whole_is_left = whole_is_left;
-}
-
 /* Draws the pixels whose centres lie in the triangle, like flat_run: those at its left and upper edges, too. */
 static inline void flat_face_reference(const struct flat_area *a, const struct flat_face *f)
 {
-    struct flat_corners c;
-    flat_corners_find(&c, a, f);
+    struct corners c;
+    corners_find(&c, f->corner, a->y0, a->y1);
     for (int32_t y = c.first; y < c.end; y++) {
         struct edge_walk whole, part;
         edge_start(&whole, c.top, c.bottom, y);

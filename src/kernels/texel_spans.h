@@ -6,7 +6,7 @@
 #include "base/base.h"
 
 /* The most spans of a call, a multiple of eight. */
-enum { TEXEL_SPANS = 32 };
+enum { TEXEL_SPANS = 128 };
 
 /* Pixels [a, b) of rows that reach from `left` to `right`: left <= a < b <= right. Depth codes 16.16 are z + x dz. */
 struct texel_spans {

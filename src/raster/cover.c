@@ -11,6 +11,7 @@
 #include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
 #include "kernels/flat_rows_armv6m.h"
+#include "kernels/row_sides.h"
 #include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/span.h"
@@ -236,10 +237,40 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->ring_row = 0;
 }
 
+#if SMEAR_AVX2
+SMEAR_STATIC_ASSERT(SPAN_ROWS % 8 == 0 && (int)SPAN_ROWS <= (int)ROW_SIDES, "sides are found by eights");
+
+/* Rows whose sides a kernel finds, of both parts at once. */
+static SMEAR_NOINLINE void cover_rows_lanes(const struct setup *s, smear_rows_fn *draw, bool cut)
+{
+    const struct smear_raster_target *t = s->target;
+    struct corners c;
+    struct gather g;
+    corners_find(&c, s->v, t->y0, t->y1);
+    if (c.first >= c.end)
+        return;
+    gather_start(&g, s, c.first);
+    g.rows.cut = cut;
+    while (g.rows.y < c.end) {
+        const int32_t n = min_i32(min_i32(c.end - g.rows.y, SPAN_ROWS), t->window_rows.ring - g.ring_row);
+        smear_row_sides_avx2(g.rows.side, &c, g.rows.y, n, s->frame->width);
+        g.rows.count = n;
+        g.ring_row += n;
+        gather_draw(&g, s, draw);
+    }
+}
+#endif
+
 static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
     struct gather g;
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        cover_rows_lanes(s, draw, cut);
+        return;
+    }
+#endif
     if (!sides_start(&d, s))
         return;
     gather_start(&g, s, d.y);

@@ -18,8 +18,8 @@
 #endif
 #endif
 
-/* Whole spans of rows one below the other, from row y on. */
-enum { SPAN_ROWS = 16 };
+/* Whole spans of rows one below the other, from row y on. Where vectors draw them many cost less than few. */
+enum { SPAN_ROWS = SMEAR_AVX2 ? 64 : 16 };
 
 struct span_rows {
     int32_t y, count;
