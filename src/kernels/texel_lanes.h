@@ -131,10 +131,27 @@ SMEAR_AVX2_INLINE __m128i lower_halves(__m256i a)
     return _mm_packus_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
 }
 
+/* Takes the upper halves of eight words. */
+SMEAR_AVX2_INLINE __m128i upper_halves(__m256i a)
+{
+    const __m256i pick = _mm256_setr_epi8(2, 3, 6, 7, 10, 11, 14, 15, -1, -1, -1, -1, -1, -1, -1, -1,
+                                          2, 3, 6, 7, 10, 11, 14, 15, -1, -1, -1, -1, -1, -1, -1, -1);
+    return _mm256_castsi256_si128(_mm256_permute4x64_epi64(_mm256_shuffle_epi8(a, pick), 0x08));
+}
+
+/* Whether all eight halves are hidden. */
+SMEAR_AVX2_INLINE bool all_hidden(__m128i hidden) { return _mm_testc_si128(hidden, _mm_set1_epi16(-1)) != 0; }
+
 /* The first of a pair of narrow texels in the lower half, or the second. */
 SMEAR_AVX2_INLINE __m256i lanes_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
 {
     return _mm256_srlv_epi32(pairs, _mm256_and_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
+}
+
+/* The same in the upper half. */
+SMEAR_AVX2_INLINE __m256i lanes_above_of_pairs(const struct texel_lanes *k, __m256i pairs, __m256i u)
+{
+    return _mm256_sllv_epi32(pairs, _mm256_andnot_si256(_mm256_srlv_epi32(u, k->odd_down), k->half));
 }
 
 /* Eight texels in their light. */
@@ -179,11 +196,10 @@ SMEAR_AVX2_INLINE void put_wide_8(const struct row_lanes *r, int32_t x, __m256i 
     _mm256_storeu_si256(color, _mm256_blendv_epi8(pixels, _mm256_loadu_si256(color), _mm256_cvtepi16_epi32(hidden)));
 }
 
-/* Upper halves are 0. */
-SMEAR_AVX2_INLINE void put_narrow_8(const struct row_lanes *r, int32_t x, __m256i pixels, __m128i hidden)
+SMEAR_AVX2_INLINE void put_halves_8(const struct row_lanes *r, int32_t x, __m128i pixels, __m128i hidden)
 {
     __m128i_u *const color = (__m128i_u *)((uint16_t *)r->color + x);
-    _mm_storeu_si128(color, _mm_blendv_epi8(lower_halves(pixels), _mm_loadu_si128(color), hidden));
+    _mm_storeu_si128(color, _mm_blendv_epi8(pixels, _mm_loadu_si128(color), hidden));
 }
 
 /* Writes eight pixels of texels of RGB565 in linear light where they are not hidden. */
@@ -191,7 +207,7 @@ SMEAR_AVX2_INLINE void put_usual_8(const struct texel_lanes *k, const struct row
                                    __m128i hidden, struct lit_light light)
 {
     const __m256i texels = lanes_of_pairs(k, lanes_gather(k, lanes_index(k, u, v)), u);
-    put_narrow_8(r, x, lit_narrow(lit_linear_565(texels, &light)), hidden);
+    put_halves_8(r, x, lower_halves(lit_narrow(lit_linear_565(texels, &light))), hidden);
 }
 
 /* Writes eight pixels with these coordinates where they are not hidden. */
@@ -201,14 +217,14 @@ SMEAR_AVX2_INLINE void put_8(const struct texel_lanes *k, const struct row_lanes
     if (look_is_lit(look)) {
         const struct lit_pairs p = look == LOOK_WRAPPED ? lit_8_wrapped(k, r, x, (lanes8)u, (lanes8)v) : lit_8(k, r, x, u, v);
         if (k->narrow)
-            put_narrow_8(r, x, lit_narrow(p), hidden);
+            put_halves_8(r, x, lower_halves(lit_narrow(p)), hidden);
         else
             put_wide_8(r, x, lit_wide(p), hidden);
         return;
     }
     const __m256i texels = lanes_gather(k, lanes_index(k, u, v));
     if (look == LOOK_NARROW)
-        put_narrow_8(r, x, _mm256_blend_epi16(lanes_of_pairs(k, texels, u), _mm256_setzero_si256(), 0xaa), hidden);
+        put_halves_8(r, x, upper_halves(lanes_above_of_pairs(k, texels, u)), hidden);
     else
         put_wide_8(r, x, texels, hidden);
 }

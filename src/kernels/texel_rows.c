@@ -203,7 +203,7 @@ SMEAR_AVX2_INLINE bool test_16(const struct row_lanes *r, int32_t x, const uint1
         code = _mm256_and_si256(code, _mm256_loadu_si256((const __m256i_u *)mask));
     const __m256i old = _mm256_loadu_si256(depth), most = _mm256_max_epu16(code, old);
     *hidden = _mm256_cmpeq_epi16(most, old);
-    if (_mm256_movemask_epi8(*hidden) == -1)
+    if (_mm256_testc_si256(*hidden, _mm256_set1_epi16(-1)) != 0)
         return false;
     _mm256_storeu_si256(depth, most);
     return true;
@@ -239,11 +239,11 @@ SMEAR_AVX2_INLINE bool test_8(const struct row_lanes *r, int32_t x, const uint16
 {
     __m128i_u *const depth = (__m128i_u *)(r->depth + x);
     const __m256i z = _mm256_set1_epi32((int32_t)(r->z + r->dz * (uint32_t)x));
-    __m128i code = lower_halves(_mm256_srli_epi32(_mm256_add_epi32(z, r->eight), 16));
+    __m128i code = upper_halves(_mm256_add_epi32(z, r->eight));
     code = _mm_and_si128(code, _mm_loadu_si128((const __m128i_u *)mask));
     const __m128i old = _mm_loadu_si128(depth), most = _mm_max_epu16(code, old);
     *hidden = _mm_cmpeq_epi16(most, old);
-    if (_mm_movemask_epi8(*hidden) == 0xffff)
+    if (all_hidden(*hidden))
         return false;
     _mm_storeu_si128(depth, most);
     return true;

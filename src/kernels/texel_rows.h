@@ -59,8 +59,11 @@ struct texel_curves {
 void smear_texel_rows_curves_reference(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p);
 void smear_texel_rows_curves_avx2(const struct texel_rows *t, const struct texel_spans *s, const struct texel_curves *p);
 
+/* The most rows of a triangle, a multiple of sixteen. */
+enum { TEXEL_SIDES = 64 };
+
 /* Rows of a triangle one below the other, from row 0 on, that lie in columns [x0, x1) where there are any; columns are below 2^15.
- * Depth codes 16.16 at column 0 are z + row dz_down. */
+ * Sides of a multiple of sixteen rows are read. Depth codes 16.16 at column 0 are z + row dz_down. */
 struct texel_sides {
     const struct span_side *side;
     int32_t count;

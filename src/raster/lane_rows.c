@@ -133,6 +133,8 @@ static struct texel_curve curve_from(const struct curve *c)
                                  (uint32_t)c->dxx, (uint32_t)c->dxy, (uint32_t)c->dyy };
 }
 
+SMEAR_STATIC_ASSERT((int)SPAN_ROWS == (int)TEXEL_SIDES, "rows are columns' sides");
+
 /* Draws whole rows by columns. */
 SMEAR_INLINE void draw_columns(const struct setup *s, const struct span_rows *r, const struct texel_curves *p, bool lit)
 {

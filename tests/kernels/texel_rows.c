@@ -157,7 +157,7 @@ static void call_curves(struct kernel_call *c, enum texels texels,
 static void call_columns(struct kernel_call *c, enum texels texels,
                          void draw(const struct texel_rows *, const struct texel_sides *, const struct texel_curves *))
 {
-    struct span_side side[SPANS];
+    struct span_side side[(SPANS + 15) & -16];
     const struct texel_curves p = {
         (int32_t)(c->word[SHAPE] & 255u), 3,
         { c->word[U], c->word[DU], c->word[Q], c->word[DQ], c->word[SLOPE], c->word[SEED] },
