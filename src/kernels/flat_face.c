@@ -1,43 +1,158 @@
 /* SPDX-License-Identifier: MIT */
-/* flat_face.c - see flat_face.h: the ends of eight rows at once, then sixteen pixels of a row. */
+/* flat_face.c - see flat_face.h: what corners tell, of eight faces at once; then the ends of eight rows at once, and sixteen
+ * pixels of a row. */
 #include "kernels/flat_face.h"
 
-#include "kernels/edge_lanes.h"
+#include "kernels/wide8.h"
 
 #if SMEAR_AVX2
 
-/* All ones in lanes below n, from face_masks + 32 - n on, and in lanes from n on, from face_masks + 16 - n on. */
+SMEAR_AVX2_INLINE __m256i face_load(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
+SMEAR_AVX2_INLINE void face_store(void *p, __m256i a) { _mm256_storeu_si256((__m256i *)p, a); }
+
+/* ------------------------------------------------------------------ sides */
+
+/* The long side, and those above and below the middle corner. */
+enum { FACE_LONG, FACE_ABOVE, FACE_BELOW, FACE_SIDES };
+
+struct face_sides {
+    uint64_t x[FACE_SIDES], step[FACE_SIDES];       /* in the first row: px q42, as in struct edge_walk */
+    int32_t row, n;             /* the first row, from the area's on, and how many there are: n > 0 */
+    int32_t knee;               /* those before this one, from the first one on, lie above the middle corner; any number */
+};
+
+/* A side as edge_start makes it, but that steps may lack as much where they are positive. x: of its upper end, half a pixel to the
+ * right; down: from there to the centres of the row below it, both q8 px; rows: from that one to the first. */
+SMEAR_AVX2_INLINE void face_side(struct face_sides *s, int side, int32_t x, int32_t dx, int32_t dy, int32_t down, int32_t rows)
+{
+    const int64_t step = dx * ((int64_t)1 << 42) / dy - 1, at = x * ((int64_t)1 << 34) + (step >> 8) * down - 1;
+    s->x[side] = (uint64_t)at + (uint64_t)step * (uint64_t)(int64_t)rows;
+    s->step[side] = (uint64_t)step;
+}
+
+/* Places of a side in rows 0 1 4 5 and 2 3 6 7 of eight: their upper halves are in order, then. */
+struct face_walk {
+    __m256i first, second, step;    /* step: of eight rows */
+};
+
+SMEAR_AVX2_INLINE struct face_walk face_walk_start(const struct face_sides *s, int side)
+{
+    static const int64_t odd[4] = { 0, -1, 0, -1 }, last[4] = { 0, 0, -1, -1 };
+    const __m256i step = _mm256_set1_epi64x((int64_t)s->step[side]);
+    const __m256i apart = _mm256_add_epi64(_mm256_and_si256(step, face_load(odd)),
+                                           _mm256_and_si256(_mm256_slli_epi64(step, 2), face_load(last)));
+    const __m256i first = _mm256_add_epi64(_mm256_set1_epi64x((int64_t)s->x[side]), apart);
+    return (struct face_walk){ first, _mm256_add_epi64(first, _mm256_slli_epi64(step, 1)), _mm256_slli_epi64(step, 3) };
+}
+
+/* The pixels of eight rows; goes on to the next. */
+SMEAR_AVX2_INLINE lanes8i face_walk_next(struct face_walk *w)
+{
+    const __m256 high = _mm256_shuffle_ps(_mm256_castsi256_ps(w->first), _mm256_castsi256_ps(w->second), 0xdd);
+    w->first = _mm256_add_epi64(w->first, w->step);
+    w->second = _mm256_add_epi64(w->second, w->step);
+    return (lanes8i)_mm256_castps_si256(high) >> 10;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+/* Depths of pixel 0 of a face's first row, and their steps; the colour as the target has it. */
+struct face_look {
+    uint32_t z, dz, dz_down, color;
+};
+
+/* The area, and in all lanes: its columns, the first of the last sixteen; places of eight rows, and from those to the next. */
+struct face_area {
+    void *pixels;
+    uint16_t *depth;
+    lanes8i x0, x1, x_most;
+    lanes8 rows, rows_down;
+    int32_t stride, beyond;         /* beyond: the first of the last sixteen columns */
+    bool narrow;
+};
+
+SMEAR_AVX2_INLINE struct face_area face_area_of(const struct flat_area *a)
+{
+    const lanes8 stride = lanes8_all((uint32_t)a->stride);
+    return (struct face_area){ a->pixels, a->depth, lanes8i_all(a->x0), lanes8i_all(a->x1), lanes8i_all(a->x1 - 16),
+                               stride * lanes8_numbers(), stride << 3, a->stride, a->x1 - 16, a->narrow };
+}
+
+/* What is made of eight rows at once reaches beyond the last. Bit i of a mask is that of row i, which has pixels within the
+ * area's columns: up to sixteen, of which the first lies among the last sixteen columns or before them; or more. */
+struct face_rows {
+    uint64_t few, last, many;
+    int32_t at[FLAT_FACE_ROWS];         /* places of the pixel from which on sixteen are drawn: the first one, or that of the last
+                                         * sixteen columns */
+    uint32_t z[FLAT_FACE_ROWS];         /* its depth */
+    int32_t before[FLAT_FACE_ROWS];     /* pixels that come before those of the row, less than none */
+    int32_t end[FLAT_FACE_ROWS];        /* and up to the last one: less than none, too */
+};
+
+/* Between the top and the bottom no side crosses the other, so the lesser one is the left one. */
+SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sides *s, const struct face_area *a,
+                                      const struct face_look *look)
+{
+    struct face_walk whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = face_walk_start(s, FACE_BELOW);
+    const lanes8 dz = lanes8_all(look->dz), z_down = lanes8_all(8 * look->dz_down);
+    lanes8 z = lanes8_ramp(look->z, look->dz_down, lanes8_numbers());
+    lanes8 at = lanes8_all((uint32_t)(s->row * a->stride)) + a->rows;
+    lanes8i rest = lanes8i_all(s->knee) - lanes8i_numbers();
+    uint64_t some = 0, last = 0, many = 0;
+    for (int32_t i = 0; i < s->n; i += 8, z += z_down, at += a->rows_down, rest -= lanes8i_word(LANES8_8)) {
+        const lanes8i side = face_walk_next(&whole), up = face_walk_next(&above), low = face_walk_next(&below);
+        const lanes8i part = lanes8i_choose(rest > 0, up, low);
+        const lanes8i left = lanes8i_max(lanes8i_min(side, part), a->x0), right = lanes8i_min(lanes8i_max(side, part), a->x1);
+        const lanes8i from = lanes8i_min(left, a->x_most), pixels = (lanes8i)((lanes8)right - (lanes8)from);
+        some |= (uint64_t)lanes8i_signs(right > left) << i;
+        last |= (uint64_t)lanes8i_signs(left > a->x_most) << i;
+        many |= (uint64_t)lanes8i_signs(pixels > lanes8i_word(LANES8_16)) << i;
+        lanes8_store(r->at + i, at + (lanes8)from);
+        lanes8_store(r->z + i, z + dz * (lanes8)from);
+        lanes8i_store(r->before + i, from - left);
+        lanes8i_store(r->end + i, -pixels);
+    }
+    some &= UINT64_MAX >> (FLAT_FACE_ROWS - s->n);
+    r->many = some & many;
+    r->last = some & last;
+    r->few = some & ~(last | many);
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+/* All ones in lanes below n, from face_first - n on, and in lanes from n on, from face_last - n on. */
 static const uint16_t face_masks[48] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
     0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
 };
+#define face_first (face_masks + 32)
+#define face_last (face_masks + 16)
 
-/* Rows from the first one on. What is made of eight at once reaches beyond the last. */
-struct face_rows {
-    int32_t left[FLAT_FACE_ROWS + 16], right[FLAT_FACE_ROWS + 16];      /* where their pixels begin and end; then how many they are */
-    int32_t at[FLAT_FACE_ROWS + 16];    /* places of the first ones */
-    uint32_t z[FLAT_FACE_ROWS + 16];    /* their depth codes */
-    int32_t few[FLAT_FACE_ROWS + 16];   /* pixels, less one: 0 .. 14 of what is drawn in one go, any other number of what is not */
-};
-
-/* What pixels have in common: depth steps of pixels 0 2 .. 14 and 1 3 .. 15; the colour. */
+/* How a face's pixels are drawn: steps of the depths of pixels 0 2 .. 14 and 1 3 .. 15; the colour. */
 struct face_lanes {
     __m256i steps, steps1, color;
+    bool narrow, breaks;
 };
 
-SMEAR_AVX2_INLINE __m256i face_load(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
-SMEAR_AVX2_INLINE void face_store(void *p, __m256i a) { _mm256_storeu_si256((__m256i *)p, a); }
-
-/* Sixteen pixels, z being the depth code of the first in all lanes, of which those of the mask are drawn. */
-SMEAR_AVX2_INLINE void face_draw_16(const struct face_lanes *k, void *pixels, uint16_t *depth, __m256i z, __m256i mask, bool narrow)
+SMEAR_AVX2_INLINE __m256i face_codes(__m256i z, bool breaks)
 {
-    const __m256i even = _mm256_add_epi32(z, k->steps), odd = _mm256_add_epi32(z, k->steps1);
+    if (!breaks)
+        return z;
+    const __m256 near = _mm256_castsi256_ps(_mm256_add_epi32(z, z)), far = _mm256_castsi256_ps(_mm256_slli_epi32(z, 5));
+    const __m256i above = _mm256_castps_si256(_mm256_blendv_ps(near, far, _mm256_castsi256_ps(z)));
+    return _mm256_add_epi32(above, _mm256_set1_epi32((int32_t)FLAT_BREAK_CODE));
+}
+
+/* Sixteen pixels, z being the depth of the first in all lanes, of which those of the mask are drawn. */
+SMEAR_AVX2_INLINE void face_draw_16(const struct face_lanes *k, void *pixels, uint16_t *depth, __m256i z, __m256i mask)
+{
+    const __m256i even = face_codes(_mm256_add_epi32(z, k->steps), k->breaks), odd = face_codes(_mm256_add_epi32(z, k->steps1), k->breaks);
     const __m256i code = _mm256_and_si256(_mm256_blend_epi16(_mm256_srli_epi32(even, 16), odd, 0xaa), mask);
     const __m256i old = face_load(depth), most = _mm256_max_epu16(code, old), stays = _mm256_cmpeq_epi16(most, old);
     face_store(depth, most);
-    if (narrow) {
+    if (k->narrow) {
         face_store(pixels, _mm256_blendv_epi8(k->color, face_load(pixels), stays));
         return;
     }
@@ -48,78 +163,163 @@ SMEAR_AVX2_INLINE void face_draw_16(const struct face_lanes *k, void *pixels, ui
     face_store(last, _mm256_blendv_epi8(k->color, face_load(last), stays1));
 }
 
-/* Cuts n rows from `row` on at the area's columns, and finds their places and depths. */
-SMEAR_AVX2_INLINE void face_cut(struct face_rows *r, const struct flat_area *a, const struct flat_face *f, int32_t row, int32_t n)
+/* Pixels of a row, more than sixteen; `beyond`: columns from its first one to the last sixteen. */
+SMEAR_AVX2_INLINE void face_row(const struct face_lanes *k, const struct face_rows *r, int i, const struct face_area *a, uint32_t dz,
+                                int32_t beyond)
 {
-    const lanes8i x0 = lanes8i_all(a->x0), x1 = lanes8i_all(a->x1), x_most = lanes8i_all(a->x1 - 16);
-    const lanes8 dz = lanes8_all(f->dz), z_down = lanes8_all(8 * f->dz_down), down = lanes8_all((uint32_t)(8 * a->stride));
-    lanes8 z = lanes8_ramp(f->z + f->dz_down * (uint32_t)row, f->dz_down, lanes8_numbers());
-    lanes8 at = lanes8_ramp((uint32_t)(row * a->stride), (uint32_t)a->stride, lanes8_numbers());
-    for (int32_t i = 0; i < n; i += 8, z += z_down, at += down) {
-        const lanes8i left = lanes8i_max(lanes8i_load(r->left + i), x0), right = lanes8i_min(lanes8i_load(r->right + i), x1);
-        lanes8i_store(r->left + i, left);
-        const lanes8i pixels = (lanes8i)((lanes8)right - (lanes8)left);     /* of rows beyond the last: anything */
-        lanes8i_store(r->right + i, pixels);
-        lanes8_store(r->at + i, at + (lanes8)left);
-        lanes8_store(r->z + i, z + dz * (lanes8)left);
-        lanes8i_store(r->few + i, (lanes8i)((lanes8)pixels - 1) | (left > x_most));
-    }
-}
-
-/* Pixels of row i, any number. */
-SMEAR_AVX2_INLINE void face_row(const struct face_rows *r, int32_t i, const struct flat_area *a, const struct flat_face *f,
-                                const struct face_lanes *k, bool narrow)
-{
-    const int32_t x_most = a->x1 - 16;
-    int32_t x = r->left[i], rest = r->right[i], at = r->at[i];
-    uint32_t z = r->z[i];
-    for (; rest >= 16; rest -= 16, x += 16, at += 16, z += 16 * f->dz)
-        face_draw_16(k, pixel_after(a->pixels, at, narrow), a->depth + at, (__m256i)lanes8_all(z), _mm256_set1_epi32(-1), narrow);
-    if (rest <= 0)
+    const __m256i step = _mm256_set1_epi32((int32_t)(16 * dz));
+    int32_t at = r->at[i], n = -r->end[i];
+    __m256i z = _mm256_set1_epi32((int32_t)r->z[i]);
+    for (; n >= 16; n -= 16, at += 16, beyond -= 16, z = _mm256_add_epi32(z, step))
+        face_draw_16(k, pixel_after(a->pixels, at, k->narrow), a->depth + at, z, _mm256_set1_epi32(-1));
+    if (n == 0)
         return;
-    __m256i mask = face_load(face_masks + 32 - rest);
-    if (x > x_most) {               /* the area's last sixteen columns, of which some come before x */
-        const int32_t before = x - x_most;
-        mask = _mm256_and_si256(face_load(face_masks + 32 - (before + rest)), face_load(face_masks + 16 - before));
-        at -= before;
-        z -= f->dz * (uint32_t)before;
-    }
-    face_draw_16(k, pixel_after(a->pixels, at, narrow), a->depth + at, (__m256i)lanes8_all(z), mask, narrow);
+    beyond = min_i32(beyond, 0);
+    at += beyond;
+    z = _mm256_add_epi32(z, _mm256_set1_epi32((int32_t)(dz * (uint32_t)beyond)));
+    const __m256i mask = _mm256_and_si256(face_load(face_first - (n - beyond)), face_load(face_last + beyond));
+    face_draw_16(k, pixel_after(a->pixels, at, k->narrow), a->depth + at, z, mask);
 }
 
-SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct flat_area *a, const struct flat_face *f, int32_t n, bool narrow)
+SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_sides *s, const struct face_area *a,
+                                 const struct face_look *look, bool narrow, bool breaks)
 {
     const lanes8 evens = lanes8_numbers() * 2;
-    const struct face_lanes k = { (__m256i)lanes8_ramp(0, f->dz, evens), (__m256i)lanes8_ramp(f->dz, f->dz, evens),
-                                  narrow ? _mm256_set1_epi16((int16_t)f->color) : _mm256_set1_epi32((int32_t)f->color) };
+    const struct face_lanes k = { (__m256i)lanes8_ramp(0, look->dz, evens), (__m256i)lanes8_ramp(look->dz, look->dz, evens),
+                                  narrow ? _mm256_set1_epi16((int16_t)look->color) : _mm256_set1_epi32((int32_t)look->color),
+                                  narrow, breaks };
     void *const pixels = a->pixels;
     uint16_t *const depth = a->depth;
-    for (int32_t i = 0; i < n; i++) {
-        const uint32_t few = (uint32_t)r->few[i];
-        if (few >= 15) {
-            face_row(r, i, a, f, &k, narrow);
-            continue;
-        }
+    for (uint64_t few = r->few; few != 0; few &= few - 1) {
+        const int i = __builtin_ctzll(few);
         const int32_t at = r->at[i];
         const __m256i z = _mm256_set1_epi32((int32_t)r->z[i]);
-        face_draw_16(&k, pixel_after(pixels, at, narrow), depth + at, z, face_load(face_masks + 31 - few), narrow);
+        face_draw_16(&k, pixel_after(pixels, at, narrow), depth + at, z, face_load(face_first + r->end[i]));
+    }
+    for (uint64_t last = r->last; last != 0; last &= last - 1) {
+        const int i = __builtin_ctzll(last);
+        const int32_t at = r->at[i];
+        const __m256i z = _mm256_set1_epi32((int32_t)r->z[i]);
+        const __m256i mask = _mm256_and_si256(face_load(face_first + r->end[i]), face_load(face_last + r->before[i]));
+        face_draw_16(&k, pixel_after(pixels, at, narrow), depth + at, z, mask);
+    }
+    for (uint64_t many = r->many; many != 0; many &= many - 1) {
+        const int i = __builtin_ctzll(many);
+        face_row(&k, r, i, a, look->dz, a->beyond + (s->row + i) * a->stride - r->at[i]);
     }
 }
 
-/* A third of the instructions of the loops that call flat_run. */
+SMEAR_AVX2_INLINE void face_draw(const struct face_sides *s, const struct face_area *a, const struct face_look *look, bool breaks)
+{
+    struct face_rows r;
+    face_rows_find(&r, s, a, look);
+    if (a->narrow && breaks)
+        face_fill(&r, s, a, look, true, true);
+    else if (a->narrow)
+        face_fill(&r, s, a, look, true, false);
+    else if (breaks)
+        face_fill(&r, s, a, look, false, true);
+    else
+        face_fill(&r, s, a, look, false, false);
+}
+
+/* ------------------------------------------------------------------ one face */
+
+/* A quarter of the instructions of the loops that call flat_run. */
 SMEAR_AVX2_FUNCTION void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f)
 {
     struct corners c;
-    struct face_rows r;
+    struct face_sides s;
     corners_find(&c, f->corner, a->y0, a->y1);
-    const int32_t n = c.end - c.first, row = c.first - a->y0;
-    if (n <= 0)
+    s.n = c.end - c.first;
+    if (s.n <= 0)
         return;
-    corners_sides(r.left, r.right, &c, c.first, n);
-    face_cut(&r, a, f, row, n);
-    if (a->narrow)
-        face_fill(&r, a, f, n, true);
-    else
-        face_fill(&r, a, f, n, false);
+    s.row = c.first - a->y0;
+    const int32_t first = (c.top[1] + 127) >> 8, knee = (c.middle[1] + 127) >> 8;
+    const int32_t down = first * 256 + 128 - c.top[1], down_middle = knee * 256 + 128 - c.middle[1];
+    s.knee = knee - c.first;
+    face_side(&s, FACE_LONG, c.top[0] + 128, c.bottom[0] - c.top[0], c.bottom[1] - c.top[1], down, c.first - first);
+    face_side(&s, FACE_ABOVE, c.top[0] + 128, c.middle[0] - c.top[0], max_i32(c.middle[1] - c.top[1], 1), down, c.first - first);
+    face_side(&s, FACE_BELOW, c.middle[0] + 128, c.bottom[0] - c.middle[0], max_i32(c.bottom[1] - c.middle[1], 1), down_middle, -s.knee);
+    const struct face_look look = { f->z + f->dz_down * (uint32_t)s.row, f->dz, f->dz_down, f->color };
+    const struct face_area area = face_area_of(a);
+    face_draw(&s, &area, &look, f->breaks);
+}
+
+/* ------------------------------------------------------------------ eight faces */
+
+/* Puts the corner with the lesser y first. */
+SMEAR_AVX2_INLINE void face_sort(lanes8i *ax, lanes8i *ay, lanes8i *bx, lanes8i *by)
+{
+    const lanes8i swap = *by < *ay, x = *ax, y = *ay;
+    *ax = lanes8i_choose(swap, *bx, x);
+    *bx = lanes8i_choose(swap, x, *bx);
+    *ay = lanes8i_min(y, *by);
+    *by = lanes8i_max(y, *by);
+}
+
+/* All ones in lane k where bit k is set. */
+SMEAR_AVX2_INLINE lanes8i face_bits(uint32_t bits)
+{
+    const lanes8 bit = { 1, 2, 4, 8, 16, 32, 64, 128 };
+    return (lanes8_all(bits) & bit) == bit;
+}
+
+/* Their depths, and in which way their codes are told. */
+SMEAR_AVX2_INLINE void face_depths(struct flat_eight *e, const struct planes8 *p, lanes8i first)
+{
+    const lanes8i far = face_bits(p->far), near = face_bits(p->near), both = ~(far | near);
+    const lanes8i shift = (far & 5) | (near & 1);
+    const lanes8 dy = lanes8_load(p->dy);
+    const lanes8 above = lanes8_load(p->at) + dy * (lanes8)first - FLAT_BREAK;
+    lanes8_store(e->z, lanes8_left(above, shift) + (~(lanes8)both & FLAT_BREAK_CODE));
+    lanes8_store(e->dz, lanes8_left(lanes8_load(p->dx), shift));
+    lanes8_store(e->dz_down, lanes8_left(dy, shift));
+    e->breaks = lanes8i_signs(both);
+}
+
+SMEAR_AVX2_FUNCTION void smear_flat_eight_make_avx2(struct flat_eight *e, const struct flat_area *a, const struct poses *poses,
+                                                    const struct planes8 *planes, const uint32_t color[8])
+{
+    const struct lanes8_four v0 = corner8(poses, 0, 0), v1 = corner8(poses, 1, 0), v2 = corner8(poses, 2, 0);
+    lanes8i x0 = v0.of[0], y0 = v0.of[1], x1 = v1.of[0], y1 = v1.of[1], x2 = v2.of[0], y2 = v2.of[1];
+    face_sort(&x0, &y0, &x1, &y1);
+    face_sort(&x1, &y1, &x2, &y2);
+    face_sort(&x0, &y0, &x1, &y1);
+    const lanes8i below = (y0 + 127) >> 8, knee = (y1 + 127) >> 8, top = lanes8i_all(a->y0);
+    const lanes8i first = lanes8i_max(below, top), one = lanes8i_word(LANES8_1);
+    lanes8i_store(e->row, first - top);
+    lanes8i_store(e->n, lanes8i_min((y2 + 127) >> 8, lanes8i_all(a->y1)) - first);
+    lanes8i_store(e->knee, knee - first);
+    lanes8i_store(e->rows, first - below);
+    lanes8i_store(e->x[0], x0 + 128);
+    lanes8i_store(e->x[1], x1 + 128);
+    lanes8i_store(e->down[0], (below << 8) + 128 - y0);
+    lanes8i_store(e->down[1], (knee << 8) + 128 - y1);
+    lanes8i_store(e->dx[FACE_LONG], x2 - x0);
+    lanes8i_store(e->dy[FACE_LONG], lanes8i_max(y2 - y0, one));
+    lanes8i_store(e->dx[FACE_ABOVE], x1 - x0);
+    lanes8i_store(e->dy[FACE_ABOVE], lanes8i_max(y1 - y0, one));
+    lanes8i_store(e->dx[FACE_BELOW], x2 - x1);
+    lanes8i_store(e->dy[FACE_BELOW], lanes8i_max(y2 - y1, one));
+    face_depths(e, planes, first);
+    const lanes8 pixel = lanes8_load(color);
+    lanes8_store(e->color, a->narrow ? lanes8_narrow(pixel) : pixel & 0xffffffu);
+}
+
+SMEAR_AVX2_FUNCTION void smear_flat_eight_draw_avx2(const struct flat_eight *e, const struct flat_area *a, uint32_t which)
+{
+    const struct face_area area = face_area_of(a);
+    for (; which != 0; which &= which - 1) {
+        const int k = __builtin_ctz(which);
+        struct face_sides s = { .row = e->row[k], .n = e->n[k], .knee = e->knee[k] };
+        if (s.n <= 0)
+            continue;
+        face_side(&s, FACE_LONG, e->x[0][k], e->dx[FACE_LONG][k], e->dy[FACE_LONG][k], e->down[0][k], e->rows[k]);
+        face_side(&s, FACE_ABOVE, e->x[0][k], e->dx[FACE_ABOVE][k], e->dy[FACE_ABOVE][k], e->down[0][k], e->rows[k]);
+        face_side(&s, FACE_BELOW, e->x[1][k], e->dx[FACE_BELOW][k], e->dy[FACE_BELOW][k], e->down[1][k], -s.knee);
+        const struct face_look look = { e->z[k], e->dz[k], e->dz_down[k], e->color[k] };
+        face_draw(&s, &area, &look, (e->breaks >> k & 1u) != 0);
+    }
 }
 #endif

@@ -6,6 +6,7 @@
 #include "kernels/corners.h"
 #include "kernels/edge_walk.h"
 #include "kernels/flat_run.h"
+#include "kernels/planes8.h"
 
 /* Where pixels lie: columns [x0, x1) of rows [y0, y1), which are FLAT_FACE_ROWS at most. */
 enum { FLAT_FACE_ROWS = 64, FLAT_FACE_LEAST = 16 };
@@ -21,7 +22,19 @@ struct flat_face {
     const int32_t *corner[3];       /* x and y, q8 px, clockwise */
     uint32_t z, dz, dz_down;        /* depth codes 16.16 at pixel 0 of row y0, and their steps */
     uint32_t color;
+    bool breaks;                    /* the codes have their break in it: z is how far depths are above that, units q11 */
 };
+
+/* Where the depth code breaks, units q11: below it they have 32 times as many codes 16.16, from it on twice. And the code there, of
+ * which the half for rounding is part. */
+#define FLAT_BREAK (32768u << 11)
+#define FLAT_BREAK_CODE 0x80008000u
+
+/* The code 16.16 of a pixel. */
+SMEAR_INLINE uint32_t flat_code(const struct flat_face *f, uint32_t z)
+{
+    return !f->breaks ? z : FLAT_BREAK_CODE + ((int32_t)z < 0 ? z << 5 : z << 1);
+}
 
 /* Draws the pixels whose centres lie in the triangle, like flat_run: those at its left and upper edges, too. */
 static inline void flat_face_reference(const struct flat_area *a, const struct flat_face *f)
@@ -34,16 +47,31 @@ static inline void flat_face_reference(const struct flat_area *a, const struct f
         edge_start(&part, y < c.knee ? c.top : c.middle, y < c.knee ? c.middle : c.bottom, y);
         const int32_t left = max_i32(edge_pixel(c.whole_is_left ? &whole : &part), a->x0);
         const int32_t right = min_i32(edge_pixel(c.whole_is_left ? &part : &whole), a->x1);
-        const int32_t row = y - a->y0, at = row * a->stride + left;
-        if (left < right)
-            flat_run_reference(pixel_after(a->pixels, at, a->narrow), a->depth + at, right - left,
-                               f->z + f->dz_down * (uint32_t)row + f->dz * (uint32_t)left, f->dz, f->color, a->narrow);
+        const uint32_t z = f->z + f->dz_down * (uint32_t)(y - a->y0);
+        for (int32_t x = left; x < right; x++)
+            flat_pixel(a->pixels, a->depth, (y - a->y0) * a->stride + x, flat_code(f, z + f->dz * (uint32_t)x), f->color, a->narrow);
     }
 }
 
 #if SMEAR_AVX2
 /* The same where columns are FLAT_FACE_LEAST at least: they may be written as they are. */
 void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f);
+
+/* Eight of them, of which corners tell what is here. Sides: from the top to the bottom, to the middle, and from there. */
+struct flat_eight {
+    int32_t row[8], n[8];           /* the first row, from y0 on, and how many there are, or less than none */
+    int32_t knee[8], rows[8];       /* from the first row to the middle corner's, and from the top's to the first */
+    int32_t x[2][8], down[2][8];    /* of the top and the middle: half a pixel right of it, and down to centres of pixels: q8 px */
+    int32_t dx[3][8], dy[3][8];     /* sides; dy > 0 */
+    uint32_t z[8], dz[8], dz_down[8];       /* as above, but in the first row */
+    uint32_t color[8];              /* as the target has it */
+    uint32_t breaks;                /* bit k: of face k */
+};
+
+/* Makes those of triangles that are seen, which have these colours, 0x00RRGGBB; and draws some of them in their order. */
+void smear_flat_eight_make_avx2(struct flat_eight *e, const struct flat_area *a, const struct poses *poses, const struct planes8 *planes,
+                                const uint32_t color[8]);
+void smear_flat_eight_draw_avx2(const struct flat_eight *e, const struct flat_area *a, uint32_t which);
 #endif
 
 #endif

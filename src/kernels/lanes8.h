@@ -27,7 +27,7 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_numbers(void) { return (lanes8i){ 0, 1, 2, 3, 
 /* Constants that loops often need lie in memory, where they are an operand of an instruction. Of any other, GCC 12 makes one by
  * three, and again wherever it runs out of registers. */
 enum lanes8_constant {
-    LANES8_1, LANES8_15, LANES8_16, LANES8_17, LANES8_24, LANES8_31, LANES8_53, LANES8_64, LANES8_127, LANES8_128, LANES8_135,
+    LANES8_1, LANES8_8, LANES8_15, LANES8_16, LANES8_17, LANES8_24, LANES8_31, LANES8_53, LANES8_64, LANES8_127, LANES8_128, LANES8_135,
     LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535,
     LANES8_LESS_2,              /* all bits but the lowest */
     LANES8_RED_BLUE,            /* of a pixel */
@@ -187,6 +187,25 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_mulh(lanes8i a, lanes8i b)
     const __m256i even = _mm256_mul_epi32((__m256i)a, (__m256i)b);
     const __m256i odd = _mm256_mul_epi32(_mm256_srli_epi64((__m256i)a, 32), _mm256_srli_epi64((__m256i)b, 32));
     return (lanes8i)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
+}
+
+/* Sums of the elements of two vectors. */
+struct lanes8_sums {
+    int32_t of[2];
+};
+
+SMEAR_AVX2_INLINE struct lanes8_sums lanes8i_sums(lanes8i a, lanes8i b)
+{
+    const __m256i pairs = _mm256_hadd_epi32((__m256i)a, (__m256i)b);
+    const __m128i fours = _mm_add_epi32(_mm256_castsi256_si128(pairs), _mm256_extracti128_si256(pairs, 1));
+    const __m128i all = _mm_hadd_epi32(fours, fours);
+    return (struct lanes8_sums){ { _mm_cvtsi128_si32(all), _mm_extract_epi32(all, 1) } };
+}
+
+/* Differences of bytes without their sign. */
+SMEAR_AVX2_INLINE lanes8 lanes8_apart(lanes8 a, lanes8 b)
+{
+    return (lanes8)_mm256_sub_epi8(_mm256_max_epu8((__m256i)a, (__m256i)b), _mm256_min_epu8((__m256i)a, (__m256i)b));
 }
 
 /* ------------------------------------------------------------------ halves */

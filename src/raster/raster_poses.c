@@ -94,7 +94,8 @@ struct eight {
     const uint32_t *color;
     struct planes8 planes;
     struct looks8 looks;
-    bool has_looks;                 /* they are made */
+    struct flat_eight faces;
+    bool has_looks, has_faces;      /* they are made */
     struct flat_area area;          /* where those of one colour are drawn, if they are by flat_face */
 };
 
@@ -103,15 +104,13 @@ static inline enum depth_slope slope_of(const struct planes8 *p, int k)
     return (p->far >> k & 1u) != 0 ? SLOPE_FAR : (p->near >> k & 1u) != 0 ? SLOPE_NEAR : SLOPE_BOTH;
 }
 
-/* Draws triangle k, which has one colour and lies in one slope of the depth code. */
-static inline void draw_flat(const struct eight *e, int k, uint32_t color, enum depth_slope slope)
+/* Draws triangles of these, which have one colour each. */
+static inline void draw_flat(struct eight *e, uint32_t which, const uint32_t color[8])
 {
-    const struct planes8 *const p = &e->planes;
-    const int32_t (*const v)[POSES_RECORD] = e->poses->record[k];
-    const int32_t units = add_wrap(p->at[k], mul_wrap(p->dy[k], e->area.y0));
-    const struct flat_face face = { { v[0], v[1], v[2] }, code_from_units(units, slope), (uint32_t)step_from_units(p->dx[k], slope),
-                                    (uint32_t)step_from_units(p->dy[k], slope), target_pixel(e->target, color) };
-    smear_flat_face_avx2(&e->area, &face);
+    if (!e->has_faces)
+        smear_flat_eight_make_avx2(&e->faces, &e->area, e->poses, &e->planes, color);
+    e->has_faces = true;
+    smear_flat_eight_draw_avx2(&e->faces, &e->area, which);
 }
 
 /* Draws triangle k of those that are `known`; false where its size has it drawn otherwise. */
@@ -127,6 +126,13 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     const bool small = max_i32(width, height) <= (textured ? SMALL_TEXTURED_PX : SMALL_PX);
     if (small && (textured || width * height <= TINY_PIXELS))
         return false;
+    if (!e->has_looks)
+        smear_looks8_avx2(&e->looks, e->frame, segment, e->poses, planes, known);
+    e->has_looks = true;
+    if ((e->looks.flat >> k & 1u) != 0 && e->area.pixels != NULL) {
+        draw_flat(e, 1u << k, segment_gouraud(segment) ? e->looks.color : e->color);
+        return true;
+    }
     struct setup s;
     s.frame = e->frame;
     s.target = target;
@@ -149,16 +155,9 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     s.fog = FOG_NONE;
 #endif
     const struct pixel_box box = { whole.left, whole.right, max_i32(whole.top, target->y0), min_i32(whole.bottom, target->y1) };
-    if (!e->has_looks)
-        smear_looks8_avx2(&e->looks, e->frame, segment, e->poses, planes, known);
-    e->has_looks = true;
     smear_looks8_take(&s, &e->looks, k);
-    if (s.flat && e->area.pixels != NULL && s.slope != SLOPE_BOTH) {
-        draw_flat(e, k, s.color, s.slope);
-    } else {
-        smear_cover_choose(&s, small);
-        smear_cover(&s, &box, small);
-    }
+    smear_cover_choose(&s, small);
+    smear_cover(&s, &box, small);
     return true;
 }
 
@@ -173,7 +172,7 @@ static void eight_start(struct eight *e, const struct smear_raster_frame *frame,
     e->segment = segment;
     e->poses = poses;
     e->color = color;
-    e->has_looks = false;
+    e->has_looks = e->has_faces = false;
     e->area = (struct flat_area){ .stride = w->stride, .x0 = target->x0, .x1 = target->x1, .y0 = target->y0, .y1 = target->y1,
                                   .narrow = target_is_direct(target) };
     if (target->x1 - target->x0 >= FLAT_FACE_LEAST && rows <= FLAT_FACE_ROWS && w->ring_row + rows <= w->ring) {
@@ -201,13 +200,20 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
     int32_t start = 0, n = 0;
     if (tiny != 0)
         make_tiny(&pixels, look, color, poses, tiny);
-    bool flat = false;
+    uint32_t flat = 0;
     if ((poses->seen & ~alone) != 0) {
         eight_start(&eight, frame, target, segment, color, poses);
-        flat = look != NULL && look->kind == TINY8_FLAT && eight.area.pixels != NULL;
+        if (look != NULL && look->kind == TINY8_FLAT && eight.area.pixels != NULL)
+            flat = poses->seen & ~alone;
     }
-    for (uint32_t all = poses->seen; all != 0; all &= all - 1) {
-        const int k = __builtin_ctz(all);
+    for (uint32_t rest = poses->seen; rest != 0; rest &= rest - 1) {
+        const uint32_t others = rest & ~flat, first = others & (0u - others);
+        if ((rest & (first - 1u)) != 0)         /* flat ones that come before */
+            draw_flat(&eight, rest & (first - 1u), color);
+        rest &= ~(first - 1u);
+        if (rest == 0)
+            break;
+        const int k = __builtin_ctz(rest);
         if ((tiny >> k & 1u) != 0) {
             const int32_t from = start, i = n++;
             start = pixels.end[i];
@@ -216,14 +222,8 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
                 continue;
             }
         }
-        if ((alone >> k & 1u) == 0) {
-            if (flat && slope_of(&eight.planes, k) != SLOPE_BOTH) {
-                draw_flat(&eight, k, color[k], slope_of(&eight.planes, k));
-                continue;
-            }
-            if (draw_known(&eight, k, poses->seen & ~alone))
-                continue;
-        }
+        if ((alone >> k & 1u) == 0 && draw_known(&eight, k, poses->seen & ~alone))
+            continue;
         const int32_t *const v[3] = { poses->record[k][0], poses->record[k][1], poses->record[k][2] }, *const b = poses->bounds[k];
         const struct bounds bounds = { b[0], b[1], b[2], b[3] };
         smear_raster_triangle(frame, target, segment, color[k], v, &bounds);

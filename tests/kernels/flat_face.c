@@ -32,7 +32,7 @@ static void face_by(struct kernel_call *c, bool narrow, bool best)
     const int32_t columns = FLAT_FACE_LEAST + c->n % (STRIDE - FLAT_FACE_LEAST), x0 = c->n / 3 % (STRIDE - columns + 1), y0 = c->n % 7 - 3;
     const struct flat_area area = { c->plane[0], c->plane[1], STRIDE, x0, x0 + columns, y0, y0 + c->n / STRIDE, narrow };
     const struct flat_face face = { { at, at + 2, at + 4 }, c->word[Z], c->word[DZ], c->word[DZ_DOWN],
-                                    narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR] };
+                                    narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], (c->word[COLOR] >> 24 & 1u) != 0 };
 #if SMEAR_AVX2
     if (best && smear_has_avx2()) {
         smear_flat_face_avx2(&area, &face);
