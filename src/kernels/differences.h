@@ -4,6 +4,7 @@
 #define SMEAR_KERNELS_DIFFERENCES_H
 
 #include "base/pixel.h"
+#include "kernels/avx2.h"
 #include "kernels/kernels.h"
 
 #ifdef __OPTIMIZE_SIZE__
@@ -52,6 +53,31 @@ static inline uint32_t differences_reference(const struct difference_rows *r, in
     *moving += count;
     return sum;
 }
+
+/* Some rows of n pixels; so far from one to the next are color and depth, and behind and deep. */
+struct difference_block {
+    struct difference_rows first;
+    int32_t pitch, pitch_behind, rows, n;
+};
+
+static inline uint32_t difference_block_reference(const struct difference_block *b, uint32_t *moving)
+{
+    struct difference_rows r = b->first;
+    uint32_t sum = 0;
+    for (int32_t i = 0; i < b->rows; i++) {
+        sum += differences_reference(&r, b->n, moving);
+        r.color += b->pitch;
+        r.depth += b->pitch;
+        r.behind += b->pitch_behind;
+        r.deep += b->pitch_behind;
+    }
+    return sum;
+}
+
+#if SMEAR_AVX2
+/* The same of 4 to 8 pixels. */
+uint32_t smear_difference_block_avx2(const struct difference_block *b, uint32_t *moving);
+#endif
 
 #if DIFFERENCES_ASM_ARMV6M
 /* 14 instructions a pixel that moves and is as the one there, 42 where they differ; compilers take 22 and 48. */

@@ -17,6 +17,37 @@ struct look_sums {
     uint32_t along, beside, moving;
 };
 
+#if SMEAR_AVX2
+/* Returns 1 where rows of the tiles have the pixels that lie dy farther, -1 where those as much nearer, 0 where neither. */
+static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int32_t dy)
+{
+    return y + dy >= s->y0 && y + dy < s->y1 ? 1 : y - dy >= s->y0 && y - dy < s->y1 ? -1 : 0;
+}
+
+/* look_along where rows of what is static do not go round: those whose pixels lie in the same direction are looked at together. */
+static uint32_t look_by_blocks(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
+{
+    const struct smear_raster_target *s = &f->t->background;
+    const int32_t pitch = f->t->pitch, stride = s->color_rows.stride;
+    uint32_t sum = 0;
+    for (int32_t y = l->y, rows; y < l->y1; y += 2 * rows) {
+        const int32_t way = way_to(s, y, dy), x = way * dx, down = way * dy;
+        for (rows = 1; y + 2 * rows < l->y1 && way_to(s, y + 2 * rows, dy) == way;)
+            rows++;
+        const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
+        const int32_t at = (y - s->y0) * pitch - s->x0 + first, behind = target_row(&s->color_rows, s, y) + first;
+        if (way == 0 || n <= 0)
+            continue;
+        const struct difference_block block = {
+            { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind, down * pitch + x, down * stride + x },
+            2 * pitch, 2 * stride, rows, n
+        };
+        sum += n < 4 ? difference_block_reference(&block, moving) : smear_difference_block_avx2(&block, moving);
+    }
+    return sum;
+}
+#endif
+
 /* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
  * the tiles. */
 static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
@@ -24,6 +55,10 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
     const struct smear_raster_target *s = &f->t->background;
     const int32_t pitch = f->t->pitch;
     uint32_t sum = 0;
+#if SMEAR_AVX2
+    if (s->color_rows.ring_row + (s->y1 - s->y0) <= s->color_rows.ring && smear_has_avx2())
+        return look_by_blocks(f, l, dx, dy, moving);
+#endif
     for (int32_t y = l->y; y < l->y1; y += 2) {
         int32_t x = dx, down = dy;
         if (y + down < s->y0 || y + down >= s->y1) {

@@ -41,6 +41,32 @@ static void call(struct kernel_call *c, uint32_t (*form)(const struct difference
 
 static void reference(struct kernel_call *c) { call(c, differences_reference); }
 
+/* Rows of four to eight pixels. */
+static void block(struct kernel_call *c, uint32_t (*form)(const struct difference_block *b, uint32_t *moving))
+{
+    const uint32_t *color = c->plane[0], *behind = c->plane[1];
+    const uint16_t *depth = c->plane[2], *deep = c->plane[3];
+    const int32_t there = (int32_t)(c->word[THERE] % (2 * REACH + 1u)) - REACH,
+                  there_behind = (int32_t)((c->word[THERE] >> 8) % (2 * REACH + 1u)) - REACH;
+    const int32_t n = 4 + c->n % 5, pitch = n + c->n % 3, pitch_behind = n + c->n % 2, rows = (c->n - n) / (n + 2) + 1;
+    const struct difference_block rows_of = { { color + REACH, behind + REACH, depth + REACH, deep + REACH, there, there_behind },
+                                              pitch, pitch_behind, rows, n };
+    c->word[SUM] = form(&rows_of, &c->word[MOVING]);
+}
+
+static void block_reference(struct kernel_call *c) { block(c, difference_block_reference); }
+
+static void block_best(struct kernel_call *c)
+{
+#if SMEAR_AVX2
+    if (smear_has_avx2()) {
+        block(c, smear_difference_block_avx2);
+        return;
+    }
+#endif
+    block(c, difference_block_reference);
+}
+
 #if DIFFERENCES_ASM_ARMV6M
 static void armv6m(struct kernel_call *c) { call(c, smear_differences_armv6m); }
 #endif
@@ -53,5 +79,7 @@ const struct kernel kernels_differences[] = {
                 { "armv6m", armv6m },
 #endif
       } },
+    { .name = "differences of blocks", .least = 8, .most = 60, .size = { 4, 4, 2, 2 }, .prepare = prepare, .timed = 40,
+      .form = { { "reference", block_reference }, { "best", block_best } } },
     { .name = NULL }
 };
