@@ -28,7 +28,7 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_numbers(void) { return (lanes8i){ 0, 1, 2, 3, 
  * three, and again wherever it runs out of registers. */
 enum lanes8_constant {
     LANES8_1, LANES8_8, LANES8_15, LANES8_16, LANES8_17, LANES8_24, LANES8_31, LANES8_53, LANES8_64, LANES8_127, LANES8_128, LANES8_135,
-    LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535,
+    LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535, LANES8_65536,
     LANES8_LESS_2,              /* all bits but the lowest */
     LANES8_RED_BLUE,            /* of a pixel */
     LANES8_2_19, LANES8_2_22, LANES8_2_31,      /* powers of two */

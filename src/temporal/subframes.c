@@ -290,8 +290,10 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
     const bool sets = samples == 0 && sums_are_set(f);
     if (samples == 0)
         smear_subframe_sums_clear(f, sets ? box : &no_box);
-    smear_subframe_sums_add(f, box, (uint32_t)k, sets);
-    smear_subframe_restore_depth(f, box);
+    if (!smear_subframe_sums_take(f, box)) {
+        smear_subframe_sums_add(f, box, (uint32_t)k, sets);
+        smear_subframe_restore_depth(f, box);
+    }
     box_add(all, box);
     return (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
 }
