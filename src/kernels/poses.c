@@ -144,7 +144,7 @@ SMEAR_AVX2_FUNCTION void smear_poses_avx2(struct poses *out, const struct poses_
         const struct poses_words place = { { c[i].x, c[i].y, c[i].depth, c[i].more } };
         poses_store(out->record[0][i], 3 * POSES_RECORD, &place);
     }
-    if (s->motion <= 4)
+    if (s->words <= 4)
         return;
     for (int k = 0; k < 8; k++)
         for (int i = 0; i < 3; i++)

@@ -13,6 +13,7 @@ struct poses_setup {
     const int32_t *vertex;          /* records: x, y (q8 px), depth (q11), up to three words more; then, behind `motion` words in
                                      * all, x, y and depth at open and those at close, which end the record */
     int motion;
+    int words;                      /* of a record without the path that are looked at: up to POSES_RECORD, `motion` at most */
     int32_t phase;                  /* path_phase */
     int32_t low[2], high[2];        /* the guard band, q8 px: x, y */
     int32_t depth_least, depth_most;
@@ -27,7 +28,7 @@ struct poses {
     uint32_t tiny;                  /* bit k: so it is, and its box is tiny, all of it */
     int32_t box[4];                 /* the pixels of all that are seen: x0, y0, x1, y1; undefined where none is */
     int32_t bounds[8][4];           /* of the vertices: least x and y, largest x and y */
-    int32_t record[8][3][POSES_RECORD];     /* as those given, without the path */
+    int32_t record[8][3][POSES_RECORD];     /* as those given, as many words as are looked at */
 };
 
 /* Places of vertices in words, the fourth of each is not looked at. All eight must be there; `count` of them are looked at. */

@@ -8,6 +8,55 @@
 
 #if SMEAR_AVX2
 
+/* ------------------------------------------------------------------ packs */
+
+static inline void pack_begin(struct subframe_pack *pack, const struct smear_segment *segment)
+{
+    pack->segment = segment;
+    pack->count = 0;
+}
+
+static inline void pack_add(struct subframe_pack *pack, const struct smear_triangle *t)
+{
+    __builtin_memcpy(pack->vertex[pack->count], t->vertex, sizeof t->vertex);
+    pack->color[pack->count++] = t->color;
+}
+
+static inline void pack_end(struct subframe_pack *pack)
+{
+    for (int k = pack->count; k < 8; k++)
+        __builtin_memcpy(pack->vertex[k], pack->vertex[0], sizeof pack->vertex[0]);
+}
+
+/* The segment of a triangle that may be drawn with others; or null. */
+static inline const struct smear_segment *segment_of(const struct smear_bins *g, uint32_t triangle)
+{
+    return bins_bounds(g, triangle)->interval != 0 ? NULL : &g->segment[bins_triangle(g, triangle)->segment];
+}
+
+void smear_subframe_packs_make(struct subframe_packs *packs, const struct subframes *f)
+{
+    const struct smear_bins *g = f->t->frame->bins;
+    struct subframe_pack *pack = NULL;
+    packs->count = 0;
+    for (packs->listed = 0; packs->listed < f->moving_listed; packs->listed++) {
+        const uint32_t triangle = f->listed[packs->listed];
+        const struct smear_segment *const segment = segment_of(g, triangle);
+        if (pack == NULL || segment == NULL || pack->segment != segment || pack->count == 8) {
+            if (packs->count == SUBFRAME_PACKS)
+                break;
+            pack = &packs->of[packs->count++];
+            pack_begin(pack, segment);
+            pack->triangle = triangle;
+        }
+        pack_add(pack, bins_triangle(g, triangle));
+    }
+    for (int i = 0; i < packs->count; i++)
+        pack_end(&packs->of[i]);
+}
+
+/* ------------------------------------------------------------------ instants */
+
 void smear_subframe_eights_begin(struct subframe_eights *e, const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     const struct smear_raster_frame *frame = f->t->frame;
@@ -15,29 +64,11 @@ void smear_subframe_eights_begin(struct subframe_eights *e, const struct subfram
     const int32_t guard = SMEAR_GUARD_PX << 8, x = frame->width << 7, y = frame->height << 7;
     e->f = f;
     e->all = all;
-    e->time = time;
     e->segment = NULL;
-    e->count = 0;
+    pack_begin(&e->waiting, NULL);
     e->setup = (struct poses_setup){ .phase = path_phase(time), .low = { x - guard, y - guard }, .high = { x + guard, y + guard },
                                      .depth_least = SMEAR_DEPTH_MIN, .depth_most = SMEAR_DEPTH_MAX,
                                      .x0 = tile->x0, .y0 = tile->y0, .x1 = tile->x1, .y1 = tile->y1, .tiny_box = TINY8_BOX };
-}
-
-void smear_subframe_eights_end(struct subframe_eights *e)
-{
-    struct poses poses;
-    const struct subframes *f = e->f;
-    if (e->count == 0)
-        return;
-    for (int k = e->count; k < 8; k++)
-        __builtin_memcpy(e->vertex[k], e->vertex[0], sizeof e->vertex[0]);
-    smear_poses_avx2(&poses, &e->setup, (const uint16_t(*)[4])e->vertex, e->count);
-    e->count = 0;
-    if (poses.seen == 0)
-        return;
-    const struct subframe_box box = { poses.box[0], poses.box[1], poses.box[2], poses.box[3] };
-    box_add(e->all, &box);
-    smear_raster_poses(f->t->frame, &f->work, e->segment, e->has_look ? &e->look : NULL, e->color, &poses);
 }
 
 static void begin_segment(struct subframe_eights *e, const struct smear_segment *segment)
@@ -47,24 +78,45 @@ static void begin_segment(struct subframe_eights *e, const struct smear_segment 
     e->has_look = smear_raster_look(&e->look, f->t->frame, &f->work, segment);
     e->setup.vertex = bins_vertex(f->t->frame->bins, segment, 0);
     e->setup.motion = segment->motion;
+    e->setup.words = segment_gouraud(segment) || segment_textured(segment) ? segment->motion : VERTEX_BASE_WORDS;
     e->setup.tiny = e->has_look ? e->look.most : 0;
+}
+
+void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe_pack *pack)
+{
+    struct poses poses;
+    const struct subframes *f = e->f;
+    if (pack->segment != e->segment)
+        begin_segment(e, pack->segment);
+    smear_poses_avx2(&poses, &e->setup, pack->vertex, pack->count);
+    if (poses.seen == 0)
+        return;
+    const struct subframe_box box = { poses.box[0], poses.box[1], poses.box[2], poses.box[3] };
+    box_add(e->all, &box);
+    smear_raster_poses(f->t->frame, &f->work, e->segment, e->has_look ? &e->look : NULL, pack->color, &poses);
+}
+
+void smear_subframe_eights_end(struct subframe_eights *e)
+{
+    if (e->waiting.count == 0)
+        return;
+    pack_end(&e->waiting);
+    smear_subframe_eights_draw(e, &e->waiting);
+    e->waiting.count = 0;
 }
 
 bool smear_subframe_eights_add(struct subframe_eights *e, uint32_t triangle)
 {
     const struct smear_bins *g = e->f->t->frame->bins;
-    const struct smear_triangle *t = bins_triangle(g, triangle);
-    const struct smear_segment *segment = &g->segment[t->segment];
-    const bool alone = bins_bounds(g, triangle)->interval != 0;
-    if (alone || segment != e->segment) {
+    const struct smear_segment *const segment = segment_of(g, triangle);
+    if (segment == NULL || segment != e->waiting.segment) {
         smear_subframe_eights_end(e);
-        if (alone)
+        pack_begin(&e->waiting, segment);
+        if (segment == NULL)
             return false;
-        begin_segment(e, segment);
     }
-    __builtin_memcpy(e->vertex[e->count], t->vertex, sizeof t->vertex);
-    e->color[e->count++] = t->color;
-    if (e->count == 8)
+    pack_add(&e->waiting, bins_triangle(g, triangle));
+    if (e->waiting.count == 8)
         smear_subframe_eights_end(e);
     return true;
 }

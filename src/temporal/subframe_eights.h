@@ -9,18 +9,32 @@
 
 #if SMEAR_AVX2
 
-/* Triangles of one segment that wait to be drawn. */
+/* Up to eight triangles of one segment that are drawn together. */
+struct subframe_pack {
+    const struct smear_segment *segment;        /* null: one triangle that is drawn alone */
+    uint32_t triangle;
+    int count;
+    uint16_t vertex[8][4];              /* all eight: the first one's in place of those that are missing */
+    uint32_t color[8];
+};
+
+/* Listed triangles of some tiles from the first one on, in their order: the same ones at all instants. */
+enum { SUBFRAME_PACKS = 20 };
+struct subframe_packs {
+    uint32_t listed;                    /* so many */
+    int count;
+    struct subframe_pack of[SUBFRAME_PACKS];
+};
+
+/* An instant, and what has come to be drawn at it. */
 struct subframe_eights {
     const struct subframes *f;
     struct subframe_box *all;           /* where anything was drawn */
-    int32_t time;
-    const struct smear_segment *segment;
+    const struct smear_segment *segment;        /* of which there are: */
     struct poses_setup setup;
     struct tiny8_look look;
     bool has_look;
-    int count;
-    uint16_t vertex[8][4];
-    uint32_t color[8];
+    struct subframe_pack waiting;       /* not drawn yet */
 };
 
 /* Whether an instant may be drawn so: shifts for smooth edges are each triangle's own. */
@@ -29,7 +43,12 @@ static inline bool subframe_eights_suit(const struct subframes *f)
     return !(SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0) && smear_has_avx2();
 }
 
+void smear_subframe_packs_make(struct subframe_packs *packs, const struct subframes *f);
+
 void smear_subframe_eights_begin(struct subframe_eights *e, const struct subframes *f, int32_t time, struct subframe_box *all);
+
+/* Draws a pack of more than one triangle. */
+void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe_pack *pack);
 
 /* Draws a triangle with a path, or has it wait. False where it has to be drawn alone, those before it have been drawn then. */
 bool smear_subframe_eights_add(struct subframe_eights *e, uint32_t triangle);

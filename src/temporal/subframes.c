@@ -176,8 +176,14 @@ static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, i
 static void draw_listed_by_eights(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     struct subframe_eights eights;
+    const struct subframe_packs *const packs = f->packs;
     smear_subframe_eights_begin(&eights, f, time, all);
-    for (uint32_t i = 0; i < f->moving_listed; i++)
+    for (int i = 0; packs != NULL && i < packs->count; i++)
+        if (packs->of[i].segment == NULL)
+            draw_moving_triangle(f, packs->of[i].triangle, time, all);
+        else
+            smear_subframe_eights_draw(&eights, &packs->of[i]);
+    for (uint32_t i = packs != NULL ? packs->listed : 0; i < f->moving_listed; i++)
         if (!smear_subframe_eights_add(&eights, f->listed[i]))
             draw_moving_triangle(f, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++) {
@@ -348,6 +354,13 @@ static int32_t shift_of(int32_t k, int32_t n, int32_t g)
 static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
 {
     *all = no_box;
+#if SMEAR_AVX2
+    struct subframe_packs packs;
+    if (f->refilled == NULL && smear_has_avx2()) {
+        smear_subframe_packs_make(&packs, f);
+        f->packs = &packs;
+    }
+#endif
     const bool smooths = SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0;
     const bool plans = plan != NULL && plan->chooser != NULL;
     uint32_t samples = plans ? draw_middle(f, plan, all) : 0;
@@ -363,6 +376,9 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
         const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
         samples += add_instant(f, &box, k, samples, all);
     }
+#if SMEAR_AVX2
+    f->packs = NULL;
+#endif
     return samples;
 }
 

@@ -60,6 +60,7 @@ static void make(struct take *t, uint32_t *seed)
     t->time = min_i32(t->time, SHUTTER_CLOSE);
     make_setup(&t->setup, t->record, t->time, seed);
     const int stride = t->setup.motion + PATH_WORDS;
+    t->setup.words = between(seed, VERTEX_BASE_WORDS, t->setup.motion);
     for (int k = 0; k < 24; k++) {
         int32_t *const v = t->record + k * stride, *const first = k % 3 == 0 ? NULL : v - k % 3 * stride;
         const int32_t reach = 1 << between(seed, 4, 17), far = 1 << between(seed, 0, 20);
@@ -86,7 +87,7 @@ static struct poses poses_one_by_one(const struct take *t)
         for (int i = 0; i < 3; i++) {
             int32_t *const r = out.record[k][i];
             const int32_t *const v = s->vertex + t->vertex[k][i];
-            for (int j = VERTEX_BASE_WORDS; j < s->motion; j++)
+            for (int j = VERTEX_BASE_WORDS; j < s->words; j++)
                 r[j] = v[j];
             path_at(r, v, &segment, t->time);
             for (int axis = 0; axis < 2; axis++) {
@@ -134,7 +135,7 @@ static uint32_t sum_up(uint32_t sum, const struct poses *p, const struct take *t
             continue;
         for (int i = 0; i < 4; i++)
             sum = sum * 31u + (uint32_t)p->bounds[k][i];
-        for (int i = 0; i < 3 * t->setup.motion; i++)
+        for (int i = 0; i < 3 * t->setup.words; i++)
             sum = sum * 31u + (uint32_t)p->record[k][i % 3][i / 3];
     }
     return sum;
