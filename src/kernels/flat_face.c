@@ -12,7 +12,8 @@ SMEAR_AVX2_INLINE void face_store(void *p, __m256i a) { _mm256_storeu_si256((__m
 
 /* ------------------------------------------------------------------ sides */
 
-/* The long side, and those above and below the middle corner. */
+/* The long side, and those above and below the middle corner. Where all rows lie on one side of that, there is no side below, and
+ * what is called above may be either. */
 enum { FACE_LONG, FACE_ABOVE, FACE_BELOW, FACE_SIDES };
 
 struct face_sides {
@@ -20,6 +21,8 @@ struct face_sides {
     int32_t row, n;             /* the first row, from the area's on, and how many there are: n > 0 */
     int32_t knee;               /* those before this one, from the first one on, lie above the middle corner; any number */
 };
+
+SMEAR_AVX2_INLINE bool face_is_bent(const struct face_sides *s) { return s->knee > 0 && s->knee < s->n; }
 
 /* A side as edge_start makes it, but that steps may lack as much where they are positive. x: of its upper end, half a pixel to the
  * right; down: from there to the centres of the row below it, both q8 px; rows: from that one to the first. */
@@ -45,13 +48,17 @@ SMEAR_AVX2_INLINE struct face_walk face_walk_start(const struct face_sides *s, i
     return (struct face_walk){ first, _mm256_add_epi64(first, _mm256_slli_epi64(step, 1)), _mm256_slli_epi64(step, 3) };
 }
 
-/* The pixels of eight rows; goes on to the next. */
-SMEAR_AVX2_INLINE lanes8i face_walk_next(struct face_walk *w)
+/* The pixels of eight rows. */
+SMEAR_AVX2_INLINE lanes8i face_walk_pixels(const struct face_walk *w)
 {
     const __m256 high = _mm256_shuffle_ps(_mm256_castsi256_ps(w->first), _mm256_castsi256_ps(w->second), 0xdd);
+    return (lanes8i)_mm256_castps_si256(high) >> 10;
+}
+
+SMEAR_AVX2_INLINE void face_walk_next(struct face_walk *w)
+{
     w->first = _mm256_add_epi64(w->first, w->step);
     w->second = _mm256_add_epi64(w->second, w->step);
-    return (lanes8i)_mm256_castps_si256(high) >> 10;
 }
 
 /* ------------------------------------------------------------------ rows */
@@ -79,9 +86,9 @@ SMEAR_AVX2_INLINE struct face_area face_area_of(const struct flat_area *a)
 }
 
 /* What is made of eight rows at once reaches beyond the last. Bit i of a mask is that of row i, which has pixels within the
- * area's columns: up to sixteen, of which the first lies among the last sixteen columns or before them; or more. */
+ * area's columns: one, or up to sixteen, of which the first lies among the last sixteen columns or before them; or more. */
 struct face_rows {
-    uint64_t few, last, many;
+    uint64_t one, few, last, many;
     int32_t at[FLAT_FACE_ROWS];         /* places of the pixel from which on sixteen are drawn: the first one, or that of the last
                                          * sixteen columns */
     uint32_t z[FLAT_FACE_ROWS];         /* its depth */
@@ -91,31 +98,42 @@ struct face_rows {
 
 /* Between the top and the bottom no side crosses the other, so the lesser one is the left one. */
 SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sides *s, const struct face_area *a,
-                                      const struct face_look *look)
+                                      const struct face_look *look, bool bent)
 {
-    struct face_walk whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = face_walk_start(s, FACE_BELOW);
+    struct face_walk whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = above;
     const lanes8 dz = lanes8_all(look->dz), z_down = lanes8_all(8 * look->dz_down);
     lanes8 z = lanes8_ramp(look->z, look->dz_down, lanes8_numbers());
     lanes8 at = lanes8_all((uint32_t)(s->row * a->stride)) + a->rows;
     lanes8i rest = lanes8i_all(s->knee) - lanes8i_numbers();
-    uint64_t some = 0, last = 0, many = 0;
-    for (int32_t i = 0; i < s->n; i += 8, z += z_down, at += a->rows_down, rest -= lanes8i_word(LANES8_8)) {
-        const lanes8i side = face_walk_next(&whole), up = face_walk_next(&above), low = face_walk_next(&below);
-        const lanes8i part = lanes8i_choose(rest > 0, up, low);
+    uint64_t some = 0, one = 0, last = 0, many = 0;
+    if (bent)
+        below = face_walk_start(s, FACE_BELOW);
+    for (int32_t i = 0;; z += z_down, at += a->rows_down, rest -= lanes8i_word(LANES8_8)) {
+        const lanes8i side = face_walk_pixels(&whole), up = face_walk_pixels(&above);
+        const lanes8i part = bent ? lanes8i_choose(rest > 0, up, face_walk_pixels(&below)) : up;
         const lanes8i left = lanes8i_max(lanes8i_min(side, part), a->x0), right = lanes8i_min(lanes8i_max(side, part), a->x1);
         const lanes8i from = lanes8i_min(left, a->x_most), pixels = (lanes8i)((lanes8)right - (lanes8)from);
         some |= (uint64_t)lanes8i_signs(right > left) << i;
+        one |= (uint64_t)lanes8i_signs(pixels == lanes8i_word(LANES8_1)) << i;
         last |= (uint64_t)lanes8i_signs(left > a->x_most) << i;
         many |= (uint64_t)lanes8i_signs(pixels > lanes8i_word(LANES8_16)) << i;
         lanes8_store(r->at + i, at + (lanes8)from);
         lanes8_store(r->z + i, z + dz * (lanes8)from);
         lanes8i_store(r->before + i, from - left);
         lanes8i_store(r->end + i, -pixels);
+        i += 8;
+        if (i >= s->n)
+            break;
+        face_walk_next(&whole);
+        face_walk_next(&above);
+        if (bent)
+            face_walk_next(&below);
     }
     some &= UINT64_MAX >> (FLAT_FACE_ROWS - s->n);
     r->many = some & many;
     r->last = some & last;
-    r->few = some & ~(last | many);
+    r->one = some & one & ~last;
+    r->few = some & ~(one | last | many);
 }
 
 /* ------------------------------------------------------------------ pixels */
@@ -190,6 +208,10 @@ SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_si
                                   narrow, breaks };
     void *const pixels = a->pixels;
     uint16_t *const depth = a->depth;
+    for (uint64_t one = r->one; one != 0; one &= one - 1) {
+        const int i = __builtin_ctzll(one);
+        flat_pixel(pixels, depth, r->at[i], flat_code(r->z[i], breaks), look->color, narrow);
+    }
     for (uint64_t few = r->few; few != 0; few &= few - 1) {
         const int i = __builtin_ctzll(few);
         const int32_t at = r->at[i];
@@ -212,7 +234,10 @@ SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_si
 SMEAR_AVX2_INLINE void face_draw(const struct face_sides *s, const struct face_area *a, const struct face_look *look, bool breaks)
 {
     struct face_rows r;
-    face_rows_find(&r, s, a, look);
+    if (face_is_bent(s))
+        face_rows_find(&r, s, a, look, true);
+    else
+        face_rows_find(&r, s, a, look, false);
     if (a->narrow && breaks)
         face_fill(&r, s, a, look, true, true);
     else if (a->narrow)
@@ -229,18 +254,18 @@ SMEAR_AVX2_INLINE void face_draw(const struct face_sides *s, const struct face_a
 SMEAR_AVX2_FUNCTION void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f)
 {
     struct corners c;
-    struct face_sides s;
     corners_find(&c, f->corner, a->y0, a->y1);
-    s.n = c.end - c.first;
+    const int32_t first = (c.top[1] + 127) >> 8, knee = (c.middle[1] + 127) >> 8;
+    struct face_sides s = { .row = c.first - a->y0, .n = c.end - c.first, .knee = knee - c.first };
     if (s.n <= 0)
         return;
-    s.row = c.first - a->y0;
-    const int32_t first = (c.top[1] + 127) >> 8, knee = (c.middle[1] + 127) >> 8;
     const int32_t down = first * 256 + 128 - c.top[1], down_middle = knee * 256 + 128 - c.middle[1];
-    s.knee = knee - c.first;
     face_side(&s, FACE_LONG, c.top[0] + 128, c.bottom[0] - c.top[0], c.bottom[1] - c.top[1], down, c.first - first);
-    face_side(&s, FACE_ABOVE, c.top[0] + 128, c.middle[0] - c.top[0], max_i32(c.middle[1] - c.top[1], 1), down, c.first - first);
-    face_side(&s, FACE_BELOW, c.middle[0] + 128, c.bottom[0] - c.middle[0], max_i32(c.bottom[1] - c.middle[1], 1), down_middle, -s.knee);
+    if (s.knee > 0)
+        face_side(&s, FACE_ABOVE, c.top[0] + 128, c.middle[0] - c.top[0], c.middle[1] - c.top[1], down, c.first - first);
+    if (s.knee < s.n)
+        face_side(&s, s.knee > 0 ? FACE_BELOW : FACE_ABOVE, c.middle[0] + 128, c.bottom[0] - c.middle[0], c.bottom[1] - c.middle[1],
+                  down_middle, -s.knee);
     const struct face_look look = { f->z + f->dz_down * (uint32_t)s.row, f->dz, f->dz_down, f->color };
     const struct face_area area = face_area_of(a);
     face_draw(&s, &area, &look, f->breaks);
@@ -287,7 +312,7 @@ SMEAR_AVX2_FUNCTION void smear_flat_eight_make_avx2(struct flat_eight *e, const 
     face_sort(&x1, &y1, &x2, &y2);
     face_sort(&x0, &y0, &x1, &y1);
     const lanes8i below = (y0 + 127) >> 8, knee = (y1 + 127) >> 8, top = lanes8i_all(a->y0);
-    const lanes8i first = lanes8i_max(below, top), one = lanes8i_word(LANES8_1);
+    const lanes8i first = lanes8i_max(below, top);
     lanes8i_store(e->row, first - top);
     lanes8i_store(e->n, lanes8i_min((y2 + 127) >> 8, lanes8i_all(a->y1)) - first);
     lanes8i_store(e->knee, knee - first);
@@ -297,11 +322,11 @@ SMEAR_AVX2_FUNCTION void smear_flat_eight_make_avx2(struct flat_eight *e, const 
     lanes8i_store(e->down[0], (below << 8) + 128 - y0);
     lanes8i_store(e->down[1], (knee << 8) + 128 - y1);
     lanes8i_store(e->dx[FACE_LONG], x2 - x0);
-    lanes8i_store(e->dy[FACE_LONG], lanes8i_max(y2 - y0, one));
+    lanes8i_store(e->dy[FACE_LONG], y2 - y0);
     lanes8i_store(e->dx[FACE_ABOVE], x1 - x0);
-    lanes8i_store(e->dy[FACE_ABOVE], lanes8i_max(y1 - y0, one));
+    lanes8i_store(e->dy[FACE_ABOVE], y1 - y0);
     lanes8i_store(e->dx[FACE_BELOW], x2 - x1);
-    lanes8i_store(e->dy[FACE_BELOW], lanes8i_max(y2 - y1, one));
+    lanes8i_store(e->dy[FACE_BELOW], y2 - y1);
     face_depths(e, planes, first);
     const lanes8 pixel = lanes8_load(color);
     lanes8_store(e->color, a->narrow ? lanes8_narrow(pixel) : pixel & 0xffffffu);
@@ -316,8 +341,11 @@ SMEAR_AVX2_FUNCTION void smear_flat_eight_draw_avx2(const struct flat_eight *e, 
         if (s.n <= 0)
             continue;
         face_side(&s, FACE_LONG, e->x[0][k], e->dx[FACE_LONG][k], e->dy[FACE_LONG][k], e->down[0][k], e->rows[k]);
-        face_side(&s, FACE_ABOVE, e->x[0][k], e->dx[FACE_ABOVE][k], e->dy[FACE_ABOVE][k], e->down[0][k], e->rows[k]);
-        face_side(&s, FACE_BELOW, e->x[1][k], e->dx[FACE_BELOW][k], e->dy[FACE_BELOW][k], e->down[1][k], -s.knee);
+        if (s.knee > 0)
+            face_side(&s, FACE_ABOVE, e->x[0][k], e->dx[FACE_ABOVE][k], e->dy[FACE_ABOVE][k], e->down[0][k], e->rows[k]);
+        if (s.knee < s.n)
+            face_side(&s, s.knee > 0 ? FACE_BELOW : FACE_ABOVE, e->x[1][k], e->dx[FACE_BELOW][k], e->dy[FACE_BELOW][k], e->down[1][k],
+                      -s.knee);
         const struct face_look look = { e->z[k], e->dz[k], e->dz_down[k], e->color[k] };
         face_draw(&s, &area, &look, (e->breaks >> k & 1u) != 0);
     }

@@ -31,9 +31,9 @@ struct flat_face {
 #define FLAT_BREAK_CODE 0x80008000u
 
 /* The code 16.16 of a pixel. */
-SMEAR_INLINE uint32_t flat_code(const struct flat_face *f, uint32_t z)
+SMEAR_INLINE uint32_t flat_code(uint32_t z, bool breaks)
 {
-    return !f->breaks ? z : FLAT_BREAK_CODE + ((int32_t)z < 0 ? z << 5 : z << 1);
+    return !breaks ? z : FLAT_BREAK_CODE + ((int32_t)z < 0 ? z << 5 : z << 1);
 }
 
 /* Draws the pixels whose centres lie in the triangle, like flat_run: those at its left and upper edges, too. */
@@ -48,8 +48,9 @@ static inline void flat_face_reference(const struct flat_area *a, const struct f
         const int32_t left = max_i32(edge_pixel(c.whole_is_left ? &whole : &part), a->x0);
         const int32_t right = min_i32(edge_pixel(c.whole_is_left ? &part : &whole), a->x1);
         const uint32_t z = f->z + f->dz_down * (uint32_t)(y - a->y0);
+        const int32_t at = (y - a->y0) * a->stride;
         for (int32_t x = left; x < right; x++)
-            flat_pixel(a->pixels, a->depth, (y - a->y0) * a->stride + x, flat_code(f, z + f->dz * (uint32_t)x), f->color, a->narrow);
+            flat_pixel(a->pixels, a->depth, at + x, flat_code(z + f->dz * (uint32_t)x, f->breaks), f->color, a->narrow);
     }
 }
 
@@ -62,7 +63,7 @@ struct flat_eight {
     int32_t row[8], n[8];           /* the first row, from y0 on, and how many there are, or less than none */
     int32_t knee[8], rows[8];       /* from the first row to the middle corner's, and from the top's to the first */
     int32_t x[2][8], down[2][8];    /* of the top and the middle: half a pixel right of it, and down to centres of pixels: q8 px */
-    int32_t dx[3][8], dy[3][8];     /* sides; dy > 0 */
+    int32_t dx[3][8], dy[3][8];     /* sides; dy > 0 where they have rows */
     uint32_t z[8], dz[8], dz_down[8];       /* as above, but in the first row */
     uint32_t color[8];              /* as the target has it */
     uint32_t breaks;                /* bit k: of face k */
