@@ -16,7 +16,7 @@ endif
 
 # Sanitizers see more where less is optimized, and -O1 compiles in two thirds of the time.
 OPT    ?= $(if $(filter 1,$(SAN)),-O1,-O2)
-# Of what debuggers read, lines and functions: more takes a fifth of the time. OPT='-O0 -g' is for who looks at variables.
+# Of what debuggers read, lines and functions: more takes a sixth of the time. OPT='-O0 -g' is for who looks at variables.
 CFLAGS := -std=c11 -g1 -Wall -Wextra -Wconversion -Wshadow -Iinclude -Isrc -I. -MMD -MP $(OPT)
 # Of programs of this machine, where another build needs some.
 HOST_CC ?= cc
