@@ -7,9 +7,12 @@
 
 #if SMEAR_AVX2
 
-/* Coordinates of a block's pixel 0, and how they change; `bent`: steps change, too. */
+/* The most places that are found together, and elements before and in all of what they are found in. */
+enum { PLACES_LISTED = 128, PLACES_BEFORE = 8, PLACES_ALL = PLACES_BEFORE + PLACES_LISTED + 8 };
+
+/* Coordinates of blocks' pixels 0, and how they change; `bent`: steps change, too. */
 struct block_lanes {
-    int32_t u[8], v[8], du[8], dv[8], ddu[8], ddv[8];
+    int32_t u[PLACES_ALL], v[PLACES_ALL], du[PLACES_ALL], dv[PLACES_ALL], ddu[PLACES_ALL], ddv[PLACES_ALL];
     bool bent;
 };
 
@@ -144,12 +147,14 @@ SMEAR_AVX2_INLINE void between_lanes(const struct planes_lanes *k, __m256i from,
         const __m256i more = _mm256_mullo_epi32(b, _mm256_sub_epi32(n, _mm256_set1_epi32(1)));
         d = _mm256_add_epi32(d, _mm256_srai_epi32(more, 1));
         store_lanes(change, _mm256_sub_epi32(_mm256_setzero_si256(), _mm256_and_si256(_mm256_sll_epi32(b, k->up), mask)));
+    } else {
+        store_lanes(change, _mm256_setzero_si256());
     }
     store_lanes(step, _mm256_and_si256(_mm256_sll_epi32(d, k->up), mask));
 }
 
-/* The coordinates of eight blocks that end at `ends`, n pixels long; the places where they begin and end. */
-SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_lanes *k, __m256i n, struct place_lanes before,
+/* The coordinates of eight blocks from element i on, n pixels long: of the places where they end, and where the one before does. */
+SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, int32_t i, const struct planes_lanes *k, __m256i n, struct place_lanes before,
                                    struct place_lanes to, enum look look)
 {
     const struct place_lanes from = { lanes_before(before.u, to.u), lanes_before(before.v, to.v),
@@ -158,14 +163,15 @@ SMEAR_AVX2_INLINE void blocks_make(struct block_lanes *c, const struct planes_la
     const __m256i part = _mm256_i32gather_epi32((const int *)lane_inverse, number, 4);
     const __m256i nearness = _mm256_add_epi32(from.nearness, to.nearness);
     const __m256i rate = _mm256_srai_epi32(_mm256_add_epi32(nearness, _mm256_set1_epi32(2)), 1);
-    between_lanes(k, from.u, to.u, n, part, rate, _mm256_set1_epi32(-1), c->du, c->ddu);
-    between_lanes(k, from.v, to.v, n, part, rate, look == LOOK_WRAPPED ? _mm256_set1_epi32(-1) : k->turns, c->dv, c->ddv);
-    store_lanes(c->u, _mm256_sll_epi32(from.u, k->up));
+    between_lanes(k, from.u, to.u, n, part, rate, _mm256_set1_epi32(-1), c->du + i, c->ddu + i);
+    between_lanes(k, from.v, to.v, n, part, rate, look == LOOK_WRAPPED ? _mm256_set1_epi32(-1) : k->turns, c->dv + i,
+                  c->ddv + i);
+    store_lanes(c->u + i, _mm256_sll_epi32(from.u, k->up));
     if (look == LOOK_WRAPPED) {
-        store_lanes(c->v, from.v);
+        store_lanes(c->v + i, from.v);
         return;
     }
-    store_lanes(c->v, _mm256_or_si256(_mm256_and_si256(_mm256_sll_epi32(from.v, k->up), k->turns), k->center));
+    store_lanes(c->v + i, _mm256_or_si256(_mm256_and_si256(_mm256_sll_epi32(from.v, k->up), k->turns), k->center));
 }
 #endif
 

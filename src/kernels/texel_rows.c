@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_rows.c - places of eight blocks at once, then sixteen pixels of a block, or eight. */
-#include "kernels/place_lanes.h"
+#include "kernels/place_list.h"
 #include "kernels/wrapped_run.h"
 
 #if SMEAR_AVX2
@@ -344,59 +344,39 @@ SMEAR_AVX2_INLINE void draw_block(const struct texel_lanes *k, const struct row_
 /* ------------------------------------------------------------------ places */
 
 /* A place for each pixel. */
-SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                                     int32_t row, int32_t a, int32_t b, enum look look)
+SMEAR_AVX2_INLINE void row_of_places(const struct texel_lanes *k, const struct planes_lanes *planes, const struct texel_spans *s,
+                                     int32_t i, enum look look)
 {
-    for (; a < b; a += 8) {
+    const __m256i row = _mm256_set1_epi32(s->row[i]);
+    struct row_lanes r;
+    row_start(&r, k, s, i, look);
+    texels_row_light(k, s, i, 1, look);
+    for (int32_t a = s->a[i], b = s->b[i]; a < b; a += 8) {
         const uint16_t *mask;
         const int32_t x = eight_from(k, a, b, &mask);
         __m128i hidden;
-        if (!test_8(r, x, mask, &hidden))
+        if (!test_8(&r, x, mask, &hidden))
             continue;
-        const struct place_lanes p = places_of(k, planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), _mm256_set1_epi32(row), look);
-        put_8(k, r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, look);
+        const struct place_lanes p = places_of(k, planes, _mm256_add_epi32(_mm256_set1_epi32(x), first_8()), row, look);
+        put_8(k, &r, x, _mm256_sll_epi32(p.u, planes->up), _mm256_sll_epi32(p.v, planes->up), hidden, look);
     }
 }
 
-/* Where eight blocks end, the first of them at x if `first`: whole ones, then the parts that block_next makes of what is left of
- * long ones. Returns where the last one does. */
-SMEAR_AVX2_INLINE int32_t ends_make(int32_t end[8], int32_t x, int32_t last, int32_t block, bool first)
+/* Blocks of a list. */
+SMEAR_AVX2_INLINE void rows_of_list(struct place_list *l, struct block_lanes *c, const struct texel_lanes *k,
+                                    const struct planes_lanes *planes, const struct texel_spans *s, int32_t block, enum look look)
 {
-    const lanes8i number = lanes8i_numbers() + !first;
-    lanes8i pixels = number * block;
-    if (block > COLOR_BLOCK_MAX) {
-        const int32_t rest = last - x, has_long = (rest & (block - 1)) >= BLOCK_LONG;
-        const lanes8i whole = lanes8i_min(number, lanes8i_all(rest >> (block == BLOCK_LONG ? 5 : 6)));
-        const lanes8i after = number - whole, parts = after - lanes8i_min(after, lanes8i_all(has_long));
-        pixels = whole * block + (after - parts) * (int32_t)BLOCK_LONG + parts * (int32_t)COLOR_BLOCK_MAX;
-    }
-    lanes8i_store(end, lanes8i_min(pixels + x, lanes8i_all(last)));
-    return end[7];
-}
-
-/* Blocks from that of pixel a on. */
-SMEAR_AVX2_INLINE void row_of_blocks(const struct texel_lanes *k, const struct row_lanes *r, const struct planes_lanes *planes,
-                                     struct block_lanes *c, const struct texel_spans *s, int32_t i, int32_t block, enum look look)
-{
-    const int32_t last = s->right[i] - 1, a = s->a[i], b = s->b[i];
-    const __m256i row = _mm256_set1_epi32(s->row[i]), zero = _mm256_setzero_si256();
-    int32_t end[9], x = block_start(s->left[i], last, a, block);
-    struct place_lanes before = { zero, zero, zero };
-    end[0] = x;
-    for (int j = 1;; j = 0) {
-        x = ends_make(end + 1, x, last, block, j == 1);
-        const __m256i ends = _mm256_loadu_si256((const __m256i_u *)(end + 1));
-        const __m256i n = _mm256_sub_epi32(ends, _mm256_loadu_si256((const __m256i_u *)end));
-        const struct place_lanes places = places_of(k, planes, ends, row, look);
-        blocks_make(c, planes, n, before, places, look);
-        before = places;
-        for (; j < 8; j++) {
-            const int32_t stop = end[j + 1] + (end[j + 1] == last);
-            draw_block(k, r, c, j, end[j], max_i32(end[j], a), min_i32(stop, b), look, false);
-            if (stop >= b)
-                return;
+    list_between(c, l, k, planes, look);
+    for (const struct listed_run *run = l->run, *const end = run + l->runs; run < end; run++) {
+        const int32_t i = run->span, a = s->a[i], b = s->b[i], last = s->right[i] - 1, at = PLACES_BEFORE + run->at;
+        struct row_lanes r;
+        row_start(&r, k, s, i, look);
+        texels_row_light(k, s, i, block, look);
+        for (int32_t j = at + 1, x = l->x[at]; j < at + run->count; j++) {
+            const int32_t stop = l->x[j];
+            draw_block(k, &r, c, j, x, max_i32(x, a), min_i32(stop + (stop == last), b), look, false);
+            x = stop;
         }
-        end[0] = x;
     }
 }
 
@@ -406,20 +386,26 @@ SMEAR_AVX2_INLINE void rows_of_places(const struct texel_rows *t, const struct t
     struct light_lanes blocks;
     struct planes_lanes planes;
     struct block_lanes c;
+    struct place_list list;
     lanes_start(&k, t, &blocks, look);
     planes_start(&planes, p);
     c.bent = p->parabolic;
-    store_lanes(c.ddu, _mm256_setzero_si256());
-    store_lanes(c.ddv, _mm256_setzero_si256());
-    for (int32_t i = 0; i < s->count; i++) {
-        struct row_lanes r;
-        const bool single = p->block == 1 || s->right[i] - s->left[i] <= SHORT_SPAN;
-        row_start(&r, &k, s, i, look);
-        texels_row_light(&k, s, i, single ? 1 : p->block, look);
-        if (single)
-            row_of_places(&k, &r, &planes, s->row[i], s->a[i], s->b[i], look);
-        else
-            row_of_blocks(&k, &r, &planes, &c, s, i, p->block, look);
+    bool goes_on = false;
+    for (int32_t i = 0, x = 0; i < s->count;) {
+        list_start(&list);
+        for (; i < s->count; i++) {
+            const int32_t left = s->left[i], right = s->right[i];
+            if (p->block == 1 || right - left <= SHORT_SPAN) {
+                row_of_places(&k, &planes, s, i, look);
+                continue;
+            }
+            if (!goes_on)
+                x = block_start(left, right - 1, s->a[i], p->block);
+            goes_on = !list_blocks(&list, s, i, p->block, &x);
+            if (goes_on)
+                break;
+        }
+        rows_of_list(&list, &c, &k, &planes, s, p->block, look);
     }
 }
 
