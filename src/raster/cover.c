@@ -428,9 +428,11 @@ static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct 
 {
     const struct smear_raster_target *t = s->target;
     const struct smear_plane_rows *w = &t->window_rows;
+    const bool breaks = s->slope == SLOPE_BOTH;
     struct flat_area a = { .stride = w->stride, .x0 = t->x0, .x1 = t->x1, .narrow = target_is_direct(t) };
-    struct flat_face f = { .corner = { s->v[0], s->v[1], s->v[2] }, .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
-                           .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope), .color = target_pixel(t, s->color) };
+    struct flat_face f = { .corner = { s->v[0], s->v[1], s->v[2] }, .color = target_pixel(t, s->color), .breaks = breaks };
+    f.dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope));
+    f.dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope));
     int32_t ring_row = w->ring_row + (box->top - t->y0);
     if (ring_row >= w->ring)
         ring_row -= w->ring;
@@ -439,7 +441,8 @@ static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct 
         a.y1 = min_i32(a.y0 + min_i32(w->ring - ring_row, FLAT_FACE_ROWS), box->bottom);
         a.pixels = a.narrow ? (void *)(t->direct + at) : t->color + at;
         a.depth = t->depth + at;
-        f.z = code_from_units(plane_at(&s->depth, 0, a.y0), s->slope);
+        const int32_t units = plane_at(&s->depth, 0, a.y0);
+        f.z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope);
         smear_flat_face_avx2(&a, &f);
         ring_row += a.y1 - a.y0;
         if (ring_row == w->ring)
@@ -483,6 +486,12 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
 static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
 {
     const struct smear_raster_target *t = s->target;
+#if SMEAR_AVX2
+    if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
+        cover_flat_lanes(s, box);
+        return;
+    }
+#endif
     if (s->slope == SLOPE_BOTH) {
         cover_flat_break(s);
         return;
@@ -492,12 +501,6 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
     (void)box;
     cover_flat_kernel(s);
 #else
-#if SMEAR_AVX2
-    if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
-        cover_flat_lanes(s, box);
-        return;
-    }
-#endif
     if (box->left < t->x0 || box->right > t->x1)
         cover_flat_cut(s);
     else
