@@ -7,7 +7,8 @@
 #include "geometry/assemble.h"
 
 #include "geometry/assemble_avx2.h"
-#include "geometry/tiny.h"
+#include "geometry/batch_cover.h"
+#include "geometry/batch_find.h"
 
 static void forget_all(struct smear_assembler *a)
 {
@@ -28,67 +29,7 @@ void smear_assembler_reset(struct smear_assembler *a)
 /* ------------------------------------------------------------------ whole triangles */
 
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
-enum { POINTS_MAX = 2, TINY_BOX = 2 };
-
-/* A pixel that a triangle covers, and its edge functions there. */
-struct covered {
-    int32_t x, y, e1, e2;
-};
-
-/* What a triangle in a box of up to TINY_BOX pixels a side covers. */
-struct tiny_triangle {
-    int32_t area;                   /* twice the area, q16 px */
-    int count;                      /* centres covered */
-    struct covered covered[POINTS_MAX];     /* the first of them */
-};
-
-SMEAR_INLINE void cover_centre(struct tiny_triangle *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
-{
-    if ((e0 | e1 | e2) < 0)
-        return;
-    if (t->count < POINTS_MAX)
-        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
-    t->count++;
-}
-
-/* Finds which centres of the box are covered: one after the other where size counts. */
-static inline void cover(struct tiny_triangle *t, const struct box *box, const struct smear_screen *v0,
-                         const struct smear_screen *v1, const struct smear_screen *v2)
-{
-    const int32_t x = box->x0, y = box->y0;
-    const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
-    struct tiny_edges e;
-    t->area = x1 * y2 - x2 * y1;
-    t->count = 0;
-    tiny_start(&e, v0->x, v0->y, x1, y1, x2, y2, t->area, x, y);
-    if (SMEAR_SMALL_CODE) {
-        for (int32_t row = y; row < box->y1; row++) {
-            int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
-            for (int32_t column = x; column < box->x1; column++) {
-                cover_centre(t, column, row, e0, e1, e2);
-                e0 += e.right0;
-                e1 += e.right1;
-                e2 += e.right2;
-            }
-            e.e0 += e.down0;
-            e.e1 += e.down1;
-            e.e2 += e.down2;
-        }
-        return;
-    }
-    const bool wide = box->x1 - x > 1;
-    cover_centre(t, x, y, e.e0, e.e1, e.e2);
-    if (wide)
-        cover_centre(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
-    if (box->y1 - y > 1) {
-        e.e0 += e.down0;
-        e.e1 += e.down1;
-        e.e2 += e.down2;
-        cover_centre(t, x, y + 1, e.e0, e.e1, e.e2);
-        if (wide)
-            cover_centre(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
-    }
-}
+enum { POINTS_MAX = 2 };
 
 static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
 {
@@ -144,8 +85,33 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     return word;
 }
 
+#if TINY_COVER_ARMV6M
+/* Points from `first` on, whose weights are known, take their colour from vertices. */
+static SMEAR_RARE void color_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
+                                    const struct tiny_cover *t, uint32_t first)
+{
+    const struct smear_bins *g = b->a->bins;
+    const uint32_t *channels[3];
+    for (int i = 0; i < 3; i++)
+        channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + b->segment->color;
+    for (int i = 0; i < t->count; i++)
+        bins_triangle(g, first + (uint32_t)i)->color = tiny_color(channels[0], channels[1], channels[2], (uint32_t)t->covered[i].e1,
+                                                                  (uint32_t)t->covered[i].e2, shading_is_linear(&b->d->shading));
+}
+
+SMEAR_INLINE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
+                             struct tiny_cover *t)
+{
+    const bool colored = segment_colored(b->segment);
+    const uint32_t first = b->a->bins->triangle_count;
+    tiny_make_points(&b->rings, t, &v[0]->screen.depth, &v[1]->screen.depth, &v[2]->screen.depth,
+                     colored ? 0 : color_of_face(b, triangle, back));
+    if (colored)
+        color_points(b, v, triangle, back, t, first);
+}
+#else
 static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
-                                  const struct tiny_triangle *t)
+                                  const struct tiny_cover *t)
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *s = b->segment;
@@ -171,6 +137,7 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
                                                       shading_is_linear(&b->d->shading));
     }
 }
+#endif
 
 /* Finds room for a triangle and three vertices. Returns false where there is none. */
 static SMEAR_RARE bool find_room(struct batch *b)
@@ -188,21 +155,20 @@ static SMEAR_RARE bool find_room(struct batch *b)
     return true;
 }
 
-/* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach beyond the
- * part of the frame that is being filled. Returns false when there is no room. */
-static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0,
-                                     struct smear_cached_vertex *v1, struct smear_cached_vertex *v2,
-                                     uint32_t triangle, bool back, bool cut)
+/* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach, with
+ * its margin, beyond the part of the frame that is being filled. Returns false when there is no room. */
+SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, struct smear_cached_vertex *v1,
+                              struct smear_cached_vertex *v2, uint32_t triangle, bool back, bool cut)
 {
     struct box box = box_of(&v0->screen, &v1->screen, &v2->screen);
-    if (SMEAR_EDGES)
+    if (SMEAR_EDGES && (SMEAR_SMALL_CODE || cut))
         box_widen(&box, b->a);
     bool tiny = box.x1 - box.x0 <= TINY_BOX && box.y1 - box.y0 <= TINY_BOX;
-    if (cut || (SMEAR_EDGES && bins_margin(b->a->bins) != 0))
+    if (cut)
         box_cut(&box, b->a);
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
-    struct tiny_triangle t;
+    struct tiny_cover t;
     t.count = POINTS_MAX + 1;
     t.area = 0;
     if (tiny) {
@@ -237,65 +203,10 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return true;
 }
 
-/* Transforms and projects a vertex. */
-static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
-                               struct smear_cached_vertex *v, uint32_t tag)
+static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex *v0, struct smear_cached_vertex *v1,
+                                     struct smear_cached_vertex *v2, uint32_t triangle, bool back, bool cut)
 {
-#if SMEAR_FAST_STACK
-    struct smear_homogeneous passing, *now = &passing;
-#else
-    struct smear_homogeneous *now = &v->now;
-#endif
-    v->tag = tag;
-    v->stored = 0;
-    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
-}
-
-#if SMEAR_VERTEX_SETUP
-static SMEAR_RARE void batch_make_ready(struct batch *b)
-{
-    const struct smear_placement *p = &b->d->at;
-    const struct smear_depths *depths = &p->now.depths;
-    const struct smear_viewport *viewport = &b->a->viewport;
-    const struct place_setup s = { p->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
-                                   depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
-                                   viewport->width << 7, viewport->height << 7 };
-    b->ready = !depths_are_even(depths) && p->extra_count == 0;
-    if (b->ready)
-        vertex_setup_make(&b->setup, &s);
-}
-
-static SMEAR_RARE int outcode_beside(const struct smear_screen *s, const struct smear_viewport *viewport)
-{
-    return outcode_sides(s, viewport);
-}
-
-/* Finds a vertex for which the setup is not ready: makes it ready for others like it. */
-static SMEAR_RARE void find_unready(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
-{
-    struct vertex_setup *const s = &b->setup;
-    find_vertex(b->a, b->d, v, tag);
-    if (b->ready && v->now.w >= s->near_distance && v->now.w <= s->far_distance)
-        (void)vertex_setup_for(s, v->now.w);
-}
-#endif
-
-SMEAR_INLINE void find_in_batch(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
-{
-#if SMEAR_VERTEX_SETUP
-    if (!b->ready || !vertex_find(&v->screen, &v->now, b->d->at.position + 3 * (tag & 0xffffu), &b->setup)) {
-        find_unready(b, v, tag);
-        return;
-    }
-    v->tag = tag;
-    v->stored = 0;
-    const struct smear_viewport *const viewport = &b->a->viewport;
-    const bool inside = (uint32_t)v->screen.x <= (uint32_t)viewport->width << 8
-                     && (uint32_t)v->screen.y <= (uint32_t)viewport->height << 8;
-    v->outcode = inside ? 0 : outcode_beside(&v->screen, viewport);
-#else
-    find_vertex(b->a, b->d, v, tag);
-#endif
+    return add_visible(b, v0, v1, v2, triangle, back, cut);
 }
 
 #if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
@@ -334,10 +245,13 @@ static void batch_start(struct batch *b)
     const smear_mesh *mesh = d->mesh;
     const struct smear_bins *g = a->bins;
     b->shares = shares_vertices(d, s);
-    b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height;
+    b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
              && bins_margin(g) == 0;
     b->double_sided = d->material->double_sided;
+#if TINY_COVER_ARMV6M
+    b->rings = (struct points_rings){ bins_triangle(g, 0), g->opaque_last, g->row_recip, &a->bins->triangle_count, smear_recip_seed };
+#endif
     if (d->shading.lit || !d->shading.white)
         return;
     if (s->shade == SHADE_FLAT && mesh->color == NULL)
@@ -372,6 +286,68 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     return side == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
 }
 
+#if ASSEMBLE_SCANS
+SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == sizeof(struct smear_cached_vertex)
+                        && offsetof(struct scan_vertex, stored) == offsetof(struct smear_cached_vertex, stored)
+                        && offsetof(struct scan_vertex, screen) == offsetof(struct smear_cached_vertex, screen)
+                        && offsetof(struct scan_vertex, outcode) == offsetof(struct smear_cached_vertex, outcode)
+                        && offsetof(struct scan_vertex, now) == offsetof(struct smear_cached_vertex, now) && SCAN_REJECT == OUT_REJECT,
+                    "vertices of the cache are scanned");
+
+static inline struct smear_cached_vertex *scanned(struct scan_vertex *v) { return (struct smear_cached_vertex *)(void *)v; }
+
+/* Adds a triangle whose vertices may not all be in the cache at once. */
+static SMEAR_NOINLINE bool add_slow(struct batch *b, const struct triangle_scan *s, uint32_t triangle)
+{
+    struct smear_cached_vertex spare[3], *v[3];
+    const uint32_t tag[3] = { s->tag | s->index[0], s->tag | s->index[s->second / 2], s->tag | s->index[s->third / 2] };
+    for (int i = 0; i < 3; i++) {
+        v[i] = &b->a->cache[tag[i] & s->mask];
+        if (v[i]->tag != tag[i])
+            v[i] = miss(b, tag[i], i > 0 ? v[0] : NULL, i > 1 ? v[1] : NULL, &spare[i]);
+    }
+    return add_triangle(b, v[0], v[1], v[2], triangle);
+}
+
+/* Adds triangles [first, end), of which it looks only at those that may be seen. Returns false where there is no room. */
+static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
+{
+    struct smear_assembler *a = b->a;
+    const struct smear_assembly *d = b->d;
+    const uint16_t *const index = d->mesh->index;
+    struct triangle_scan s = { .second = d->mirrored ? 2 : 4, .third = d->mirrored ? 4 : 2, .tag = b->tag, .mask = a->cache_mask,
+                               .cache = (struct scan_vertex *)(void *)a->cache, .setup = &b->setup, .position = d->at.position,
+                               .vertex_count = b->ready ? d->mesh->vertex_count : 0u, .width = (uint32_t)a->viewport.width << 8,
+                               .height = (uint32_t)a->viewport.height << 8, .index = index + 3 * first, .end = index + 3 * end,
+                               .behind = b->double_sided ? INT32_MIN : 0 };
+    for (;;) {
+        bool added = true;
+        const enum scan_end at = triangle_scan(&s);
+        if (at == SCAN_DONE)
+            return true;
+        const uint32_t next = (uint32_t)(s.index - index) * 0xaaaaaaabu;        /* a third, which is whole */
+        if (at == SCAN_FRONT && !b->partial) {
+            added = add_visible(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, false);
+        } else if (at == SCAN_FRONT) {
+            added = add_whole(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, true);
+        } else if (at == SCAN_ANY) {
+            added = add_triangle(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1);
+        } else if (at == SCAN_OUTSIDE) {
+            s.v[0]->outcode = outcode_sides(&s.v[0]->screen, &a->viewport);
+        } else if (at == SCAN_UNREADY) {
+            find_unready(b, scanned(s.v[0]), s.missing);
+        } else {
+            added = add_slow(b, &s, next);
+            s.index += 3;
+        }
+        if (!added) {
+            a->resume = (struct smear_resume){ (uint32_t)(s.index - index) * 0xaaaaaaabu - 1, b->parts };
+            return false;
+        }
+    }
+}
+#endif
+
 /* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room. */
 static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
 {
@@ -386,6 +362,9 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
             find_all(b, b->tag);
 #endif
     }
+#if ASSEMBLE_SCANS
+    return assemble_scanned(b, first, end);
+#else
     const uint32_t tag = b->tag;
     struct smear_cached_vertex spare[3];
     struct smear_cached_vertex *const cache = a->cache;
@@ -410,6 +389,7 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         }
     }
     return true;
+#endif
 }
 
 /* ------------------------------------------------------------------ triangles by fours */

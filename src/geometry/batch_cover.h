@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/* batch_cover.h - which pixels a triangle covers in a box of up to TINY_BOX pixels a side (kernels/tiny_cover.h). */
+#ifndef SMEAR_BATCH_COVER_H
+#define SMEAR_BATCH_COVER_H
+
+#include "geometry/tiny.h"
+#include "geometry/vertex.h"
+#include "kernels/tiny_cover.h"
+
+#if TINY_COVER_ARMV6M
+SMEAR_INLINE void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
+                        const struct smear_screen *v2)
+{
+    tiny_cover(t, &box->x0, &v0->x, &v1->x, &v2->x);
+}
+#else
+SMEAR_INLINE void cover_centre(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
+{
+    if ((e0 | e1 | e2) < 0)
+        return;
+    if (t->count < COVERED_KEPT)
+        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
+    t->count++;
+}
+
+/* Finds which centres of the box are covered: one after the other where size counts. */
+static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
+                         const struct smear_screen *v2)
+{
+    const int32_t x = box->x0, y = box->y0;
+    const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
+    struct tiny_edges e;
+    t->area = x1 * y2 - x2 * y1;
+    t->count = 0;
+    tiny_start(&e, v0->x, v0->y, x1, y1, x2, y2, t->area, x, y);
+    if (SMEAR_SMALL_CODE) {
+        for (int32_t row = y; row < box->y1; row++) {
+            int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
+            for (int32_t column = x; column < box->x1; column++) {
+                cover_centre(t, column, row, e0, e1, e2);
+                e0 += e.right0;
+                e1 += e.right1;
+                e2 += e.right2;
+            }
+            e.e0 += e.down0;
+            e.e1 += e.down1;
+            e.e2 += e.down2;
+        }
+        return;
+    }
+    const bool wide = box->x1 - x > 1;
+    cover_centre(t, x, y, e.e0, e.e1, e.e2);
+    if (wide)
+        cover_centre(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+    if (box->y1 - y > 1) {
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
+        cover_centre(t, x, y + 1, e.e0, e.e1, e.e2);
+        if (wide)
+            cover_centre(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+    }
+}
+#endif
+
+#endif

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: MIT */
+/* triangle_scan.h - goes over a mesh's triangles, whose vertices lie in a cache, to the next one that may be seen. */
+#ifndef SMEAR_KERNELS_TRIANGLE_SCAN_H
+#define SMEAR_KERNELS_TRIANGLE_SCAN_H
+
+#include "kernels/vertices.h"
+
+/* A vertex of the cache. */
+struct scan_vertex {
+    uint32_t tag;                   /* a draw's number << 16 | vertex index; 0: none */
+    uint32_t stored;                /* the caller's, 0 where the vertex is new */
+    struct smear_screen screen;
+    int32_t outcode;                /* 0: within the frame */
+    struct smear_homogeneous now;
+};
+
+/* Bits of outcodes: a triangle whose vertices share one is not seen. */
+enum { SCAN_REJECT = 63 };
+
+/* Where a scan stopped. */
+enum scan_end {
+    SCAN_DONE,              /* at the end */
+    SCAN_FRONT,             /* after a triangle v[0], v[2], v[1] that is clockwise on the screen, within the frame */
+    SCAN_ANY,               /* after another one that may be seen */
+    SCAN_OUTSIDE,           /* before a triangle: v[0] has been found and lies beside the frame; the caller gives it an outcode */
+    SCAN_UNREADY,           /* before a triangle: the setup is not ready for v[0], whose tag is `missing` */
+    SCAN_SLOW               /* before a triangle whose vertices have one place in the cache, or an index too many */
+};
+
+struct triangle_scan {
+    int32_t second, third;          /* bytes from a triangle's first index to those that follow it clockwise */
+    uint32_t tag, mask;             /* vertex i is entry (tag | i) & mask of the cache */
+    struct scan_vertex *cache;
+    const struct vertex_setup *setup;
+    const int16_t *position;        /* of vertices, three each */
+    uint32_t vertex_count;          /* 0: all that the cache lacks is SCAN_SLOW */
+    uint32_t width, height;         /* of the frame, q8 px; positive as int32_t */
+    const uint16_t *index, *end;    /* three each; the scan moves `index` */
+    int32_t behind;                 /* INT32_MIN: triangles that face away are SCAN_ANY, too. Else 0 */
+    struct scan_vertex *v[3];       /* of a triangle: its first, third and second */
+    uint32_t missing;
+};
+
+/* Finds a vertex that the cache lacks. */
+static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_vertex *v, uint32_t tag)
+{
+    const uint32_t i = tag & 0xffffu;
+    if (i >= s->vertex_count)
+        return SCAN_SLOW;
+    s->v[0] = v;
+    s->missing = tag;
+    v->tag = 0;
+    if (!vertex_find_reference(&v->screen, &v->now, s->position + 3 * i, s->setup))
+        return SCAN_UNREADY;
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = 0;
+    return (uint32_t)v->screen.x > s->width || (uint32_t)v->screen.y > s->height ? SCAN_OUTSIDE : SCAN_DONE;
+}
+
+/* Takes one triangle, with vertices that are there. SCAN_DONE: it is not seen. */
+static inline enum scan_end scan_one(const struct triangle_scan *s)
+{
+    const struct scan_vertex *v0 = s->v[0], *v1 = s->v[2], *v2 = s->v[1];
+    if ((v0->outcode | v1->outcode | v2->outcode) != 0)
+        return (v0->outcode & v1->outcode & v2->outcode & SCAN_REJECT) != 0 ? SCAN_DONE : SCAN_ANY;
+    const int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
+    const int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
+    const uint32_t small = 1 << 15;
+    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) >= 2 * small)
+        return SCAN_ANY;            /* products need more than 32 bits */
+    const int32_t area = x1 * y2 - x2 * y1;
+    return area > 0 ? SCAN_FRONT : (area & s->behind) != 0 ? SCAN_ANY : SCAN_DONE;
+}
+
+/* Goes on to the next triangle that the caller has to do something about. */
+static inline enum scan_end triangle_scan_reference(struct triangle_scan *s)
+{
+    for (; s->index != s->end; s->index += 3) {
+        const uint32_t tag[3] = { s->tag | s->index[0], s->tag | s->index[s->second / 2], s->tag | s->index[s->third / 2] };
+        struct scan_vertex *v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = s->cache + (tag[i] & s->mask);
+        for (int i = 0; i < 3; i++) {
+            if (v[i]->tag == tag[i])
+                continue;
+            const bool in_use = (i > 0 && v[i] == v[0]) || (i > 1 && v[i] == v[1]);
+            const enum scan_end found = in_use ? SCAN_SLOW : scan_find(s, v[i], tag[i]);
+            if (found != SCAN_DONE)
+                return found;
+        }
+        s->v[0] = v[0];
+        s->v[1] = v[2];
+        s->v[2] = v[1];
+        const enum scan_end end = scan_one(s);
+        if (end != SCAN_DONE) {
+            s->index += 3;
+            return end;
+        }
+    }
+    return SCAN_DONE;
+}
+
+#if SMEAR_ASM_ARMV6M
+SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
+                        && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
+                        && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
+                        && offsetof(struct triangle_scan, position) == 24 && offsetof(struct triangle_scan, vertex_count) == 28
+                        && offsetof(struct triangle_scan, width) == 32 && offsetof(struct triangle_scan, index) == 40
+                        && offsetof(struct triangle_scan, end) == 44 && offsetof(struct triangle_scan, behind) == 48
+                        && offsetof(struct triangle_scan, v) == 52 && offsetof(struct triangle_scan, missing) == 64,
+                    "the assembly knows struct triangle_scan");
+
+/* What does not change: the end into r8, 2^15 into r9, `behind` into r12, from the scan in r0. */
+#define TRIANGLE_SCAN_LOAD  \
+    "ldr r1, [r0, #44]\n\t" \
+    "mov r8, r1\n\t"        \
+    "movs r1, #1\n\t"       \
+    "lsls r1, r1, #15\n\t"  \
+    "mov r9, r1\n\t"        \
+    "ldr r1, [r0, #48]\n\t" \
+    "mov r12, r1\n\t"
+
+/* Tags of the triangle whose first index r0 points to into r1, r2 and r3, its entries into r4, r7 and r5. */
+#define TRIANGLE_SCAN_ENTRIES \
+    "ldrh r1, [r0]\n\t"       \
+    "mov r7, r11\n\t"         \
+    "ldm r7!, {r3, r4}\n\t"   \
+    "ldrh r2, [r0, r3]\n\t"   \
+    "ldrh r3, [r0, r4]\n\t"   \
+    "ldm r7!, {r4, r5, r6}\n\t" \
+    "orrs r1, r4\n\t"         \
+    "orrs r2, r4\n\t"         \
+    "orrs r3, r4\n\t"         \
+    "movs r0, #40\n\t"        \
+    "movs r4, r1\n\t"         \
+    "ands r4, r5\n\t"         \
+    "muls r4, r0\n\t"         \
+    "adds r4, r4, r6\n\t"     \
+    "movs r7, r2\n\t"         \
+    "ands r7, r5\n\t"         \
+    "muls r7, r0\n\t"         \
+    "adds r7, r7, r6\n\t"     \
+    "ands r5, r3\n\t"         \
+    "muls r5, r0\n\t"         \
+    "adds r5, r5, r6\n\t"
+
+/* Twice the area of a triangle within the frame into r1; on to 24 where it needs more than 32 bits. */
+#define TRIANGLE_SCAN_AREA  \
+    "ldr r0, [r4, #8]\n\t"  \
+    "ldr r1, [r7, #8]\n\t"  \
+    "ldr r2, [r5, #8]\n\t"  \
+    "subs r1, r1, r0\n\t"   \
+    "subs r2, r2, r0\n\t"   \
+    "ldr r0, [r4, #12]\n\t" \
+    "ldr r3, [r7, #12]\n\t" \
+    "ldr r6, [r5, #12]\n\t" \
+    "subs r3, r3, r0\n\t"   \
+    "subs r6, r6, r0\n\t"   \
+    "mov lr, r5\n\t"        \
+    "mov r0, r9\n\t"        \
+    "adds r0, r0, r1\n\t"   \
+    "mov r5, r9\n\t"        \
+    "adds r5, r5, r2\n\t"   \
+    "orrs r0, r5\n\t"       \
+    "mov r5, r9\n\t"        \
+    "adds r5, r5, r3\n\t"   \
+    "orrs r0, r5\n\t"       \
+    "mov r5, r9\n\t"        \
+    "adds r5, r5, r6\n\t"   \
+    "orrs r0, r5\n\t"       \
+    "mov r5, lr\n\t"        \
+    "lsrs r0, r0, #16\n\t"  \
+    "bne 24f\n\t"           \
+    "muls r1, r6\n\t"       \
+    "muls r2, r3\n\t"       \
+    "subs r1, r1, r2\n\t"
+
+/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 12. All low registers are kept. */
+#define TRIANGLE_SCAN_FIND                                     \
+    "16: push {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"            \
+    "mov r1, r11\n\t"                                          \
+    "ldr r2, [r1, #28]\n\t"                                    \
+    "uxth r0, r0\n\t"                                          \
+    "cmp r0, r2\n\t"                                           \
+    "bhs 26b\n\t"                                              \
+    "movs r4, #0\n\t"                                          \
+    "str r4, [r6]\n\t"                                         \
+    "ldr r2, [r1, #24]\n\t"                                    \
+    "lsls r3, r0, #1\n\t"                                      \
+    "adds r0, r0, r3\n\t"                                      \
+    "lsls r0, r0, #1\n\t"                                      \
+    "adds r0, r0, r2\n\t"                                      \
+    "ldr r1, [r1, #20]\n\t"                                    \
+    "movs r2, r6\n\t"                                          \
+    "adds r2, #8\n\t"                                          \
+    "movs r3, r6\n\t"                                          \
+    "adds r3, #24\n\t" ARMV6M_VERTEX                           \
+    "4: mov r4, r8\n\t"                                        \
+    "mov r5, r9\n\t"                                           \
+    "mov r7, r12\n\t"                                          \
+    "stm r7!, {r4, r5, r6}\n\t"                                \
+    "movs r2, #0\n\t"                                          \
+    "str r2, [r7]\n\t"                                         \
+    "subs r7, #20\n\t"                                         \
+    "ldr r1, [sp]\n\t"                                         \
+    "stm r7!, {r1, r2}\n\t"                                    \
+    "mov r0, r11\n\t"                                          \
+    "ldr r1, [r0, #32]\n\t"                                    \
+    "cmp r4, r1\n\t"                                           \
+    "bhi 27f\n\t"                                              \
+    "ldr r1, [r0, #36]\n\t"                                    \
+    "cmp r5, r1\n\t"                                           \
+    "bhi 27f\n\t" TRIANGLE_SCAN_LOAD                           \
+    "pop {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"                 \
+    "b 12b\n"
+
+/* What becomes of triangles that are not wholly within the frame; 24, 21: those that may be seen. */
+#define TRIANGLE_SCAN_SEEN \
+    "17: ands r0, r1\n\t" \
+    "ands r0, r2\n\t" \
+    "movs r1, #63\n\t" \
+    "tst r0, r1\n\t" \
+    "bne 18b\n" \
+    "24: movs r0, #2\n\t" \
+    "b 22f\n" \
+    "21: movs r0, #1\n" \
+    "22: mov r1, r11\n\t" \
+    "adds r1, #52\n\t" \
+    "stm r1!, {r4, r5, r7}\n\t" \
+    "mov r1, r10\n\t" \
+    "adds r1, #6\n\t" \
+    "mov r10, r1\n\t" \
+    "b 29f\n"
+
+/* Other reasons to stop. From 29 on it ends. */
+#define TRIANGLE_SCAN_STOP \
+    "26: add sp, #32\n" \
+    "25: movs r0, #5\n\t" \
+    "b 29f\n" TRIANGLE_SCAN_FIND \
+    "1: movs r0, #4\n\t" \
+    "b 28f\n" \
+    "27: movs r0, #3\n" \
+    "28: mov r1, r11\n\t" \
+    "ldr r2, [sp]\n\t" \
+    "ldr r3, [sp, #24]\n\t" \
+    "str r2, [r1, #64]\n\t" \
+    "str r3, [r1, #52]\n\t" \
+    "add sp, #32\n" \
+    "29: mov r1, r11\n\t" \
+    "mov r2, r10\n\t" \
+    "str r2, [r1, #40]"
+
+/* Tells which vertex is missing, unless its entry is in use. */
+#define TRIANGLE_SCAN_MISSING \
+    "13: movs r0, r1\n\t" \
+    "movs r6, r4\n\t" \
+    "b 16f\n" \
+    "14: cmp r7, r4\n\t" \
+    "beq 25f\n\t" \
+    "movs r0, r2\n\t" \
+    "movs r6, r7\n\t" \
+    "b 16f\n" \
+    "15: cmp r5, r4\n\t" \
+    "beq 25f\n\t" \
+    "cmp r5, r7\n\t" \
+    "beq 25f\n\t" \
+    "movs r0, r3\n\t" \
+    "movs r6, r5\n\t" \
+    "b 16f\n"
+
+/* The next index in r10, the scan in r11, what TRIANGLE_SCAN_LOAD loads in r8, r9 and r12. Two thirds of the instructions that
+ * compilers take for a triangle that faces away. */
+static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
+{
+    register struct triangle_scan *r0 __asm__("r0") = s;
+    __asm__ volatile(".syntax unified\n\t"
+                     "mov r11, r0\n\t" TRIANGLE_SCAN_LOAD
+                     "ldr r0, [r0, #40]\n\t"
+                     "b 19f\n"
+                     "11: " TRIANGLE_SCAN_ENTRIES
+                     "12: ldr r6, [r4]\n\t"
+                     "cmp r6, r1\n\t"
+                     "bne 13f\n\t"
+                     "ldr r6, [r7]\n\t"
+                     "cmp r6, r2\n\t"
+                     "bne 14f\n\t"
+                     "ldr r6, [r5]\n\t"
+                     "cmp r6, r3\n\t"
+                     "bne 15f\n\t"
+                     "ldr r0, [r4, #20]\n\t"
+                     "ldr r1, [r7, #20]\n\t"
+                     "ldr r2, [r5, #20]\n\t"
+                     "movs r3, r0\n\t"
+                     "orrs r3, r1\n\t"
+                     "orrs r3, r2\n\t"
+                     "bne 17f\n\t" TRIANGLE_SCAN_AREA
+                     "bgt 21f\n\t"
+                     "mov r0, r12\n\t"
+                     "tst r0, r1\n\t"
+                     "bne 24f\n"
+                     "18: mov r0, r10\n\t"
+                     "adds r0, #6\n"
+                     "19: mov r10, r0\n\t"
+                     "cmp r0, r8\n\t"
+                     "bne 11b\n\t"
+                     "movs r0, #0\n\t"
+                     "b 29f\n" TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
+                     : "+r"(r0)
+                     :
+                     : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    return (enum scan_end)(uintptr_t)r0;
+}
+#endif
+
+static inline enum scan_end triangle_scan(struct triangle_scan *s)
+{
+#if SMEAR_ASM_ARMV6M
+    return triangle_scan_armv6m(s);
+#else
+    return triangle_scan_reference(s);
+#endif
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* triangle_scan.c - how check_kernels calls kernels/triangle_scan.h: triangles of a small mesh, some of whose vertices lie in the
+ * cache, scanned to the end. */
+#include "kernels/triangle_scan.h"
+
+#include "tests/kernels/kernels.h"
+
+enum { VERTICES = 24, ENTRIES = 16, TAG = 7 << 16 };
+enum { LOOK, CENTRE, STOPS };      /* words */
+
+/* Indices of vertices, a few of which the mesh does not have. */
+static void prepare(struct kernel_call *c)
+{
+    uint16_t *index = c->plane[0];
+    for (int32_t i = 0; i < 3 * c->n; i++)
+        index[i] = (uint16_t)(kernel_between(0, 63) == 0 ? kernel_between(0, 65535) : kernel_between(0, VERTICES - 1));
+    int16_t *position = c->plane[1];
+    for (int32_t i = 0; i < 3 * c->n; i++)
+        position[i] = (int16_t)kernel_between(-2000, 2000);
+}
+
+static void setup_make(struct vertex_setup *v, const struct kernel_call *c)
+{
+    const int32_t steps = (c->word[LOOK] >> 8 & 1u) != 0 ? 1 << 18 : 1 << 15;
+    const int32_t m[3][4] = { { steps, 1 << 12, 0, (int32_t)(c->word[CENTRE] >> 5 & 0xffffffu) },
+                              { 1 << 12, steps, 0, (int32_t)(c->word[CENTRE] >> 8 & 0xffffffu) },
+                              { 0, 0, 1 << 12, 1 << 22 } };
+    const struct place_setup s = { m, 1 << 20, 1 << 23, 0x2aaaaaaa, -4, 4096, 0x43ff8000, 160 << 7, 120 << 7 };
+    vertex_setup_make(v, &s);
+    (void)vertex_setup_for(v, 1 << 22);
+}
+
+/* What is found in a cache goes into the call's words, as a sum. */
+static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle_scan *s))
+{
+    struct scan_vertex cache[ENTRIES] = { { .tag = 0 } };
+    struct vertex_setup setup;
+    const int second = (c->word[LOOK] & 1u) != 0 ? 2 : 4;
+    const uint16_t *const index = c->plane[0];
+    uint32_t sum = 0;
+    setup_make(&setup, c);
+    struct triangle_scan s = { .second = second, .third = 6 - second, .tag = TAG, .mask = ENTRIES - 1, .cache = cache, .setup = &setup,
+                               .position = c->plane[1], .vertex_count = (uint32_t)min_i32(c->n, VERTICES), .width = 160 << 8,
+                               .height = 120 << 8, .index = index, .end = index + 3 * c->n,
+                               .behind = (c->word[LOOK] & 2u) != 0 ? INT32_MIN : 0 };
+    for (enum scan_end at = form(&s); at != SCAN_DONE; at = form(&s)) {
+        sum = sum * 31u + (uint32_t)at + (uint32_t)(s.index - index) * 8u;
+        if (at == SCAN_FRONT || at == SCAN_ANY)
+            sum = sum * 31u + (uint32_t)((s.v[0] - cache) + 16 * (s.v[1] - cache) + 256 * (s.v[2] - cache));
+        if (at == SCAN_OUTSIDE)
+            s.v[0]->outcode = s.v[0]->screen.x < 0 ? 1 : s.v[0]->screen.y < 0 ? 4 : 8;
+        if (at == SCAN_UNREADY)
+            *s.v[0] = (struct scan_vertex){ .tag = s.missing, .outcode = 16 };
+        if (at == SCAN_SLOW)
+            s.index += 3;
+    }
+    for (int i = 0; i < ENTRIES; i++)
+        sum = (sum * 31u + cache[i].tag) * 31u + (uint32_t)(cache[i].screen.x ^ cache[i].screen.y ^ cache[i].screen.depth ^ cache[i].now.w);
+    c->word[STOPS] = sum;
+}
+
+static enum scan_end scan_best(struct triangle_scan *s) { return triangle_scan(s); }
+static enum scan_end scan_slow(struct triangle_scan *s) { return triangle_scan_reference(s); }
+static void reference(struct kernel_call *c) { scan_by(c, scan_slow); }
+static void best(struct kernel_call *c) { scan_by(c, scan_best); }
+
+extern const struct kernel kernels_triangle_scan[];
+const struct kernel kernels_triangle_scan[] = {
+    { .name = "triangle_scan", .most = 40, .size = { 6, 6 }, .align = { 2, 2 }, .prepare = prepare, .timed = 40,
+      .form = { { "reference", reference }, { "best", best } } },
+    { .name = NULL }
+};
