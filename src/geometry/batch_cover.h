@@ -14,15 +14,6 @@ SMEAR_INLINE void cover(struct tiny_cover *t, const struct box *box, const struc
     tiny_cover(t, &box->x0, &v0->x, &v1->x, &v2->x);
 }
 #else
-SMEAR_INLINE void cover_centre(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
-{
-    if ((e0 | e1 | e2) < 0)
-        return;
-    if (t->count < COVERED_KEPT)
-        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
-    t->count++;
-}
-
 /* Finds which centres of the box are covered: one after the other where size counts. */
 static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
                          const struct smear_screen *v2)
@@ -37,7 +28,7 @@ static inline void cover(struct tiny_cover *t, const struct box *box, const stru
         for (int32_t row = y; row < box->y1; row++) {
             int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
             for (int32_t column = x; column < box->x1; column++) {
-                cover_centre(t, column, row, e0, e1, e2);
+                tiny_cover_keep(t, column, row, e0, e1, e2);
                 e0 += e.right0;
                 e1 += e.right1;
                 e2 += e.right2;
@@ -49,16 +40,16 @@ static inline void cover(struct tiny_cover *t, const struct box *box, const stru
         return;
     }
     const bool wide = box->x1 - x > 1;
-    cover_centre(t, x, y, e.e0, e.e1, e.e2);
+    tiny_cover_keep(t, x, y, e.e0, e.e1, e.e2);
     if (wide)
-        cover_centre(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+        tiny_cover_keep(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
     if (box->y1 - y > 1) {
         e.e0 += e.down0;
         e.e1 += e.down1;
         e.e2 += e.down2;
-        cover_centre(t, x, y + 1, e.e0, e.e1, e.e2);
+        tiny_cover_keep(t, x, y + 1, e.e0, e.e1, e.e2);
         if (wide)
-            cover_centre(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+            tiny_cover_keep(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
     }
 }
 #endif

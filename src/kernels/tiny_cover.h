@@ -24,7 +24,8 @@ struct tiny_cover {
 /* 0 for edges that go up (left ones) or right (top ones), whose centres count, else -1. */
 static inline int32_t tiny_cover_bias(int32_t dx, int32_t dy) { return (dx - dy * 65536 - 1) >> 31; }
 
-static inline void tiny_cover_keep(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
+/* Counts a pixel of which no edge function is negative, and keeps it while there is room. */
+SMEAR_INLINE void tiny_cover_keep(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
 {
     if ((e0 | e1 | e2) < 0)
         return;
