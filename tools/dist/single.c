@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 300, NAMES_MAX = 8000, NAME_BYTES = 80 };
+enum { FILES_MAX = 1000, NAMES_MAX = 8000, NAME_BYTES = 80 };
 
 struct file {
     const char *path;
@@ -376,7 +376,7 @@ static void write_head(FILE *out, bool is_source)
 int main(int argc, char **argv)
 {
     if (argc < 4 || argc - 3 > FILES_MAX) {
-        fputs("usage: single HEADER|SOURCE OUT FILE...\n", stderr);
+        fprintf(stderr, "usage: single HEADER|SOURCE OUT FILE..., at most %d of them\n", FILES_MAX);
         return 2;
     }
     bool is_source = strcmp(argv[1], "SOURCE") == 0;
