@@ -83,7 +83,7 @@ $(BUILD)/overlay_cost$(EXE): $(PROGRAM_OBJ) $(BUILD)/tests/target/overlay_cost.o
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
 ## golden frames with each switch of smear_config.h off
-switches-test: $(TAPES)/golden.c
+switches-test: dist $(TAPES)/golden.c
 	sh tests/shell/target_switches.sh build/switches
 
 # ---------------------------------------------------------------------- template

@@ -3,57 +3,79 @@
 # target_switches.sh BUILD-FOLDER
 # Every switch of smear_config.h off alone, sets of them, and everything off but one method and one
 # format: compiles without a warning, draws the golden frames it can to the bit, refuses the others.
-# Needs build/tapes/golden.c.
+# Needs build/tapes/golden.c and what `make dist` writes.
 set -u
 . "$(dirname "$0")/lib.sh"
 base=$1
 mkdir -p "$base"
 flags="-std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc -I."
-programs="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c build/tapes/golden.c"
+players="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c"
+programs="$players build/tapes/golden.c"
 
-# Nothing is inlined by force, which halves what there is to compile, and what GCC knows of vectors, most of the text of half the
-# sources, is read once for all. (What is not inlined may look uninitialized.)
-quick="-DSMEAR_INLINE_FORCED=0 -Wno-maybe-uninitialized"
-if [ "$(uname -m)" = x86_64 ] && ${CC:-cc} --version | grep -q GCC; then
+# What GCC knows of vectors, most of the text of half the sources, is read once for all.
+vectors=
+if [ "$(uname -m)" = x86_64 ]; then
     echo '#include <immintrin.h>' >"$base/vectors.h"
     # shellcheck disable=SC2086
     ${CC:-cc} $flags -x c-header -o "$base/vectors.h.gch" "$base/vectors.h" || exit 1
-    quick="$quick -include $base/vectors.h"
+    vectors="-include $base/vectors.h"
 fi
 
-draws() { # NAME FLAGS...
+# shellcheck disable=SC2086
+${CC:-cc} $flags -c -o "$base/tapes.o" build/tapes/golden.c || exit 1
+
+# draws_alone NAME FLAGS...: for one switch nearly every source is another one, as it changes what structures hold. So all are only
+# read, with every warning of the language, and the pictures are those of the one-file form, by the compiler that is done soonest.
+# That one also tells of functions that nobody calls.
+quick=${CC:-cc}
+! command -v clang-14 >/dev/null 2>&1 || quick=clang-14
+draws_alone() {
     name=$1
     shift
-    rm -f "$base/$name.txt"
-    # shellcheck disable=SC2046,SC2086
-    sh tests/shell/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags $quick "$@" -- src/*.c src/*/*.c $programs &&
-        ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") && "$base/$name" >"$base/$name.txt" && return 0
-    [ ! -e "$base/$name.txt" ] || grep -E 'WRONG|NOT|ERROR|golden frames' "$base/$name.txt"
+    # shellcheck disable=SC2086
+    printf '%s\n' src/*.c src/*/*.c $players | xargs -P 2 -n 32 ${CC:-cc} $flags $vectors "$@" -fsyntax-only &&
+        $quick -std=c11 -O0 -Wall -Wextra -Werror "$@" -c -o "$base/$name.o" build/dist/single/smear.c &&
+        ${CC:-cc} $flags "$@" -o "$base/$name" $players "$base/tapes.o" "$base/$name.o" && plays "$name"
+}
+
+# plays NAME
+plays() {
+    "$base/$1" >"$base/$1.txt" && return 0
+    grep -E 'WRONG|NOT|ERROR|golden frames' "$base/$1.txt"
     return 1
 }
-# try NAME FLAGS...
+
+# draws NAME FLAGS...: sets, which are what people have, are built as these do
+draws() {
+    name=$1
+    shift
+    # shellcheck disable=SC2046,SC2086
+    sh tests/shell/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags $vectors "$@" -- src/*.c src/*/*.c $programs &&
+        ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") && plays "$name"
+}
+
+# try COMMAND NAME FLAGS...
 try() {
-    claim "$1" draws "$@"
-    [ ! -e "$base/$1.txt" ] || printf '%-24s %s\n' "$1" "$(tail -n 1 "$base/$1.txt")"
+    rm -f "$base/$2.txt"
+    claim "$2" "$@"
+    [ ! -e "$base/$2.txt" ] || printf '%-24s %s\n' "$2" "$(tail -n 1 "$base/$2.txt")"
 }
 
 for switch in $(switches); do
     # shellcheck disable=SC2046
-    try "$switch" $(without "$switch")
+    try draws_alone "$switch" $(without "$switch")
 done
 rgb565="-DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -DSMEAR_WITH_DITHER=1 -DSMEAR_WITH_TEXTURE=1"
 rgb565="$rgb565 -DSMEAR_WITH_LINEAR=1 -DSMEAR_WITH_GOURAUD=1 -DSMEAR_WITH_ALPHA=1"
-# Sets, which are what people have, are built as these do.
-quick=
 # shellcheck disable=SC2086
 {
-    try everything
-    try fast-stack -DSMEAR_FAST_STACK=1
-    try core $(sh tests/shell/core_switches.sh)
-    try sharp $rgb565
-    try accumulate -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_ACCUMULATE=1 -DSMEAR_WITH_RGB=1 -DSMEAR_WITH_DITHER=1 -DSMEAR_WITH_LINEAR=1 \
+    try draws everything
+    try draws fast-stack -DSMEAR_FAST_STACK=1
+    try draws core $(sh tests/shell/core_switches.sh)
+    try draws sharp $rgb565
+    try draws accumulate -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_ACCUMULATE=1 -DSMEAR_WITH_RGB=1 -DSMEAR_WITH_DITHER=1 -DSMEAR_WITH_LINEAR=1 \
         -DSMEAR_WITH_CURVES=1
-    try reconstruct $rgb565 -DSMEAR_WITH_RECONSTRUCT=1
-    try auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1
+    try draws reconstruct $rgb565 -DSMEAR_WITH_RECONSTRUCT=1
+    try draws auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1
 }
 finish
