@@ -19,7 +19,7 @@ CFLAGS  += $(CORE) -ffreestanding -ffunction-sections -fdata-sections
 LDFLAGS += $(CORE) -nostdlib -Wl,--gc-sections -Lplatform/cortexm
 LDLIBS  += -lgcc
 
-PLATFORM_SRC := platform/cortexm/startup.c platform/cortexm/platform.c \
+PLATFORM_SRC := $(addprefix platform/cortexm/,startup.c platform.c arithmetic.c) \
                 $(addprefix platform/common/,arena.c arguments.c memory.c semihost.c)
 
 # Of the linker script.
