@@ -175,17 +175,14 @@ SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log
 #endif
 
 #if SMEAR_ASM_ARMV6M
-/* Copied texels need sizes that are constants; others are drawn by the compiler's code. */
 SMEAR_INLINE void texels_draw_armv6m(struct texel_run *run, int32_t n, int log2_width, int log2_height,
                                      enum texel_kind kind)
 {
-    if (!texels_are_lit(kind) && !__builtin_constant_p(log2_width)) {
-        texels_draw_unrolled(run, n, log2_width, log2_height, kind);
-        return;
-    }
     run->count = n;
     if (texels_are_lit(kind))
         texels_light_armv6m(run, kind);
+    else if (!__builtin_constant_p(log2_width))
+        texels_copy_any_armv6m(run, log2_width, log2_height, kind);
     else
         texels_copy_armv6m(run, log2_width, log2_height, kind);
 }

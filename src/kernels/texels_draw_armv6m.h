@@ -159,6 +159,79 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
     }
 }
 
+/* As ARMV6M_PIXEL, of any size. On the stack from sp + 4 on lie how far v goes down to a texel's row, the mask of that, how far u
+ * goes down, and a pointer to texels. */
+#define ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
+        "lsrs r6, r2, #16\n\t" \
+        "ldrh r7, [r1, #2*(" I ")]\n\t" \
+        "add r2, r8\n\t" \
+        "cmp r7, r6\n\t" \
+        "bhs " LABEL "f\n\t" \
+        "strh r6, [r1, #2*(" I ")]\n\t" \
+        "ldr r7, [sp, #12]\n\t" \
+        "movs r6, r3\n\t" \
+        "lsrs r6, r7\n\t" \
+        "lsls r6, r6, #" SIZE "\n\t" \
+        "ldr r7, [sp, #4]\n\t" \
+        "movs r5, r4\n\t" \
+        "lsrs r5, r7\n\t" \
+        "ldr r7, [sp, #8]\n\t" \
+        "ands r5, r7\n\t" \
+        "orrs r6, r5\n\t" \
+        "ldr r7, [sp, #16]\n\t" \
+        LOAD " r6, [r7, r6]\n\t" \
+        STORE " r6, [r0, #(" I ")<<" SIZE "]\n" \
+        LABEL ": "
+
+/* As ARMV6M_COPY, by fours. */
+#define ARMV6M_COPY_ANY(LOAD, STORE, SIZE, BEND) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "ldr r4, [r0, #44]\n\t" \
+        "push {r1, r2, r3, r4}\n\t" \
+        ARMV6M_LOAD_STEPS \
+        "ldm r0, {r0, r1, r2, r3, r4}\n\t" \
+        "lsls r7, r6, #1\n\t" \
+        "add r7, r1\n\t" \
+        "mov lr, r7\n\t" \
+        ARMV6M_ENTER(SIZE) \
+        "31:\n\t" \
+        ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, "0", "2") ARMV6M_STEP BEND \
+        "32: " ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, "1", "3") ARMV6M_STEP BEND \
+        "33: " ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, "2", "4") ARMV6M_STEP BEND \
+        "34: " ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, "3", "5") ARMV6M_STEP BEND \
+        "adds r0, #4<<" SIZE "\n\t" \
+        "adds r1, #8\n\t" \
+        "cmp r1, lr\n\t" \
+        "bne 31b\n\t" \
+        ARMV6M_STORE_RUN "\n\t" \
+        "add sp, #16" \
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3) \
+        : \
+        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+/* Copied texels of any size: 22 1/2 instructions a pixel, 24 1/2 where the changes of coordinates change. */
+SMEAR_INLINE void texels_copy_any_armv6m(struct texel_run *p, int log2_width, int log2_height, enum texel_kind kind)
+{
+    const bool bends = (p->ddu | p->ddv) != 0;
+    const int to_v = log2_width + (kind == TEXELS_NARROW ? 1 : 2);
+    register struct texel_run *r0 __asm__("r0") = p;
+    register int32_t r1 __asm__("r1") = 32 - log2_height - to_v;
+    register int32_t r2 __asm__("r2") = ((1 << log2_height) - 1) << to_v;
+    register int32_t r3 __asm__("r3") = 32 - log2_width;
+    if (kind == TEXELS_NARROW) {
+        if (bends)
+            ARMV6M_COPY_ANY("ldrh", "strh", "1", ARMV6M_BEND);
+        else
+            ARMV6M_COPY_ANY("ldrh", "strh", "1", "");
+    } else {
+        if (bends)
+            ARMV6M_COPY_ANY("ldr", "str", "2", ARMV6M_BEND);
+        else
+            ARMV6M_COPY_ANY("ldr", "str", "2", "");
+    }
+}
+
 /* As ARMV6M_PIXEL, for lit texels of any size. u in r3 and v in r4 count from the cell of the last pixel drawn, which is in lr;
  * r5 is the cell's size. Beyond it the code at 8 makes another, whose texel is found. */
 #define ARMV6M_LIT_PIXEL(STORE, AT, PLACE, LABEL, KNOWN) \

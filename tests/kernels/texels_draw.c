@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
- * lit ones, whose sizes it doesn't know. */
+ * those it doesn't, as of lit ones. */
 #include "kernels/texels_draw.h"
 
 #include "tests/kernels/kernels.h"
@@ -93,6 +93,14 @@ static int unknown(int value)
     { \
         call(c, TEXELS_NARROW, LOG2_WIDTH, LOG2_HEIGHT, texels_draw_##FORM); \
     } \
+    static void wide_any_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_WIDE, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
+    } \
+    static void narrow_any_##FORM(struct kernel_call *c) \
+    { \
+        call(c, TEXELS_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
+    } \
     static void lit_##FORM(struct kernel_call *c) \
     { \
         call(c, TEXELS_LIT, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
@@ -133,6 +141,8 @@ extern const struct kernel kernels_texels_draw[];
 const struct kernel kernels_texels_draw[] = {
     KERNEL("texels_draw", wide, 4),
     KERNEL("texels_draw (narrow)", narrow, 2),
+    KERNEL("texels_draw (any size)", wide_any, 4),
+    KERNEL("texels_draw (any size, narrow)", narrow_any, 2),
     KERNEL("texels_draw (lit)", lit, 4),
     KERNEL("texels_draw (lit, narrow)", lit_narrow, 2),
     { .name = NULL }
