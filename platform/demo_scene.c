@@ -46,6 +46,27 @@ static int32_t cosine(int32_t angle)
     return sine(angle + 0x4000);
 }
 
+/* Sine and cosine of an angle: what is turned by it needs both. */
+struct angle {
+    int32_t sine, cosine;
+};
+
+static struct angle angle_of(int32_t angle)
+{
+    return (struct angle){ sine(angle), cosine(angle) };
+}
+
+static struct angle opposite(struct angle a)
+{
+    return (struct angle){ -a.sine, a.cosine };
+}
+
+/* A quarter of a turn farther. */
+static struct angle quarter_after(struct angle a)
+{
+    return (struct angle){ a.cosine, -a.sine };
+}
+
 /* a x b, b in q24. */
 static int32_t scaled(int32_t a, int32_t b)
 {
@@ -72,14 +93,13 @@ static void move(smear_transform *pose, int32_t x, int32_t y, int32_t z)
 }
 
 /* Turns the pose about its own axis x, y or z (0, 1, 2), counter-clockwise seen from its tip. */
-static void turn(smear_transform *pose, int axis, int32_t angle)
+static void turn(smear_transform *pose, int axis, struct angle by)
 {
-    int32_t s = sine(angle), c = cosine(angle);
-    int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    const int first = axis == 2 ? 0 : axis + 1, second = axis == 0 ? 2 : axis - 1;
     for (int row = 0; row < 3; row++) {
         int32_t *basis = pose->basis + 3 * row, u = basis[first], v = basis[second];
-        basis[first] = scaled(u, c) + scaled(v, s);
-        basis[second] = scaled(v, c) - scaled(u, s);
+        basis[first] = scaled(u, by.cosine) + scaled(v, by.sine);
+        basis[second] = scaled(v, by.cosine) - scaled(u, by.sine);
     }
 }
 
@@ -101,20 +121,21 @@ static void add(struct demo_scene *out, enum demo_prop prop,
 }
 
 static void add_car(struct demo_scene *out, const smear_transform *car,
-                    int32_t time, int32_t steer)
+                    int32_t time, struct angle steer)
 {
     static const int32_t hub[4][2] = {
         { METRES(1.38), METRES(0.80) }, { METRES(1.38), METRES(-0.80) },
         { METRES(-1.32), METRES(0.80) }, { METRES(-1.32), METRES(-0.80) },
     };
+    const struct angle spin = angle_of(-along(time, WHEEL_STEP)), outwards = angle_of(DEGREES(90));
     add(out, PROP_CAR, car);
     for (int i = 0; i < 4; i++) {
         smear_transform wheel = *car;
         move(&wheel, hub[i][0], METRES(0.45), hub[i][1]);
         if (i < 2)
             turn(&wheel, 1, steer);
-        turn(&wheel, 2, -along(time, WHEEL_STEP));
-        turn(&wheel, 0, hub[i][1] > 0 ? DEGREES(90) : DEGREES(-90));
+        turn(&wheel, 2, spin);
+        turn(&wheel, 0, hub[i][1] > 0 ? outwards : opposite(outwards));
         add(out, PROP_WHEEL, &wheel);
     }
     smear_transform shadow = *car;
@@ -125,12 +146,13 @@ static void add_car(struct demo_scene *out, const smear_transform *car,
 static void add_drone(struct demo_scene *out,
                       const smear_transform *drone, int32_t time)
 {
+    struct angle arm = angle_of(DEGREES(45)), spin = angle_of(along(time, ROTOR_STEP));
     add(out, PROP_DRONE, drone);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++, arm = quarter_after(arm), spin = opposite(spin)) {
         smear_transform rotor = *drone;
-        turn(&rotor, 1, DEGREES(45) + i * DEGREES(90));
+        turn(&rotor, 1, arm);
         move(&rotor, METRES(0.70), METRES(0.10), 0);
-        turn(&rotor, 1, i % 2 == 0 ? along(time, ROTOR_STEP) : -along(time, ROTOR_STEP));
+        turn(&rotor, 1, spin);
         add(out, PROP_ROTOR, &rotor);
     }
 }
@@ -151,8 +173,8 @@ static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_
     out->camera = (smear_camera){ .pose = SMEAR_IDENTITY, .focal = METRES(2.4),
                                   .near_plane = METRES(0.3), .far_plane = METRES(150) };
     move(&out->camera.pose, x, y, z);
-    turn(&out->camera.pose, 1, yaw);
-    turn(&out->camera.pose, 0, pitch);
+    turn(&out->camera.pose, 1, angle_of(yaw));
+    turn(&out->camera.pose, 0, angle_of(pitch));
 }
 
 /* ------------------------------------------------------------------ shots */
@@ -160,20 +182,20 @@ static void look(struct demo_scene *out, int32_t x, int32_t y, int32_t z, int32_
 static void chase(struct demo_scene *out, int32_t time)
 {
     int32_t phase = time * (65536 / DEMO_TIME) / CHASE;
-    int32_t x = METRES(-6) + along(time, CAR_STEP), sway = sine(phase);
+    int32_t x = METRES(-6) + along(time, CAR_STEP), sway = sine(phase), lead = cosine(phase);
     look(out, x + METRES(3.7) + scaled(METRES(0.12), sway), METRES(1.5), METRES(4.6), DEGREES(42),
          DEGREES(-2.5));
 
-    int32_t yaw = scaled(DEGREES(2), cosine(phase));
+    int32_t yaw = scaled(DEGREES(2), lead);
     smear_transform car = moved(x, 0, METRES(-0.2) - scaled(METRES(0.12), sway));
-    turn(&car, 1, yaw);
-    add_car(out, &car, time, 2 * yaw);
+    turn(&car, 1, angle_of(yaw));
+    add_car(out, &car, time, angle_of(2 * yaw));
 
-    smear_transform drone = moved(x - METRES(1.9) + scaled(METRES(0.3), cosine(phase)),
+    smear_transform drone = moved(x - METRES(1.9) + scaled(METRES(0.3), lead),
                                   METRES(2.5) + scaled(METRES(0.16), sine(2 * phase)),
                                   METRES(0.3) + scaled(METRES(0.6), sway));
-    turn(&drone, 0, DEGREES(18));
-    turn(&drone, 2, DEGREES(-20));
+    turn(&drone, 0, angle_of(DEGREES(18)));
+    turn(&drone, 2, angle_of(DEGREES(-20)));
     add_drone(out, &drone, time);
     add_land(out);
 }
@@ -186,12 +208,12 @@ static void roadside(struct demo_scene *out, int32_t time)
     smear_transform drone = moved(METRES(-0.25) + scaled(METRES(1.1), swing),
                                   METRES(2.6) + scaled(METRES(0.2), sine(2 * phase)),
                                   METRES(0.6) - scaled(METRES(0.4), cosine(phase)));
-    turn(&drone, 0, DEGREES(24));
-    turn(&drone, 2, scaled(DEGREES(17), swing));
+    turn(&drone, 0, angle_of(DEGREES(24)));
+    turn(&drone, 2, angle_of(scaled(DEGREES(17), swing)));
     add_drone(out, &drone, time);
 
     smear_transform car = moved(along(time - ROADSIDE / 2 * DEMO_TIME, CAR_STEP), 0, METRES(-1.6));
-    add_car(out, &car, time, 0);
+    add_car(out, &car, time, angle_of(0));
     add_land(out);
 }
 
