@@ -7,6 +7,7 @@
  * The output holds one tape (platform/play.h) per level of detail, named as in levels[]; its only
  * frame has one draw per prop, in the order of demo_scene.h. Metres; x is the way the car drives,
  * y up, z to its right. */
+#include "platform/demo_bake.h"
 #include "platform/demo_scene.h"
 
 #include "tools/scenes/build.h"
@@ -431,6 +432,21 @@ static void place_props(const struct stage *stage, double time, struct scene_ins
     out->camera.zfar = 0;
 }
 
+/* Adds a frame, what stands still as it looks in its light. */
+static bool add_baked(struct tape_writer *writer, const struct presented *frame, struct failure *f)
+{
+    static const uint8_t still[] = { PROP_GRASS, PROP_ROAD, PROP_KERBS, PROP_TREES, PROP_BOARDS };
+    static struct demo_baked baked[sizeof still];
+    struct presented with = *frame;
+    smear_draw draw[PROP_COUNT];
+    memcpy(draw, frame->draw, sizeof draw);
+    with.draw = draw;
+    for (size_t i = 0; i < sizeof still; i++)
+        if (!demo_bake(&baked[i], &draw[still[i]]))
+            return fail(f, "prop %d cannot be lit in advance", still[i]);
+    return tape_add(writer, &with, NULL, f);
+}
+
 static bool add_level(struct tape_writer *writer, struct failure *f)
 {
     const struct stage_kind kind = { level->name, 8, 8, 0, 0, build_props, place_props };
@@ -447,7 +463,7 @@ static bool add_level(struct tape_writer *writer, struct failure *f)
         ok = fail(f, "%d props of scale %g", frame->draw_count, frame->world_scale);
     if (ok) {
         smear_desc desc = presented_desc(frame, 8, 8);
-        ok = tape_begin(writer, level->name, &desc, f) && tape_add(writer, frame, NULL, f);
+        ok = tape_begin(writer, level->name, &desc, f) && add_baked(writer, frame, f);
     }
     presenter_free(presenter);
     scene_free(&scene);
