@@ -396,11 +396,12 @@ SMEAR_INLINE void l4_pair(uint8_t *out, const uint32_t *in, const uint32_t *step
     *out = (uint8_t)(upper | (*grey + step[1]) >> 16);
 }
 
+/* Black is the first colour: its levels are 0. */
 void smear_row_l4_blocks(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold)
 {
     const bool dithered = threshold != NULL;
     uint8_t *out = row + x / 2;
-    uint32_t step[BLOCK], last = n > 0 ? ~*in : 0, grey = 0, flat = last;
+    uint32_t step[BLOCK], last = 0, grey = 0, flat = 0;
     uint8_t block[BLOCK / 2] = { 0 };
     for (int i = 0; i < BLOCK; i++)
         step[i] = dithered ? (uint32_t)threshold[i] << 8 : 0;

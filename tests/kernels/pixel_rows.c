@@ -149,9 +149,13 @@ static void rows_avx2(struct kernel_call *c)
 }
 #endif
 
-/* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. */
+/* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. Some have a block of the first pixel's
+ * complement, top byte and all. */
 static void prepare_l4(struct kernel_call *c)
 {
+    uint32_t *in = c->plane[1];
+    for (int i = 8; i < 16 && c->n >= 16 && (c->word[Y] & 3u) == 0; i++)
+        in[i] = ~in[0];
     prepare_dithered(c);
     c->word[X] &= 8u;
     c->word[IS_DITHERED] &= 1u;
