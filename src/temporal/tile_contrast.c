@@ -10,6 +10,7 @@ struct look {
     int32_t x, y, x1, y1;
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
+    bool at_border; /* the tiles end above or below */
 };
 
 /* Squared differences of pixels behind one another on their path, and of those beside each other. */
@@ -100,6 +101,15 @@ static int32_t next_on_path(int32_t way, int32_t longest)
 
 static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UINT32_MAX - a); }
 
+/* Adds what closed gaps leave of a block where the tiles end above or below: where a gap goes more than a pixel down or up,
+ * taps of the last row would lie beyond it, and that row, an eighth of the block, stays as it is. It is seen as a line
+ * beside what is closed: it weighs twice. */
+static void add_border(struct smear_contrast *c, uint32_t plain, int32_t down, int32_t last)
+{
+    const int at = (min_i32(last, down >> 4) + 1) >> 1;
+    c->closed[at] = add_saturated(c->closed[at], plain >> 2);
+}
+
 /* Adds a block's differences times its displacement to those of the run. Returns up to how many instants gaps are closed
  * there. */
 static int32_t add_block(struct smear_contrast *c, const struct look *l, const struct look_sums *d,
@@ -120,6 +130,8 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     c->plain[at] = add_saturated(c->plain[at], plain);
     c->closed[at] = add_saturated(c->closed[at], plain * closing->left >> 8);
     c->floor[at] = add_saturated(c->floor[at], floor);
+    if (l->at_border && last != 0)
+        add_border(c, plain, y, last);
     return last;
 }
 
@@ -158,6 +170,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
     for (int32_t y = y0; y < y1; y += BLOCK_PX)
         for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX) {
             struct look look = { .x = x, .y = y, .x1 = min_i32(x + BLOCK_PX, t->x1), .y1 = min_i32(y + BLOCK_PX, y1) };
+            look.at_border = y == y0 || look.y1 == y1;
             c->blocks++;
             look_at_block(c, f, plan, &look, x < box->x1 && look.x1 > box->x0 && y < box->y1 && look.y1 > box->y0);
         }
