@@ -3,6 +3,7 @@
 #include "kernels/light_sums.h"
 
 #include "base/fixmath.h"
+#include "kernels/light_lanes.h"
 
 enum { GOLDEN = (int)0x9e3779b9u };     /* 2^32 over the golden ratio: multiples of it fall evenly, whatever their number */
 
@@ -135,47 +136,19 @@ void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct 
 #endif
 
 #if SMEAR_AVX2
-static inline SMEAR_AVX2_FUNCTION lanes8 lanes8_all16(uint32_t a) { return lanes8_all(a * 0x10001u); }
+#define EIGHT(a) { a, a, a, a, a, a, a, a }
+#define SIXTEEN(a) EIGHT((a) * 0x10001u)
 
-/* twice_light8 and added_light8 of sixteen codes. */
-static inline SMEAR_AVX2_FUNCTION lanes8 twice_light16(lanes8 code)
-{
-    const lanes8 square = lanes8_mul16(code, code), far = code << 8;
-    const lanes8 high = lanes8_mulh16(square, lanes8_mulh16(far, lanes8_all16(2501)) + lanes8_all16(5742)) + lanes8_all16(23);
-    const lanes8 low = lanes8_mulh16(far, lanes8_mulh16(square, lanes8_all16(21035)) + lanes8_all16(607));
-    return lanes8_min16(low, high);
-}
-
-/* An instant, ready for lanes. Light is rounded, by a threshold, or else shifted up. */
-struct instant_lanes {
-    lanes8 threshold, white;
-    __m128i shift;
+const struct light_numbers smear_light_numbers = {
+    .by = SIXTEEN(2501), .more = SIXTEEN(5742), .beyond = SIXTEEN(23), .dark_by = SIXTEEN(21035), .dark_more = SIXTEEN(607),
+    .even = SIXTEEN(0xfffe), .green = EIGHT(0xff00ff00u)
 };
-
-SMEAR_AVX2_INLINE lanes8 added_light16(lanes8 code, const struct instant_lanes *t, bool rounds)
-{
-    const lanes8 twice = twice_light16(code);
-    if (rounds)
-        return (lanes8)_mm256_srl_epi16((__m256i)(twice + t->threshold), t->shift);
-    return (lanes8)_mm256_sll_epi16(_mm256_srli_epi16((__m256i)twice, 1), t->shift);
-}
-
-/* The lower half of each word of a, the upper one of b. */
-SMEAR_AVX2_INLINE lanes8 lanes8_halves_of(lanes8 a, lanes8 b) { return (lanes8)_mm256_blend_epi16((__m256i)a, (__m256i)b, 0xaa); }
-SMEAR_AVX2_INLINE lanes8 lanes8_without(lanes8 a, lanes8 mask) { return (lanes8)_mm256_andnot_si256((__m256i)mask, (__m256i)a); }
-
-/* Adds eight pixels of which red and blue are in `rb`, green and white in `gn`. */
-SMEAR_AVX2_INLINE void sums_add8(const struct packed_sums *sums, int32_t at, lanes8 rb, lanes8 gn)
-{
-    lanes8_store(sums->rb + at, lanes8_load(sums->rb + at) + rb);
-    lanes8_store(sums->gn + at, lanes8_load(sums->gn + at) + gn);
-}
 
 /* Takes 16 pixels, whose greens share lanes; what looks like the background is black that adds no white. */
 SMEAR_AVX2_INLINE void light_add16(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t at,
-                                   const struct instant_lanes *t, bool rounds, bool all)
+                                   const struct instant_lanes *t, enum light_scale scale, bool all)
 {
-    const lanes8 behind_a = lanes8_load(background + at), behind_b = lanes8_load(background + at + 8), pair = lanes8_all(0xff00ff);
+    const lanes8 behind_a = lanes8_load(background + at), behind_b = lanes8_load(background + at + 8);
     lanes8 a = lanes8_load(color + at), b = lanes8_load(color + at + 8), white_a = t->white, white_b = white_a;
     if (!all) {
         const lanes8 alike_a = (lanes8)(a == behind_a), alike_b = (lanes8)(b == behind_b);
@@ -186,58 +159,64 @@ SMEAR_AVX2_INLINE void light_add16(uint32_t *color, const uint32_t *background, 
         white_a = lanes8_without(white_a, alike_a);
         white_b = lanes8_without(white_b, alike_b);
     }
-    const lanes8 green = added_light16(lanes8_halves_of(a >> 8, b << 8) & pair, t, rounds);
+    const lanes8 green = light_added16(lanes8_halves_of(a, b << 16) & lanes8_load(smear_light_numbers.green), t, scale);
     lanes8_store(color + at, behind_a);
     lanes8_store(color + at + 8, behind_b);
-    sums_add8(sums, at, added_light16(a & pair, t, rounds), lanes8_halves_of(green, white_a));
-    sums_add8(sums, at + 8, added_light16(b & pair, t, rounds), lanes8_halves_of(green >> 16, white_b));
+    light_sums_add8(sums, at, light_added16(lanes8_left16(a, 8), t, scale), lanes8_halves_of(green, white_a));
+    light_sums_add8(sums, at + 8, light_added16(lanes8_left16(b, 8), t, scale), green >> 16 | white_b);
 }
 
 SMEAR_AVX2_INLINE void light_add8(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t at,
-                                  const struct instant_lanes *t, bool rounds, bool all)
+                                  const struct instant_lanes *t, enum light_scale scale, bool all)
 {
     const lanes8 behind = lanes8_load(background + at), none = lanes8_all(all ? 0 : UINT32_MAX);
     const lanes8 a = lanes8_load(color + at), alike = (lanes8)(a == behind) & none, seen = lanes8_without(a, alike);
     if (lanes8_all_set(alike))
         return;
     lanes8_store(color + at, behind);
-    sums_add8(sums, at, added_light16(seen & 0xff00ffu, t, rounds),
-              lanes8_halves_of(added_light16(seen >> 8 & 0xffu, t, rounds), lanes8_without(t->white, alike)));
+    light_sums_add8(sums, at, light_added16(lanes8_left16(seen, 8), t, scale),
+                    light_added16(seen & 0xff00u, t, scale) | lanes8_without(t->white, alike));
 }
 
 SMEAR_AVX2_INLINE void light_add_row(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t n,
-                                     const struct light_instant *instant, bool rounds, bool all)
+                                     const struct light_instant *instant, enum light_scale scale, bool all)
 {
-    const struct instant_lanes t = { lanes8_all16(2 * instant->threshold), lanes8_all(instant->white << 16),
-                                     _mm_cvtsi32_si128(rounds ? instant->down + 1 : instant->up) };
+    const struct instant_lanes t = instant_lanes_of(instant);
     int32_t i = 0;
     for (; i + 16 <= n; i += 16)
-        light_add16(color, background, sums, i, &t, rounds, all);
+        light_add16(color, background, sums, i, &t, scale, all);
     if (i + 8 <= n) {
-        light_add8(color, background, sums, i, &t, rounds, all);
+        light_add8(color, background, sums, i, &t, scale, all);
         i += 8;
     }
     if (i < n && n >= 8 && !all)        /* some again: they look like the background by now */
-        light_add8(color, background, sums, n - 8, &t, rounds, all);
+        light_add8(color, background, sums, n - 8, &t, scale, all);
     else if (i < n)
         smear_light_add_reference(color + i, background + i, packed_sums_from(*sums, i), n - i, instant, all);
+}
+
+SMEAR_AVX2_INLINE void light_add_scaled(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t n,
+                                        const struct light_instant *instant, enum light_scale scale, bool all)
+{
+    if (all)
+        light_add_row(color, background, sums, n, instant, scale, true);
+    else
+        light_add_row(color, background, sums, n, instant, scale, false);
 }
 
 /* Two fifths of the time of smear_light_add_vector. */
 SMEAR_AVX2_FUNCTION void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                                               const struct light_instant *instant, bool all)
 {
-    const bool rounds = instant->down != 0;
+    const enum light_scale scale = light_scale_of(instant);
     if (!instant->linear)
         smear_light_add_reference(color, background, sums, n, instant, all);
-    else if (rounds && all)
-        light_add_row(color, background, &sums, n, instant, true, true);
-    else if (rounds)
-        light_add_row(color, background, &sums, n, instant, true, false);
-    else if (all)
-        light_add_row(color, background, &sums, n, instant, false, true);
+    else if (scale == LIGHT_ROUNDED)
+        light_add_scaled(color, background, &sums, n, instant, LIGHT_ROUNDED, all);
+    else if (scale == LIGHT_PLAIN)
+        light_add_scaled(color, background, &sums, n, instant, LIGHT_PLAIN, all);
     else
-        light_add_row(color, background, &sums, n, instant, false, false);
+        light_add_scaled(color, background, &sums, n, instant, LIGHT_RAISED, all);
 }
 #endif
 
@@ -429,9 +408,10 @@ void smear_light_means_vector(const struct gap_planes *p, int32_t at, int32_t n,
 #endif
 
 #if SMEAR_AVX2
-static inline SMEAR_AVX2_FUNCTION lanes8 background_light16(lanes8 code)
+/* Of codes q8. */
+static inline SMEAR_AVX2_FUNCTION lanes8 background_light16(lanes8 far)
 {
-    return (twice_light16(code) & 0xfffefffeu) << 3;
+    return (light_twice16(far) & 0xfffefffeu) << 3;
 }
 
 /* Returns the means of eight pixels. */
@@ -442,8 +422,8 @@ static inline SMEAR_AVX2_FUNCTION lanes8 light_mean8(const uint32_t *color, cons
     lanes8 rb = sum->rb + lanes8_all16(m->half), g = (sum->gn & 0xffffu) + m->half;
     if (lanes8_any(rest)) {
         const lanes8 background = lanes8_load(color);
-        rb += lanes8_mulh16(background_light16(background & 0xff00ffu), rest | rest << 16);
-        g += lanes8_mulh16(background_light16(background >> 8 & 0xffu), rest);
+        rb += lanes8_mulh16(background_light16(lanes8_left16(background, 8)), rest | rest << 16);
+        g += lanes8_mulh16(background_light16(background & 0xff00u), rest);
     }
     rb = lanes8_mulh16(rb, lanes8_all16(m->factor));
     g = lanes8_mulh16(g, lanes8_all(m->factor));

@@ -70,6 +70,20 @@ static inline void smear_light_add(uint32_t *color, const uint32_t *background, 
 #endif
 }
 
+/* Does what smear_light_add does to pixels of a box that differ from the background, and makes depths those behind. */
+static inline void light_box_reference(const struct packed_box *b, const struct light_instant *instant)
+{
+    for (int32_t y = 0, at = 0, behind = 0; y < b->rows; y++, at += b->pitch, behind += b->pitch_behind) {
+        smear_light_add_reference(b->color + at, b->background + behind, packed_sums_from(b->sums, at), b->n, instant, false);
+        __builtin_memcpy(b->depth + at, b->deep + behind, (size_t)b->n * sizeof *b->depth);
+    }
+}
+
+#if SMEAR_AVX2
+/* The same of linear light where n is eight at least, and rows are two. */
+void smear_light_box_avx2(const struct packed_box *b, const struct light_instant *instant);
+#endif
+
 /* How the sums at a pixel and at its taps become its mean: weights in q16, which add up to one. */
 struct light_mean {
     uint32_t own, pair, last;   /* of the pixel (0 where there are no pairs: one), of a pair's mean, of the last one's */

@@ -296,7 +296,7 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
     const bool sets = samples == 0 && sums_are_set(f);
     if (samples == 0)
         smear_subframe_sums_clear(f, sets ? box : &no_box);
-    if (!smear_subframe_sums_take(f, box)) {
+    if (!smear_subframe_sums_take(f, box, (uint32_t)k)) {
         smear_subframe_sums_add(f, box, (uint32_t)k, sets);
         smear_subframe_restore_depth(f, box);
     }
