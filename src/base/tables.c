@@ -75,7 +75,7 @@ const uint16_t smear_srgb_decode[256] = {
 };
 
 /* linear light >> 4 to sRGB code */
-const uint8_t smear_srgb_encode[4096] = {
+const uint8_t smear_srgb_encode[4096 + SMEAR_TABLE_TAIL] = {
     0, 1, 2, 3, 4, 4, 5, 6, 7, 8, 8, 9, 10, 11, 12, 12,
     13, 14, 14, 15, 16, 16, 17, 17, 18, 18, 19, 19, 20, 20, 21, 21,
     22, 22, 23, 23, 24, 24, 24, 25, 25, 26, 26, 26, 27, 27, 28, 28,

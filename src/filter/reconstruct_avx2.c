@@ -242,13 +242,12 @@ SMEAR_AVX2_INLINE lanes8 lanes_mean(const struct lanes_taps *s, bool linear)
     const lanes8 r = lanes8_recip_norm(lanes8_left(s->weight, lanes8i_word(LANES8_31) - log2));
     const lanes8i up = lanes8i_word(LANES8_15) - log2;           /* weights are below 2^15 */
     if (linear) {
-        const lanes8i most = lanes8i_all(4095);
+        const lanes8i most = lanes8i_word(LANES8_4095);
         const lanes8i red = (lanes8i)(lanes8_mulh(lanes8_left(s->r, up), r) >> 17);
         const lanes8i green = (lanes8i)(lanes8_mulh(lanes8_left(s->g, up), r) >> 17);
         const lanes8i blue = (lanes8i)(lanes8_mulh(lanes8_left(s->b, up), r) >> 17);
-        return lanes8_encode((lanes8)lanes8i_min(red, most)) << 16
-             | lanes8_encode((lanes8)lanes8i_min(green, most)) << 8
-             | lanes8_encode((lanes8)lanes8i_min(blue, most));
+        return lanes8_encode_pixels((lanes8)lanes8i_min(red, most), (lanes8)lanes8i_min(green, most),
+                                    (lanes8)lanes8i_min(blue, most));
     }
     const lanes8 r12 = r >> 18, half = lanes8_word(LANES8_2_22);
     const lanes8 red = (lanes8_left(s->r, up) >> 4) * r12 + half;

@@ -25,23 +25,17 @@ SMEAR_AVX2_INLINE void blend_start(struct blend_lanes *k, uint32_t over, bool li
     k->add[1] = lanes8_all(pixel_green(over) * a + 0x80u);
 }
 
-/* The table of light is read from the half before an element on, and not for code 0, whose light is 0; that of codes ends in more
- * than three of 255, so that words are read within it. */
-SMEAR_AVX2_INLINE lanes8 blended_code(lanes8 code, lanes8 add, lanes8 left)
+SMEAR_AVX2_INLINE lanes8 blended_light(lanes8 code, lanes8 add, lanes8 left)
 {
-    const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32((__m256i)code, zero);
-    uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
-    SMEAR_KEEP_VALUE(before);
-    const lanes8 light = (lanes8)_mm256_mask_i32gather_epi32(zero, (const int *)before, (__m256i)code, some, 2) >> 16;
-    const lanes8i at = lanes8i_min((lanes8i)((light * left + add) >> 12), lanes8i_all(4092));
-    return (lanes8)_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, (__m256i)at, 1) & 255u;
+    return (lanes8_decode(code) * left + add) >> 12;
 }
 
 SMEAR_AVX2_INLINE lanes8 blended_pixels(const struct blend_lanes *k, lanes8 under, bool linear)
 {
     if (linear)
-        return blended_code(under >> 16 & 255u, k->add[0], k->left) << 16 | blended_code(under >> 8 & 255u, k->add[1], k->left) << 8
-             | blended_code(under & 255u, k->add[2], k->left);
+        return lanes8_encode_pixels(blended_light(under >> 16 & 255u, k->add[0], k->left),
+                                    blended_light(under >> 8 & 255u, k->add[1], k->left),
+                                    blended_light(under & 255u, k->add[2], k->left));
     const lanes8 rb = (lanes8_mul16(under & 0xff00ffu, k->left | k->left << 16) + k->add[0]) >> 8 & 0xff00ffu;
     return rb | ((lanes8_mul16(under >> 8 & 255u, k->left) + k->add[1]) & 0xff00u);
 }

@@ -28,7 +28,8 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_numbers(void) { return (lanes8i){ 0, 1, 2, 3, 
  * three, and again wherever it runs out of registers. */
 enum lanes8_constant {
     LANES8_1, LANES8_8, LANES8_15, LANES8_16, LANES8_17, LANES8_24, LANES8_31, LANES8_53, LANES8_64, LANES8_127, LANES8_128, LANES8_135,
-    LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535, LANES8_65536,
+    LANES8_255, LANES8_256, LANES8_511, LANES8_1023, LANES8_4095, LANES8_4096, LANES8_4915, LANES8_32768, LANES8_35822, LANES8_65535,
+    LANES8_65536,
     LANES8_LESS_2,              /* all bits but the lowest */
     LANES8_RED_BLUE,            /* of a pixel */
     LANES8_2_19, LANES8_2_22, LANES8_2_31,      /* powers of two */
@@ -289,9 +290,34 @@ SMEAR_AVX2_INLINE lanes8i lanes8i_of_bytes(const void *table, lanes8 at)
     return (lanes8i)lanes8_left(lanes8_gather(table, (lanes8i)(at >> 2)), (lanes8i)((at << 3 & bits) ^ bits)) >> 24;
 }
 
-/* Finds the code of linear light 0 .. 4095, and the light of a code. */
-SMEAR_AVX2_INLINE lanes8 lanes8_encode(lanes8 light) { return lanes8_of_bytes(smear_srgb_encode, light); }
-SMEAR_AVX2_INLINE lanes8 lanes8_decode(lanes8 code) { return lanes8_of_halves(smear_srgb_decode, code); }
+/* Finds the codes of linear light 0 .. 4095 in the lowest bytes of words. */
+SMEAR_AVX2_INLINE lanes8 lanes8_encode_lowest(lanes8 light)
+{
+    return (lanes8)_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, (__m256i)light, 1);
+}
+
+/* The same as words, and of three channels as pixels. */
+SMEAR_AVX2_INLINE lanes8 lanes8_encode(lanes8 light) { return lanes8_encode_lowest(light) & lanes8_word(LANES8_255); }
+
+SMEAR_AVX2_INLINE lanes8 lanes8_encode_pixels(lanes8 r, lanes8 g, lanes8 b)
+{
+    const __m256i third = _mm256_setr_epi8(-1, -1, 0, -1, -1, -1, 4, -1, -1, -1, 8, -1, -1, -1, 12, -1,
+                                           -1, -1, 0, -1, -1, -1, 4, -1, -1, -1, 8, -1, -1, -1, 12, -1);
+    const __m256i second = _mm256_setr_epi8(-1, 0, -1, -1, -1, 4, -1, -1, -1, 8, -1, -1, -1, 12, -1, -1,
+                                            -1, 0, -1, -1, -1, 4, -1, -1, -1, 8, -1, -1, -1, 12, -1, -1);
+    const __m256i red = _mm256_shuffle_epi8((__m256i)lanes8_encode_lowest(r), third);
+    const __m256i green = _mm256_shuffle_epi8((__m256i)lanes8_encode_lowest(g), second);
+    return (lanes8)red | (lanes8)green | lanes8_encode(b);
+}
+
+/* Finds the light of codes. The table is read from the half before an element on, and not for code 0, whose light is 0. */
+SMEAR_AVX2_INLINE lanes8 lanes8_decode(lanes8 code)
+{
+    const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32((__m256i)code, zero);
+    uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
+    SMEAR_KEEP_VALUE(before);
+    return (lanes8)_mm256_mask_i32gather_epi32(zero, (const int *)before, (__m256i)code, some, 2) >> 16;
+}
 
 /* Returns pixels as RGB565, in the lower halves of words: rgb565_nearest. */
 SMEAR_AVX2_INLINE lanes8 lanes8_narrow(lanes8 p)

@@ -427,7 +427,7 @@ static inline SMEAR_AVX2_FUNCTION lanes8 light_mean8(const uint32_t *color, cons
     }
     rb = lanes8_mulh16(rb, lanes8_all16(m->factor));
     g = lanes8_mulh16(g, lanes8_all(m->factor));
-    return lanes8_encode(rb >> 16) << 16 | lanes8_encode(g) << 8 | lanes8_encode(rb & 0xffffu);
+    return lanes8_encode_pixels(rb >> 16, g, rb & 0xffffu);
 }
 
 static inline SMEAR_AVX2_FUNCTION struct gap_sums8 light_uncovered8(const struct gap_planes *p, int32_t at,

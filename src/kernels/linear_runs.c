@@ -27,14 +27,15 @@ static inline SMEAR_AVX2_FUNCTION void light8_step(struct light8 *l, const struc
 static inline SMEAR_AVX2_FUNCTION lanes8 lit_channel8(lanes8 code, lanes8 light)
 {
     light = light >> 8 & 0xffffu;
-    return lanes8_encode(lanes8_decode(code) * (light + (light >> 15)) >> 20);
+    return lanes8_decode(code) * (light + (light >> 15)) >> 20;
 }
 
 static inline SMEAR_AVX2_FUNCTION lanes8 lit_texels8(lanes8 t, const struct light8 *l)
 {
     const lanes8 alpha = lanes8_mul16(t >> 24, l->c[3] >> 16 & 255u) + 128u;
-    return (alpha + (alpha >> 8)) >> 8 << 24 | lit_channel8(t >> 16 & 255u, l->c[0]) << 16
-         | lit_channel8(t >> 8 & 255u, l->c[1]) << 8 | lit_channel8(t & 255u, l->c[2]);
+    return (alpha + (alpha >> 8)) >> 8 << 24
+         | lanes8_encode_pixels(lit_channel8(t >> 16 & 255u, l->c[0]), lit_channel8(t >> 8 & 255u, l->c[1]),
+                                lit_channel8(t & 255u, l->c[2]));
 }
 
 /* n >= 8. The last eight, with some of those before, are found before either is stored. A fifth of the reference's
@@ -56,7 +57,7 @@ SMEAR_AVX2_FUNCTION void smear_light_texels_avx2(uint32_t *texel, int32_t n, con
 
 static inline SMEAR_AVX2_FUNCTION lanes8 blended_channel8(lanes8 over, lanes8 a, lanes8 under, lanes8 b)
 {
-    return lanes8_encode((lanes8_decode(over & 255u) * a + lanes8_decode(under & 255u) * b) >> 12);
+    return (lanes8_decode(over & 255u) * a + lanes8_decode(under & 255u) * b) >> 12;
 }
 
 /* Eight pixels over those of `color`. */
@@ -66,8 +67,8 @@ static inline SMEAR_AVX2_FUNCTION lanes8 blended8(const uint32_t *color, const u
     const lanes8 seen = (lanes8)((lanes8i)(z >> 16) > lanes8i_load_halves(depth)) & (lanes8)((lanes8i)a > 0);
     if (!lanes8_any(seen))
         return under;
-    const lanes8 mixed = blended_channel8(over >> 16, a, under >> 16, b) << 16 | blended_channel8(over >> 8, a, under >> 8, b) << 8
-                       | blended_channel8(over, a, under, b);
+    const lanes8 mixed = lanes8_encode_pixels(blended_channel8(over >> 16, a, under >> 16, b),
+                                              blended_channel8(over >> 8, a, under >> 8, b), blended_channel8(over, a, under, b));
     return lanes8_choose((lanes8i)seen, lanes8_choose((lanes8i)(b == 0), over & 0xffffffu, mixed), under);
 }
 

@@ -4,18 +4,11 @@
 
 #if SMEAR_AVX2
 
-/* The table ends in more than three codes of 255, so that words are read within it. */
-SMEAR_AVX2_INLINE lanes8 shade_code(lanes8 light)
-{
-    const lanes8i at = lanes8i_min((lanes8i)(light >> 12 & 4095u), lanes8i_all(4092));
-    return (lanes8)_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, (__m256i)at, 1) & 255u;
-}
-
 SMEAR_AVX2_INLINE lanes8 shades_of(const struct planes_light *c, bool linear)
 {
     const lanes8 r = (lanes8)c->c[0], g = (lanes8)c->c[1], b = (lanes8)c->c[2];
     if (linear)
-        return shade_code(r) << 16 | shade_code(g) << 8 | shade_code(b);
+        return lanes8_encode_pixels(r >> 12 & 4095u, g >> 12 & 4095u, b >> 12 & 4095u);
     return (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
 }
 

@@ -19,7 +19,7 @@ struct shaded8 {
 static inline SMEAR_AVX2_FUNCTION lanes8 pixels8_of(const struct shade8 *p, bool linear)
 {
     if (linear)
-        return lanes8_encode(p->r >> 12 & 4095u) << 16 | lanes8_encode(p->g >> 12 & 4095u) << 8 | lanes8_encode(p->b >> 12 & 4095u);
+        return lanes8_encode_pixels(p->r >> 12 & 4095u, p->g >> 12 & 4095u, p->b >> 12 & 4095u);
     return (p->r & 0xff0000u) | (p->g >> 8 & 0xff00u) | (p->b >> 16 & 255u);
 }
 

@@ -17,7 +17,7 @@ const struct lit_levels smear_lit_levels = {
 #define EIGHT(a) { a, a, a, a, a, a, a, a }
 
 const struct lit_numbers smear_lit_numbers = {
-    .five = EIGHT(31), .six = EIGHT(63), .code = EIGHT(255), .half = EIGHT(0xffff), .most = EIGHT(4092),
+    .five = EIGHT(31), .six = EIGHT(63), .code = EIGHT(255), .half = EIGHT(0xffff),
     .by_rb = EIGHT(249 * 0x10001), .more_rb = EIGHT(1014 * 0x10001), .by_g = EIGHT(253), .more_g = EIGHT(505), .green = EIGHT(0x7e0),
     .red = EIGHT(31 << 16), .by_five = EIGHT(527 * 0x10001), .more_five = EIGHT(23 * 0x10001), .by_six = EIGHT(259), .more_six = EIGHT(33),
     .pair = EIGHT(0xff00ff), .round = EIGHT(128 * 0x10001)

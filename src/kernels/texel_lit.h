@@ -41,7 +41,6 @@ extern const struct lit_levels smear_lit_levels;
 /* Numbers, eight times each: compilers that know them make them anew wherever they are used, in three instructions. */
 struct lit_numbers {
     uint32_t five[8], six[8], code[8], half[8];             /* masks */
-    uint32_t most[8];                                       /* where light is found in the table of codes at most */
     uint32_t by_rb[8], more_rb[8], by_g[8], more_g[8];      /* rgb565_nearest: of pairs, and of words */
     uint32_t green[8], red[8];                              /* where they lie in RGB565, red shifted up by 5 */
     uint32_t by_five[8], more_five[8], by_six[8], more_six[8];      /* codes of levels: of pairs, and of words */
@@ -214,49 +213,31 @@ SMEAR_AVX2_INLINE __m256i lit_times(__m256i a, __m256i b)
     return _mm256_srli_epi16(_mm256_add_epi16(t, _mm256_srli_epi16(t, 8)), 8);
 }
 
-/* Codes of linear light 0 .. 4095, in words. Their table ends in more than three of 255, so that words are read within it. */
-SMEAR_AVX2_INLINE __m256i lit_encoded(__m256i light)
-{
-    const __m256i index = _mm256_min_epu32(light, lit_number(smear_lit_numbers.most));
-    return _mm256_and_si256(_mm256_i32gather_epi32((const int *)(const void *)smear_srgb_encode, index, 1),
-                            lit_number(smear_lit_numbers.code));
-}
+/* Channels of texels, light of which 65535 is one, in a light, of which 65536 is: as pairs of codes. */
+SMEAR_AVX2_INLINE __m256i lit_product(__m256i there, __m256i light) { return _mm256_srli_epi32(_mm256_mullo_epi32(there, light), 20); }
 
-/* Codes of texels' light, 65535 is one, in a light, of which 65536 is. */
-SMEAR_AVX2_INLINE __m256i lit_linear(__m256i there, __m256i light)
+SMEAR_AVX2_INLINE struct lit_pairs lit_linear(__m256i r, __m256i g, __m256i b, const struct lit_light *l)
 {
-    return lit_encoded(_mm256_srli_epi32(_mm256_mullo_epi32(there, light), 20));
+    const lanes8 red = lanes8_encode_lowest((lanes8)lit_product(r, l->c[0])), green = (lanes8)lit_product(g, l->c[1]);
+    const lanes8 blue = lanes8_encode_lowest((lanes8)lit_product(b, l->c[2]));
+    const __m256i rb = _mm256_blend_epi16((__m256i)blue, (__m256i)(red << 16), 0xaa);
+    return (struct lit_pairs){ _mm256_and_si256(rb, lit_number(smear_lit_numbers.pair)), (__m256i)lanes8_encode(green) };
 }
-
-/* code_times_linear. The table of light is read from the half before an element on, and not for code 0, whose light is 0. */
-SMEAR_AVX2_INLINE __m256i lit_times_linear(__m256i code, __m256i light)
-{
-    const __m256i zero = _mm256_setzero_si256(), some = _mm256_cmpgt_epi32(code, zero);
-    uintptr_t before = (uintptr_t)smear_srgb_decode - 2;
-    SMEAR_KEEP_VALUE(before);
-    const __m256i upper = _mm256_mask_i32gather_epi32(zero, (const int *)before, code, some, 2);
-    return lit_linear(_mm256_srli_epi32(upper, 16), light);
-}
-
-/* Red and blue as pairs. */
-SMEAR_AVX2_INLINE __m256i lit_pair(__m256i r, __m256i b) { return _mm256_blend_epi16(b, _mm256_slli_epi32(r, 16), 0xaa); }
 
 /* Texels in linear light, as code_times_linear has it: of RGB565, in the lower halves of words, and of codes. */
 SMEAR_AVX2_INLINE struct lit_pairs lit_linear_565(__m256i t, const struct lit_light *l)
 {
     const int *const five = (const int *)(const void *)smear_lit_levels.five, *const six = (const int *)(const void *)smear_lit_levels.six;
-    const __m256i low = lit_number(smear_lit_numbers.five);
-    const __m256i green = _mm256_and_si256(_mm256_srli_epi32(t, 5), lit_number(smear_lit_numbers.six));
-    const __m256i r = lit_linear(_mm256_i32gather_epi32(five, _mm256_and_si256(_mm256_srli_epi32(t, 11), low), 4), l->c[0]);
-    const __m256i b = lit_linear(_mm256_i32gather_epi32(five, _mm256_and_si256(t, low), 4), l->c[2]);
-    return (struct lit_pairs){ lit_pair(r, b), lit_linear(_mm256_i32gather_epi32(six, green, 4), l->c[1]) };
+    const __m256i low = lit_number(smear_lit_numbers.five), r = _mm256_and_si256(_mm256_srli_epi32(t, 11), low);
+    const __m256i g = _mm256_and_si256(_mm256_srli_epi32(t, 5), lit_number(smear_lit_numbers.six)), b = _mm256_and_si256(t, low);
+    return lit_linear(_mm256_i32gather_epi32(five, r, 4), _mm256_i32gather_epi32(six, g, 4), _mm256_i32gather_epi32(five, b, 4), l);
 }
 
 SMEAR_AVX2_INLINE struct lit_pairs lit_linear_codes(struct lit_pairs t, const struct lit_light *l)
 {
-    const __m256i r = lit_times_linear(_mm256_srli_epi32(t.rb, 16), l->c[0]);
-    const __m256i b = lit_times_linear(_mm256_and_si256(t.rb, lit_number(smear_lit_numbers.code)), l->c[2]);
-    return (struct lit_pairs){ lit_pair(r, b), lit_times_linear(t.g, l->c[1]) };
+    const lanes8 r = lanes8_decode((lanes8)t.rb >> 16), g = lanes8_decode((lanes8)t.g);
+    const lanes8 b = lanes8_decode((lanes8)_mm256_and_si256(t.rb, lit_number(smear_lit_numbers.code)));
+    return lit_linear((__m256i)r, (__m256i)g, (__m256i)b, l);
 }
 
 /* Texels from pixel x on in their light: those of RGB565 in the lower halves of words, others 0xAARRGGBB. */

@@ -351,13 +351,18 @@ SMEAR_AVX2_INLINE __m256i v8_mixed(const struct tiny8 *s, int i, __m256i triangl
     return v8_add(_mm256_slli_epi32(v8_of(s->light[i], triangle), 14), v8_dot(v8_of(s->to_light[i], triangle), weight));
 }
 
+/* The code of light that was mixed, which is any number beside a triangle. */
+SMEAR_AVX2_INLINE __m256i v8_encoded(__m256i light)
+{
+    return (__m256i)lanes8_encode((lanes8)lanes8i_min((lanes8i)((lanes8)light >> 18), lanes8i_word(LANES8_4095)));
+}
+
 SMEAR_AVX2_INLINE struct lit_pairs v8_shaded(const struct tiny8 *s, const struct tiny8_look *l, __m256i triangle, __m256i weight)
 {
     const __m256i w = _mm256_srli_epi16(weight, 2), r = v8_mixed(s, 0, triangle, w), g = v8_mixed(s, 1, triangle, w);
     const __m256i b = v8_mixed(s, 2, triangle, w);
     if (l->linear)
-        return (struct lit_pairs){ v8_pair(lit_encoded(_mm256_srli_epi32(b, 18)), lit_encoded(_mm256_srli_epi32(r, 18))),
-                                   lit_encoded(_mm256_srli_epi32(g, 18)) };
+        return (struct lit_pairs){ v8_pair(v8_encoded(b), v8_encoded(r)), v8_encoded(g) };
     const __m256i half = v8_all(1 << 21);
     return (struct lit_pairs){ v8_pair(_mm256_srli_epi32(v8_add(b, half), 22), _mm256_srli_epi32(v8_add(r, half), 22)),
                                _mm256_srli_epi32(v8_add(g, half), 22) };

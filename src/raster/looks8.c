@@ -136,7 +136,7 @@ SMEAR_AVX2_INLINE lanes8i flat8(const struct faces8 *f, int word)
 SMEAR_AVX2_INLINE lanes8 color8(const struct values8 value[3], bool linear)
 {
     const lanes8 r = (lanes8)value[0].at[0], g = (lanes8)value[1].at[0], b = (lanes8)value[2].at[0];
-    return linear ? (lanes8_encode(r >> 12) << 8 | lanes8_encode(g >> 12)) << 8 | lanes8_encode(b >> 12)
+    return linear ? lanes8_encode_pixels(r >> 12, g >> 12, b >> 12)
                   : (r & 0xff0000u) | (g >> 8 & 0xff00u) | b >> 16;
 }
 
