@@ -3,6 +3,7 @@
  * pixels of a row. */
 #include "kernels/flat_face.h"
 
+#include "kernels/edge_lanes.h"
 #include "kernels/wide8.h"
 
 #if SMEAR_AVX2
@@ -26,39 +27,21 @@ SMEAR_AVX2_INLINE bool face_is_bent(const struct face_sides *s) { return s->knee
 
 /* A side as edge_start makes it, but that steps may lack as much where they are positive. x: of its upper end, half a pixel to the
  * right; down: from there to the centres of the row below it, both q8 px; rows: from that one to the first. */
+SMEAR_AVX2_INLINE void side_make(uint64_t *at, uint64_t *along, int32_t x, int32_t dx, int32_t dy, int32_t down, int32_t rows)
+{
+    const int64_t step = dx * ((int64_t)1 << 42) / dy - 1, first = x * ((int64_t)1 << 34) + (step >> 8) * down - 1;
+    *at = (uint64_t)first + (uint64_t)step * (uint64_t)(int64_t)rows;
+    *along = (uint64_t)step;
+}
+
 SMEAR_AVX2_INLINE void face_side(struct face_sides *s, int side, int32_t x, int32_t dx, int32_t dy, int32_t down, int32_t rows)
 {
-    const int64_t step = dx * ((int64_t)1 << 42) / dy - 1, at = x * ((int64_t)1 << 34) + (step >> 8) * down - 1;
-    s->x[side] = (uint64_t)at + (uint64_t)step * (uint64_t)(int64_t)rows;
-    s->step[side] = (uint64_t)step;
+    side_make(&s->x[side], &s->step[side], x, dx, dy, down, rows);
 }
 
-/* Places of a side in rows 0 1 4 5 and 2 3 6 7 of eight: their upper halves are in order, then. */
-struct face_walk {
-    __m256i first, second, step;    /* step: of eight rows */
-};
-
-SMEAR_AVX2_INLINE struct face_walk face_walk_start(const struct face_sides *s, int side)
+SMEAR_AVX2_INLINE struct edge_lanes face_walk_start(const struct face_sides *s, int side)
 {
-    static const int64_t odd[4] = { 0, -1, 0, -1 }, last[4] = { 0, 0, -1, -1 };
-    const __m256i step = _mm256_set1_epi64x((int64_t)s->step[side]);
-    const __m256i apart = _mm256_add_epi64(_mm256_and_si256(step, face_load(odd)),
-                                           _mm256_and_si256(_mm256_slli_epi64(step, 2), face_load(last)));
-    const __m256i first = _mm256_add_epi64(_mm256_set1_epi64x((int64_t)s->x[side]), apart);
-    return (struct face_walk){ first, _mm256_add_epi64(first, _mm256_slli_epi64(step, 1)), _mm256_slli_epi64(step, 3) };
-}
-
-/* The pixels of eight rows. */
-SMEAR_AVX2_INLINE lanes8i face_walk_pixels(const struct face_walk *w)
-{
-    const __m256 high = _mm256_shuffle_ps(_mm256_castsi256_ps(w->first), _mm256_castsi256_ps(w->second), 0xdd);
-    return (lanes8i)_mm256_castps_si256(high) >> 10;
-}
-
-SMEAR_AVX2_INLINE void face_walk_next(struct face_walk *w)
-{
-    w->first = _mm256_add_epi64(w->first, w->step);
-    w->second = _mm256_add_epi64(w->second, w->step);
+    return edge_lanes_start(s->x[side], s->step[side]);
 }
 
 /* ------------------------------------------------------------------ rows */
@@ -100,7 +83,7 @@ struct face_rows {
 SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sides *s, const struct face_area *a,
                                       const struct face_look *look, bool bent)
 {
-    struct face_walk whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = above;
+    struct edge_lanes whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = above;
     const lanes8 dz = lanes8_all(look->dz), z_down = lanes8_all(8 * look->dz_down);
     lanes8 z = lanes8_ramp(look->z, look->dz_down, lanes8_numbers());
     lanes8 at = lanes8_all((uint32_t)(s->row * a->stride)) + a->rows;
@@ -109,8 +92,8 @@ SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sid
     if (bent)
         below = face_walk_start(s, FACE_BELOW);
     for (int32_t i = 0;; z += z_down, at += a->rows_down, rest -= lanes8i_word(LANES8_8)) {
-        const lanes8i side = face_walk_pixels(&whole), up = face_walk_pixels(&above);
-        const lanes8i part = bent ? lanes8i_choose(rest > 0, up, face_walk_pixels(&below)) : up;
+        const lanes8i side = edge_lanes_pixels(&whole), up = edge_lanes_pixels(&above);
+        const lanes8i part = bent ? lanes8i_choose(rest > 0, up, edge_lanes_pixels(&below)) : up;
         const lanes8i left = lanes8i_max(lanes8i_min(side, part), a->x0), right = lanes8i_min(lanes8i_max(side, part), a->x1);
         const lanes8i from = lanes8i_min(left, a->x_most), pixels = (lanes8i)((lanes8)right - (lanes8)from);
         some |= (uint64_t)lanes8i_signs(right > left) << i;
@@ -124,10 +107,10 @@ SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sid
         i += 8;
         if (i >= s->n)
             break;
-        face_walk_next(&whole);
-        face_walk_next(&above);
+        edge_lanes_next(&whole);
+        edge_lanes_next(&above);
         if (bent)
-            face_walk_next(&below);
+            edge_lanes_next(&below);
     }
     some &= UINT64_MAX >> (FLAT_FACE_ROWS - s->n);
     r->many = some & many;
@@ -267,6 +250,42 @@ SMEAR_AVX2_FUNCTION void smear_flat_face_avx2(const struct flat_area *a, const s
         face_side(&s, s.knee > 0 ? FACE_BELOW : FACE_ABOVE, c.middle[0] + 128, c.bottom[0] - c.middle[0], c.bottom[1] - c.middle[1],
                   down_middle, -s.knee);
     const struct face_look look = { f->z + f->dz_down * (uint32_t)s.row, f->dz, f->dz_down, f->color };
+    const struct face_area area = face_area_of(a);
+    face_draw(&s, &area, &look, f->breaks);
+}
+
+/* ------------------------------------------------------------------ a face that goes on */
+
+SMEAR_AVX2_FUNCTION void smear_flat_carry_avx2(struct flat_carried *f, const int32_t *const corner[3], int32_t y)
+{
+    struct corners c;
+    corners_find(&c, corner, y, INT16_MAX);
+    const int32_t first = (c.top[1] + 127) >> 8, knee = (c.middle[1] + 127) >> 8, down = first * 256 + 128 - c.top[1];
+    f->y = y;
+    f->knee = knee;
+    side_make(&f->x[FACE_LONG], &f->step[FACE_LONG], c.top[0] + 128, c.bottom[0] - c.top[0], c.bottom[1] - c.top[1], down, y - first);
+    if (knee > y)
+        side_make(&f->x[FACE_ABOVE], &f->step[FACE_ABOVE], c.top[0] + 128, c.middle[0] - c.top[0], c.middle[1] - c.top[1], down,
+                  y - first);
+    if (c.bottom[1] > c.middle[1])
+        side_make(&f->x[FACE_BELOW], &f->step[FACE_BELOW], c.middle[0] + 128, c.bottom[0] - c.middle[0], c.bottom[1] - c.middle[1],
+                  knee * 256 + 128 - c.middle[1], y - knee);
+}
+
+SMEAR_AVX2_FUNCTION void smear_flat_carried_avx2(const struct flat_area *a, const struct flat_carried *f, int32_t y, int32_t end)
+{
+    const uint64_t rows = (uint64_t)(int64_t)(y - f->y);
+    struct face_sides s = { .row = y - a->y0, .n = end - y, .knee = f->knee - y };
+    s.x[FACE_LONG] = f->x[FACE_LONG] + f->step[FACE_LONG] * rows;
+    s.step[FACE_LONG] = f->step[FACE_LONG];
+    const int above = s.knee > 0 ? FACE_ABOVE : FACE_BELOW;
+    s.x[FACE_ABOVE] = f->x[above] + f->step[above] * rows;
+    s.step[FACE_ABOVE] = f->step[above];
+    if (face_is_bent(&s)) {
+        s.x[FACE_BELOW] = f->x[FACE_BELOW] + f->step[FACE_BELOW] * rows;
+        s.step[FACE_BELOW] = f->step[FACE_BELOW];
+    }
+    const struct face_look look = { f->z + f->dz_down * (uint32_t)rows, f->dz, f->dz_down, f->color };
     const struct face_area area = face_area_of(a);
     face_draw(&s, &area, &look, f->breaks);
 }

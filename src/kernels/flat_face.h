@@ -58,6 +58,20 @@ static inline void flat_face_reference(const struct flat_area *a, const struct f
 /* The same where columns are FLAT_FACE_LEAST at least: they may be written as they are. */
 void smear_flat_face_avx2(const struct flat_area *a, const struct flat_face *f);
 
+/* A face from some row on, which has been made ready for that and those below: corners are not looked at again. */
+struct flat_carried {
+    uint64_t x[3], step[3];         /* sides in that row: px q42, as in struct edge_walk. The long one, and that above the middle
+                                     * corner and below it; where no rows lie above, both are that below */
+    int32_t y, knee;                /* the row, and the first one below the middle corner */
+    uint32_t z, dz, dz_down, color; /* as above, in row y */
+    bool breaks;
+};
+
+/* Makes its sides; row y lies below the top corner. Then draws it in rows [y, end) of the area, FLAT_FACE_ROWS at most, none above
+ * row f->y or below the bottom corner. */
+void smear_flat_carry_avx2(struct flat_carried *f, const int32_t *const corner[3], int32_t y);
+void smear_flat_carried_avx2(const struct flat_area *a, const struct flat_carried *f, int32_t y, int32_t end);
+
 /* Eight of them, of which corners tell what is here. Sides: from the top to the bottom, to the middle, and from there. */
 struct flat_eight {
     int32_t row[8], n[8];           /* the first row, from y0 on, and how many there are, or less than none */

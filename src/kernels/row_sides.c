@@ -19,14 +19,45 @@ SMEAR_AVX2_INLINE void store_sides(struct span_side *side, __m256i left, __m256i
     _mm256_storeu_si256(out + 2, _mm256_blend_epi32(_mm256_blend_epi32(l, r, 0x49), e, 0x92));
 }
 
+/* Rows in which the short side has a bend, where `bent`; else it is `part`. Of the two sides the lesser one is the left one. */
+SMEAR_AVX2_INLINE void sides_find(struct span_side *side, int32_t n, int32_t width, const struct edge_walk *whole,
+                                  const struct edge_walk *part, const struct edge_walk *below, int32_t upper, bool bent)
+{
+    struct edge_lanes a = edge_lanes_start(whole->x, whole->step), b = edge_lanes_start(part->x, part->step), c = b;
+    const lanes8i zero = lanes8i_all(0), most = lanes8i_all(width);
+    lanes8i rest = lanes8i_all(upper) - lanes8i_numbers();
+    if (bent)
+        c = edge_lanes_start(below->x, below->step);
+    for (;; side += 8, rest -= 8) {
+        const lanes8i one = edge_lanes_pixels(&a), up = edge_lanes_pixels(&b);
+        const lanes8i other = bent ? lanes8i_choose(rest > 0, up, edge_lanes_pixels(&c)) : up;
+        const lanes8i edge = lanes8i_max(one, other);
+        store_sides(side, (__m256i)lanes8i_max(lanes8i_min(one, other), zero), (__m256i)lanes8i_min(edge, most), (__m256i)edge);
+        n -= 8;
+        if (n <= 0)
+            return;
+        edge_lanes_next(&a);
+        edge_lanes_next(&b);
+        if (bent)
+            edge_lanes_next(&c);
+    }
+}
+
 SMEAR_AVX2_FUNCTION void smear_row_sides_avx2(struct span_side *side, const struct corners *c, int32_t y, int32_t n, int32_t width)
 {
-    int32_t left[ROW_SIDES + 16], right[ROW_SIDES + 16];
-    const __m256i zero = _mm256_setzero_si256(), most = _mm256_set1_epi32(width);
-    corners_sides(left, right, c, y, n);
-    for (int32_t i = 0; i < n; i += 8) {
-        const __m256i edge = (__m256i)lanes8i_load(right + i);
-        store_sides(side + i, _mm256_max_epi32((__m256i)lanes8i_load(left + i), zero), _mm256_min_epi32(edge, most), edge);
+    const int32_t upper = c->knee - y;
+    struct edge_walk whole, part, below;
+    edge_start(&whole, c->top, c->bottom, y);
+    if (upper <= 0)
+        edge_start(&part, c->middle, c->bottom, y);
+    else
+        edge_start(&part, c->top, c->middle, y);
+    if (upper <= 0 || upper >= n) {
+        sides_find(side, n, width, &whole, &part, &part, 0, false);
+        return;
     }
+    edge_start(&below, c->middle, c->bottom, c->knee);
+    below.x -= below.step * (uint32_t)upper;
+    sides_find(side, n, width, &whole, &part, &below, upper, true);
 }
 #endif

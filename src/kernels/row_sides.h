@@ -3,6 +3,7 @@
 #ifndef SMEAR_KERNELS_ROW_SIDES_H
 #define SMEAR_KERNELS_ROW_SIDES_H
 
+#include "kernels/avx2.h"
 #include "kernels/corners.h"
 #include "kernels/edge_walk.h"
 #include "kernels/span_side.h"

@@ -22,14 +22,14 @@ struct down_lanes {
     __m256i at, step, change;
 };
 
-SMEAR_AVX2_INLINE void down_start(struct down_lanes *d, const struct texel_curve *c, __m256i x, uint32_t y)
+/* x and y: of eight pixels, from where the polynomial counts. */
+SMEAR_AVX2_INLINE void down_start(struct down_lanes *d, const struct texel_curve *c, lanes8 x, lanes8 y)
 {
-    const __m256i along = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(c->dx + c->dxy * y)),
-                                           _mm256_mullo_epi32(_mm256_set1_epi32((int32_t)c->dxx), x));
-    d->at = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(c->at + y * (c->dy + c->dyy * y))), _mm256_mullo_epi32(along, x));
-    d->step = _mm256_add_epi32(_mm256_set1_epi32((int32_t)(c->dy + c->dyy * (2 * y + 1))),
-                               _mm256_mullo_epi32(_mm256_set1_epi32((int32_t)c->dxy), x));
-    d->change = _mm256_set1_epi32((int32_t)(2 * c->dyy));
+    const lanes8 mixed = lanes8_all(c->dxy), bend = lanes8_all(c->dyy), down = y * bend;
+    const lanes8 along = lanes8_all(c->dx) + mixed * y + lanes8_all(c->dxx) * x;
+    d->at = (__m256i)(lanes8_all(c->at) + y * (lanes8_all(c->dy) + down) + along * x);
+    d->step = (__m256i)(lanes8_all(c->dy + c->dyy) + down + down + mixed * x);
+    d->change = (__m256i)(bend + bend);
 }
 
 SMEAR_AVX2_INLINE void down_step(struct down_lanes *d)
@@ -138,8 +138,9 @@ SMEAR_AVX2_INLINE void draw_column(const struct texel_lanes *k, const struct tex
     const ptrdiff_t stride = k->stride;
     ptrdiff_t at = i * stride;
     r.row = i;
-    down_start(&u, &p->u, _mm256_sub_epi32(column, _mm256_set1_epi32(p->x0)), (uint32_t)(i - p->y0));
-    down_start(&v, &p->v, _mm256_sub_epi32(column, _mm256_set1_epi32(p->x0)), (uint32_t)(i - p->y0));
+    const lanes8 x_from = (lanes8)column - lanes8_all((uint32_t)p->x0), y_from = lanes8_all((uint32_t)(i - p->y0));
+    down_start(&u, &p->u, x_from, y_from);
+    down_start(&v, &p->v, x_from, y_from);
     if (look == LOOK_LIT_USUAL)
         lit_down_start(&light, &k->lit, x, i);
     const int16_t *const left = rows->left + end, *const right = rows->right + end;
