@@ -240,24 +240,48 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
 #if SMEAR_AVX2
 SMEAR_STATIC_ASSERT(SPAN_ROWS % 8 == 0 && (int)SPAN_ROWS <= (int)ROW_SIDES, "sides are found by eights");
 
-/* Rows whose sides a kernel finds, of both parts at once. */
-static SMEAR_NOINLINE void cover_rows_lanes(const struct setup *s, smear_rows_fn *draw, bool cut)
+/* Rows [c->first, c->end) whose sides a kernel finds, of both parts at once. */
+SMEAR_INLINE void cover_rows_between(const struct setup *s, const struct corners *c, smear_rows_fn *draw, bool cut)
 {
     const struct smear_raster_target *t = s->target;
-    struct corners c;
     struct gather g;
-    corners_find(&c, s->v, t->y0, t->y1);
-    if (c.first >= c.end)
-        return;
-    gather_start(&g, s, c.first);
+    gather_start(&g, s, c->first);
     g.rows.cut = cut;
-    while (g.rows.y < c.end) {
-        const int32_t n = min_i32(min_i32(c.end - g.rows.y, SPAN_ROWS), t->window_rows.ring - g.ring_row);
-        smear_row_sides_avx2(g.rows.side, &c, g.rows.y, n, s->frame->width);
+    while (g.rows.y < c->end) {
+        const int32_t n = min_i32(min_i32(c->end - g.rows.y, SPAN_ROWS), t->window_rows.ring - g.ring_row);
+        smear_row_sides_avx2(g.rows.side, c, g.rows.y, n, s->frame->width);
         g.rows.count = n;
         g.ring_row += n;
         gather_draw(&g, s, draw);
     }
+}
+
+static SMEAR_NOINLINE void cover_rows_lanes(const struct setup *s, smear_rows_fn *draw, bool cut)
+{
+    struct corners c;
+    corners_find(&c, s->v, s->target->y0, s->target->y1);
+    cover_rows_between(s, &c, draw, cut);
+}
+
+int smear_cover_order(const struct setup *s) { return corners_order(s->v); }
+
+void smear_cover_on(const struct setup *s, int order, int32_t bottom, bool cut)
+{
+    const struct smear_raster_target *t = s->target;
+    const struct smear_plane_rows *w = &t->window_rows;
+    struct corners c;
+    corners_ordered(&c, s->v, order, t->y0, bottom);
+    if (bottom - t->y0 > SPAN_ROWS || w->ring_row + (bottom - t->y0) > w->ring) {
+        cover_rows_between(s, &c, s->rows, cut);
+        return;
+    }
+    struct span_rows r;
+    r.y = t->y0;
+    r.count = bottom - t->y0;
+    r.cut = cut;
+    r.at = w->ring_row * w->stride - w->x0;
+    smear_row_sides_avx2(r.side, &c, r.y, r.count, s->frame->width);
+    s->rows(s, &r);
 }
 #endif
 
@@ -449,6 +473,20 @@ static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct 
             ring_row = 0;
     }
 }
+
+void smear_cover_carry(const struct setup *s, struct flat_carried *f, int32_t y)
+{
+    const struct smear_raster_target *t = s->target;
+    const bool breaks = s->slope == SLOPE_BOTH;
+    smear_flat_carry_avx2(f, s->v, y);
+    const int32_t units = plane_at(&s->depth, 0, y);
+    f->z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope);
+    f->dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope));
+    f->dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope));
+    f->color = target_pixel(t, s->color);
+    f->breaks = breaks;
+}
+
 #endif
 
 #if SMEAR_ASM_ARMV6M

@@ -48,4 +48,18 @@ static inline void smear_cover_choose(struct setup *s, bool small)
  * rows. */
 void smear_cover(const struct setup *s, const struct pixel_box *box, bool small);
 
+#if SMEAR_AVX2
+struct flat_carried;
+
+/* Makes a flat triangle ready that is not small and has no velocity, for its rows from y on. */
+void smear_cover_carry(const struct setup *s, struct flat_carried *f, int32_t y);
+
+/* Tells which corner of a triangle is the topmost, and so on. */
+int smear_cover_order(const struct setup *s);
+
+/* Draws the target's rows up to `bottom` of one that has rows above them, and is not small, by `s->rows`. `cut`: columns of the
+ * target may cut them off. */
+void smear_cover_on(const struct setup *s, int order, int32_t bottom, bool cut);
+#endif
+
 #endif

@@ -5,14 +5,46 @@
 #ifndef SMEAR_RASTER_KEPT_H
 #define SMEAR_RASTER_KEPT_H
 
-#include "kernels/kernels.h"
-#include "raster/setup.h"
+#include "kernels/flat_face.h"
+#include "raster/lane_carried.h"
+
+/* They are a list where vectors draw (kept_list.h); else a table, which takes less code. */
+#define SMEAR_KEPT_LISTS SMEAR_AVX2
 
 /* Before the words of a setup. In memory of its own, between the pool's vertices and triangles (draws.c). */
 struct kept {
     uint32_t triangle;
+#if SMEAR_KEPT_LISTS
+    int16_t end;                /* row of the frame behind its last one */
+    uint16_t next;              /* in the list; 0: none */
+    uint8_t kind;               /* kept_kind */
+    uint8_t order;              /* of corners: corners_order() */
+    bool cut;                   /* the target's columns may cut its rows off */
+#else
     int32_t end;                /* row of the frame behind its last one */
+#endif
 };
+
+#if SMEAR_KEPT_LISTS
+enum kept_kind {
+    KEPT_SETUP,
+    KEPT_ROWS,                  /* a setup of which nothing but rows is drawn, by its `rows` */
+    KEPT_FACE,                  /* in place of a setup, sides of one colour */
+    KEPT_TEXELS                 /* or what copied texels need */
+};
+
+struct kept_face {
+    struct kept kept;
+    struct flat_carried face;
+};
+
+#if SMEAR_LANE_ROWS
+struct kept_texels {
+    struct kept kept;
+    struct texel_carried texels;
+};
+#endif
+#endif
 
 static inline uint32_t *kept_setup(struct kept *k) { return (uint32_t *)(void *)(k + 1); }
 
@@ -29,6 +61,9 @@ static inline size_t kept_bytes(const struct smear_segment *s)
         bytes += KEPT_BYTES(channel, area_recip);
     if (segment_moves(s) != 0)
         bytes += sizeof(struct setup) - offsetof(struct setup, area_recip);
+#if SMEAR_KEPT_LISTS
+    bytes = ((bytes > sizeof(struct kept_face) ? bytes : sizeof(struct kept_face)) + 7) & ~(size_t)7;
+#endif
     return bytes;
 }
 
@@ -90,7 +125,11 @@ SMEAR_INLINE void kept_copy(struct setup *s, uint32_t *kept, bool back)
 static inline void kept_keep(struct kept *k, struct setup *s, uint32_t triangle, int32_t end)
 {
     k->triangle = triangle;
+#if SMEAR_KEPT_LISTS
+    k->end = (int16_t)end;
+#else
     k->end = end;
+#endif
     kept_copy(s, kept_setup(k), false);
 }
 

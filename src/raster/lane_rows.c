@@ -2,14 +2,15 @@
 /* lane_rows.c - texels in rows of a triangle, copied or lit, by vectors of eight and sixteen pixels. */
 #include "raster/texture_rows.h"
 
+#include "kernels/row_sides.h"
+#include "raster/lane_carried.h"
 #include "raster/lane_spans.h"
 
 #if SMEAR_LANE_ROWS
 
-static void texel_rows_start(struct texel_rows *t, const struct setup *s, const struct span_rows *r)
+static inline void texel_rows_start(struct texel_rows *t, const struct smear_raster_target *target, const struct smear_sampler *m,
+                                    int32_t at)
 {
-    const struct smear_raster_target *target = s->target;
-    const struct smear_sampler *m = &s->draw->sampler;
     SMEAR_ASSERT(target->x1 - target->x0 >= TEXEL_ROWS_LEAST);
     t->texels = m->texels;
     t->lights = NULL;
@@ -17,8 +18,8 @@ static void texel_rows_start(struct texel_rows *t, const struct setup *s, const 
     t->log2_width = m->log2_width;
     t->log2_height = m->log2_height;
     t->narrow = target_is_direct(target);
-    t->color = t->narrow ? (void *)(target->direct + r->at) : target->color + r->at;
-    t->depth = target->depth + r->at;
+    t->color = t->narrow ? (void *)(target->direct + at) : target->color + at;
+    t->depth = target->depth + at;
     t->stride = target->window_rows.stride;
     t->x0 = target->x0;
     t->x1 = target->x1;
@@ -81,7 +82,7 @@ SMEAR_INLINE void draw_rows(const struct setup *s, const struct span_rows *r, co
     struct texel_lights lights;
     struct texel_wraps wraps;
     struct row_run p;
-    texel_rows_start(&t, s, r);
+    texel_rows_start(&t, s->target, &s->draw->sampler, r->at);
     if (look != ROWS_COPIED) {
         lights_start(&lights, s, r->y);
         t.lights = &lights;
@@ -119,18 +120,28 @@ static void draw_curves(const struct texel_rows *t, const struct texel_spans *sp
     smear_texel_rows_curves_avx2(t, spans, (const struct texel_curves *)coordinates);
 }
 
+static inline struct texel_planes planes_from(const struct texture_setup *t, int32_t y)
+{
+    return (struct texel_planes){ plane_from(&t->q, y), plane_from(&t->uv[0], y), plane_from(&t->uv[1], y),
+                                  t->slope, t->block, t->up, t->mode == TEXTURE_DIVIDED, t->parabolic };
+}
+
 SMEAR_INLINE void places_draw(const struct setup *s, const struct span_rows *r, enum rows_look look)
 {
-    const struct texture_setup *t = &s->texture;
-    const struct texel_planes p = { plane_from(&t->q, r->y), plane_from(&t->uv[0], r->y), plane_from(&t->uv[1], r->y),
-                                    t->slope, t->block, t->up, t->mode == TEXTURE_DIVIDED, t->parabolic };
+    const struct texel_planes p = planes_from(&s->texture, r->y);
     draw_rows(s, r, &p, draw_places, look);
 }
 
-static struct texel_curve curve_from(const struct curve *c)
+SMEAR_STATIC_ASSERT(sizeof(struct curve) == sizeof(struct texel_curve) && offsetof(struct curve, dyy) == offsetof(struct texel_curve, dyy)
+                        && offsetof(struct texel_curves, v) == offsetof(struct texel_curves, u) + sizeof(struct curve),
+                    "curves are copied");
+
+SMEAR_INLINE void curves_from(struct texel_curves *p, const struct texture_setup *t, int32_t y)
 {
-    return (struct texel_curve){ (uint32_t)c->at, (uint32_t)c->dx, (uint32_t)c->dy,
-                                 (uint32_t)c->dxx, (uint32_t)c->dxy, (uint32_t)c->dyy };
+    p->x0 = t->x0;
+    p->y0 = t->y0 - y;
+    p->block = t->block;
+    __builtin_memcpy(&p->u, t->curve, sizeof t->curve);
 }
 
 SMEAR_STATIC_ASSERT((int)SPAN_ROWS == (int)TEXEL_SIDES, "rows are columns' sides");
@@ -144,7 +155,7 @@ SMEAR_INLINE void draw_columns(const struct setup *s, const struct span_rows *r,
     };
     struct texel_rows t;
     struct texel_lights lights;
-    texel_rows_start(&t, s, r);
+    texel_rows_start(&t, s->target, &s->draw->sampler, r->at);
     if (lit) {
         lights_start(&lights, s, r->y);
         t.lights = &lights;
@@ -154,8 +165,8 @@ SMEAR_INLINE void draw_columns(const struct setup *s, const struct span_rows *r,
 
 SMEAR_INLINE void curves_draw(const struct setup *s, const struct span_rows *r, enum rows_look look)
 {
-    const struct texture_setup *t = &s->texture;
-    const struct texel_curves p = { t->x0, t->y0 - r->y, curve_from(&t->curve[0]), curve_from(&t->curve[1]), t->block };
+    struct texel_curves p;
+    curves_from(&p, &s->texture, r->y);
     if (look != ROWS_WRAPPED && rows_are_whole(s, r) && !(look == ROWS_LIT && lights_have_blocks(s)))
         draw_columns(s, r, &p, look == ROWS_LIT);
     else
@@ -191,5 +202,64 @@ smear_rows_fn *smear_lane_rows_choose(const struct setup *s)
     if (s->texture.mode == TEXTURE_CURVED)
         return texels_are_copied(s) ? lane_curves : lane_curves_lit;
     return texels_are_copied(s) ? lane_places : lane_places_lit;
+}
+
+/* ------------------------------------------------------------------ rows of a triangle that goes on */
+
+bool smear_lane_carry(struct texel_carried *c, const struct setup *s, int32_t y, bool cut)
+{
+    const bool curved = s->rows == lane_curves;
+    if ((!curved && s->rows != lane_places) || !rows_are_plain(s) || (curved && cut))
+        return false;
+    c->y = y;
+    c->z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
+    c->dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    c->dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    c->curved = curved;
+    if (curved)
+        curves_from(&c->at.curves, &s->texture, y);
+    else
+        c->at.planes = planes_from(&s->texture, y);
+    return true;
+}
+
+static inline void plane_go(struct texel_plane *p, int32_t rows) { p->at = add_wrap(p->at, mul_wrap(p->dy, rows)); }
+
+/* Goes on to row y. */
+static inline void carried_go(struct texel_carried *c, int32_t y)
+{
+    const int32_t rows = y - c->y;
+    c->y = y;
+    c->z += c->dz_down * (uint32_t)rows;
+    if (c->curved) {
+        c->at.curves.y0 -= rows;
+        return;
+    }
+    plane_go(&c->at.planes.q, rows);
+    plane_go(&c->at.planes.u, rows);
+    plane_go(&c->at.planes.v, rows);
+}
+
+void smear_lane_carried(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *sampler,
+                        const struct corners *corners, int32_t width)
+{
+    const struct smear_plane_rows *const w = &target->window_rows;
+    struct span_side side[SPAN_ROWS];
+    struct texel_spans spans;
+    struct texel_rows t;
+    for (int32_t y = corners->first, n; y < corners->end; y += n) {
+        const int32_t ring_row = w->ring_row + (y - target->y0), turned = ring_row >= w->ring ? ring_row - w->ring : ring_row;
+        n = min_i32(min_i32(corners->end - y, SPAN_ROWS), w->ring - turned);
+        carried_go(c, y);
+        texel_rows_start(&t, target, sampler, turned * w->stride - w->x0);
+        smear_row_sides_avx2(side, corners, y, n, width);
+        if (c->curved) {
+            const struct texel_sides sides = { side, n, c->z, c->dz, c->dz_down };
+            smear_texel_columns_avx2(&t, &sides, &c->at.curves);
+            continue;
+        }
+        spans_of_sides(&spans, side, n, target, c->z, c->dz, c->dz_down);
+        smear_texel_rows_places_avx2(&t, &spans, &c->at.planes);
+    }
 }
 #endif

@@ -15,15 +15,14 @@ static inline struct texel_plane plane_from(const struct plane *p, int32_t y)
 /* Whether spans_of_rows() finds all spans: rows lie in one slope of the depth code, and velocities are not written. */
 static inline bool rows_are_plain(const struct setup *s) { return s->slope != SLOPE_BOTH && !s->writes_velocity; }
 
-/* All rows, where they are plain. */
-static inline void spans_of_rows(struct texel_spans *spans, const struct setup *s, const struct span_rows *r)
+/* All rows of plain ones, from pixel 0 of the first of which depth codes are z. */
+static inline void spans_of_sides(struct texel_spans *spans, const struct span_side *side, int32_t rows,
+                                  const struct smear_raster_target *t, uint32_t z, uint32_t dz, uint32_t down)
 {
-    const uint32_t down = (uint32_t)step_from_units(s->depth.dy, s->slope), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
-    const int32_t rows = r->count, x0 = s->target->x0, x1 = s->target->x1;
+    const int32_t x0 = t->x0, x1 = t->x1;
     int32_t i = 0;
     for (int32_t row = 0; row < rows; row++, z += down) {
-        const int32_t left = r->side[row].left, right = r->side[row].right;
+        const int32_t left = side[row].left, right = side[row].right;
         spans->row[i] = row;
         spans->left[i] = left;
         spans->right[i] = right;
@@ -34,6 +33,12 @@ static inline void spans_of_rows(struct texel_spans *spans, const struct setup *
         i += spans->a[i] < spans->b[i];
     }
     spans->count = i;
+}
+
+static inline void spans_of_rows(struct texel_spans *spans, const struct setup *s, const struct span_rows *r)
+{
+    spans_of_sides(spans, r->side, r->count, s->target, code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
+                   (uint32_t)step_from_units(s->depth.dx, s->slope), (uint32_t)step_from_units(s->depth.dy, s->slope));
 }
 
 /* Adds a run of a row; there is room. */

@@ -6,7 +6,7 @@
 #include "raster/cover_texels.h"
 #include "raster/cover_tiny8.h"
 #include "raster/fog.h"
-#include "raster/kept.h"
+#include "raster/kept_list.h"
 #include "raster/span.h"
 #include "raster/tiny_list.h"
 
@@ -21,13 +21,29 @@ static inline struct kept *entry_at(const struct smear_raster_cache *cache, uint
 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
 {
+#if SMEAR_KEPT_LISTS
+    uint32_t entry_bytes = sizeof(struct kept_face);
+#else
     uint32_t entry_bytes = sizeof(struct kept);
+#endif
     for (uint32_t i = 0; i < bins->segment_count; i++)
         entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
+#if SMEAR_KEPT_LISTS
+    const size_t odd = (0u - (uintptr_t)memory) & 7u;       /* lists and sides have words of 64 bits */
+    memory = (uint8_t *)memory + odd;
+    bytes = bytes < odd ? 0 : bytes - odd;
+#endif
     const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
     const struct smear_raster_cache cache = { memory, (uint16_t)entries, (uint16_t)entry_bytes };
+#if SMEAR_KEPT_LISTS
+    for (int i = 0; i < count && entries != 0; i++) {
+        const struct smear_raster_cache part = smear_raster_cache_of(&cache, i);
+        kept_list_clear(&part);
+    }
+#else
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
         entry_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
+#endif
     return cache;
 }
 
@@ -36,6 +52,53 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
     return (struct smear_raster_cache){ entry_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
 }
 
+static inline bool has_levels(const struct setup *s)
+{
+    return SMEAR_WITH_TEXTURE && SMEAR_WITH_BOUNDS && segment_textured(s->segment) && s->draw->sampler.levels != 0;
+}
+
+#if SMEAR_KEPT_LISTS
+/* What is kept of a triangle that continues rows above the target's or goes on below them; null for others, and where there is
+ * nothing. */
+static inline struct kept *find_kept(const struct smear_raster_target *target, uint32_t triangle, bool continues, bool goes_on,
+                                     bool *known)
+{
+    struct kept *const k = target->cache.entries != 0 && (continues || goes_on) ? kept_find(&target->cache, triangle) : NULL;
+    *known = k != NULL;
+    return k;
+}
+
+/* It has been taken. */
+static inline void leave_kept(const struct smear_raster_target *target, struct kept *k, bool goes_on)
+{
+    if (goes_on)
+        kept_pass(&target->cache, k);
+    else
+        kept_drop(&target->cache);
+}
+
+/* Keeps a setup; again, where something is kept. */
+static inline void keep(const struct smear_raster_target *target, struct kept *k, struct setup *s, uint32_t triangle,
+                        const struct pixel_box *box, int32_t end, bool small)
+{
+    if (k == NULL)
+        k = kept_add(&target->cache, triangle);
+    if (k == NULL)
+        return;
+    const bool rows = s->rows != NULL && !small && !target_has_velocity(target);
+    k->kind = rows ? KEPT_ROWS : KEPT_SETUP;
+    k->order = rows ? (uint8_t)smear_cover_order(s) : 0;
+    k->cut = max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1;
+#if SMEAR_LANE_ROWS
+    if (rows && !has_levels(s) && smear_lane_carry(&((struct kept_texels *)(void *)k)->texels, s, target->y1, k->cut)) {
+        k->kind = KEPT_TEXELS;
+        k->end = (int16_t)end;
+        return;
+    }
+#endif
+    kept_keep(k, s, triangle, end);
+}
+#else
 enum { PROBES = 16 };
 
 /* Whether an entry keeps nothing that rows from the target's on need. */
@@ -46,8 +109,8 @@ static inline bool entry_is_free(const struct kept *entry, const struct smear_ra
 
 /* The entry of a triangle that continues rows above the target's or goes on below them; null for others, and where all
  * entries that it may have are others' still. `known`: it holds the triangle's setup. */
-static inline struct kept *cache_find(const struct smear_raster_target *target, uint32_t triangle,
-                                      bool continues, bool goes_on, bool *known)
+static inline struct kept *find_kept(const struct smear_raster_target *target, uint32_t triangle,
+                                     bool continues, bool goes_on, bool *known)
 {
     *known = false;
     if (!SMEAR_RASTER_CACHE || target->cache.entries == 0 || !(continues || goes_on))
@@ -70,6 +133,24 @@ static inline struct kept *cache_find(const struct smear_raster_target *target, 
     }
     return goes_on ? free : NULL;
 }
+
+static inline void leave_kept(const struct smear_raster_target *target, struct kept *k, bool goes_on)
+{
+    (void)target;
+    if (!goes_on)
+        k->triangle = SMEAR_NO_TRIANGLE;
+}
+
+static inline void keep(const struct smear_raster_target *target, struct kept *k, struct setup *s, uint32_t triangle,
+                        const struct pixel_box *box, int32_t end, bool small)
+{
+    (void)target;
+    (void)box;
+    (void)small;
+    if (k != NULL)
+        kept_keep(k, s, triangle, end);
+}
+#endif
 
 static inline struct bounds bounds_of(const int32_t *const v[3])
 {
@@ -121,11 +202,6 @@ static inline bool make_velocity(struct setup *s)
     return true;
 }
 
-static inline bool has_levels(const struct setup *s)
-{
-    return SMEAR_WITH_TEXTURE && SMEAR_WITH_BOUNDS && segment_textured(s->segment) && s->draw->sampler.levels != 0;
-}
-
 /* Draws a triangle of few pixels by the weights of its vertices. False where it needs gradients. */
 SMEAR_INLINE bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box, bool in_fog)
 {
@@ -136,17 +212,121 @@ SMEAR_INLINE bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels
     return cover_has_texels(s, pixels) && smear_cover_texels(s, (int32_t)area, box);
 }
 
+#if SMEAR_KEPT_LISTS
+/* Draws rows [y, end) of a triangle of which sides are kept. */
+static SMEAR_NOINLINE void draw_face_parts(const struct kept_list *l, const struct flat_carried *face, int32_t y, int32_t end)
+{
+    struct flat_area area = l->area;
+    for (int32_t stop; y < end; y = stop) {
+        stop = min_i32(y + FLAT_FACE_ROWS, y < l->turn ? min_i32(l->turn, end) : end);
+        if (y >= l->turn) {
+            area.pixels = pixel_after(l->area.pixels, -l->back, area.narrow);
+            area.depth = l->area.depth - l->back;
+        }
+        smear_flat_carried_avx2(&area, face, y, stop);
+    }
+}
+
+static inline void draw_face(const struct kept_list *l, const struct flat_carried *face, int32_t y, int32_t end)
+{
+    if (end <= l->turn && end - y <= FLAT_FACE_ROWS)
+        smear_flat_carried_avx2(&l->area, face, y, end);
+    else
+        draw_face_parts(l, face, y, end);
+}
+
+static inline void draw_kept_face(const struct smear_raster_target *target, struct kept *k)
+{
+    leave_kept(target, k, k->end > target->y1);
+    draw_face(kept_list_of(&target->cache), &((const struct kept_face *)(void *)k)->face, target->y0, min_i32(k->end, target->y1));
+}
+
+#if SMEAR_LANE_ROWS
+static inline void draw_kept_texels(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                    const struct smear_segment *segment, const int32_t *const v[3], struct kept *k)
+{
+    const int32_t end = min_i32(k->end, target->y1);
+    struct corners corners;
+    leave_kept(target, k, k->end > target->y1);
+    corners_ordered(&corners, v, k->order, target->y0, end);
+    smear_lane_carried(&((struct kept_texels *)(void *)k)->texels, target, &frame->draw[segment->draw].sampler, &corners, frame->width);
+}
+#endif
+
+/* Draws the next rows of a triangle where more than its setup is kept. */
+static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                const struct smear_segment *segment, const int32_t *const v[3], struct kept *k)
+{
+    if (k->kind == KEPT_FACE) {
+        draw_kept_face(target, k);
+        return true;
+    }
+#if SMEAR_LANE_ROWS
+    if (k->kind == KEPT_TEXELS) {
+        draw_kept_texels(frame, target, segment, v, k);
+        return true;
+    }
+#else
+    (void)frame;
+    (void)segment;
+    (void)v;
+#endif
+    return false;
+}
+
+/* Draws a large triangle of one colour, of which sides are kept. False where it is none, or there is no room. */
+static inline bool keep_face(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
+{
+    const struct smear_raster_target *t = s->target;
+    if (!s->flat || target_has_velocity(t) || t->x1 - t->x0 < FLAT_FACE_LEAST || !smear_has_avx2())
+        return false;
+    struct kept_face *const k = (struct kept_face *)(void *)kept_add(&t->cache, triangle);
+    if (k == NULL)
+        return false;
+    k->kept.kind = KEPT_FACE;
+    k->kept.end = (int16_t)end;
+    smear_cover_carry(s, &k->face, box->top);
+    draw_face(kept_list_of(&t->cache), &k->face, box->top, box->bottom);
+    return true;
+}
+#else
+static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                const struct smear_segment *segment, const int32_t *const v[3], const struct kept *k)
+{
+    (void)frame;
+    (void)target;
+    (void)segment;
+    (void)v;
+    (void)k;
+    return false;
+}
+
+static inline bool keep_face(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
+{
+    (void)s;
+    (void)triangle;
+    (void)box;
+    (void)end;
+    return false;
+}
+#endif
+
+/* What is not kept of a setup, but found again. */
+SMEAR_INLINE void complete_kept(struct setup *s, struct smear_raster_draw *smaller, bool small)
+{
+    if (has_levels(s))
+        smear_setup_shrink(s, smaller);
+    if (cover_is_narrow(s->target))
+        smear_cover_choose(s, small);
+}
+
 /* Draws a triangle with these vertices, and this box of them where it is given. `triangle` is its number in the list's
  * geometry, or none. */
 SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                            const struct smear_segment *segment, uint32_t color, uint32_t triangle,
                            const int32_t *const v[3], const struct bounds *given, bool *moved, bool in_fog)
 {
-    struct bounds bounds;
-    if (given != NULL)
-        bounds = *given;
-    else
-        bounds = bounds_of(v);
+    const struct bounds bounds = given != NULL ? *given : bounds_of(v);
     const int32_t left = (bounds.x0 + 127) >> 8, right = (bounds.x1 + 127) >> 8;
     const int32_t top = (bounds.y0 + 127) >> 8, bottom = (bounds.y1 + 127) >> 8;
     const int32_t most = segment_textured(segment) ? SMALL_TEXTURED_PX : SMALL_PX;
@@ -160,7 +340,9 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         return;
 
     bool known;
-    struct kept *const kept = cache_find(target, triangle, continues, goes_on, &known);
+    struct kept *const kept = find_kept(target, triangle, continues, goes_on, &known);
+    if (known && draw_carried(frame, target, segment, v, kept))
+        return;
     struct setup s;
     struct smear_raster_draw smaller;
     start(&s, frame, target, segment, color, v);
@@ -168,8 +350,7 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
     SMEAR_ASSERT((int64_t)area > 0);
     if (known) {
         kept_take(kept, &s);
-        if (!goes_on)
-            kept->triangle = SMEAR_NO_TRIANGLE;
+        leave_kept(target, kept, goes_on);
     } else {
         s.bounds = bounds;
         start_fog(&s, in_fog);
@@ -184,14 +365,13 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
             smear_setup(&s, area);
         smear_cover_choose(&s, small);
     } else {
-        if (has_levels(&s))
-            smear_setup_shrink(&s, &smaller);
-        if (cover_is_narrow(target))
-            smear_cover_choose(&s, small);
+        complete_kept(&s, &smaller, small);
     }
     const bool is_new = make_velocity(&s) || !known;
-    if (is_new && kept != NULL && goes_on)
-        kept_keep(kept, &s, triangle, bottom);
+    if (!known && goes_on && !small && keep_face(&s, triangle, &box, bottom))
+        return;
+    if (is_new && (SMEAR_KEPT_LISTS || kept != NULL) && goes_on)
+        keep(target, kept, &s, triangle, &box, bottom, small);
     smear_cover(&s, &box, small);
 }
 
@@ -273,15 +453,26 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
 }
 
 #if SMEAR_AVX2
-/* Copies up to eight triangles of one segment, from `head` on, but for points. Returns how many. */
-static inline int take_tiny8(const struct smear_bins *bins, uint32_t head, uint16_t vertex[8][4], uint32_t color[8])
+/* Copies up to eight triangles of one segment, from `head` on, but for points and what is kept. Returns how many. */
+static inline int take_tiny8(const struct smear_bins *bins, const struct smear_raster_cache *cache, uint32_t head,
+                             uint16_t vertex[8][4], uint32_t color[8])
 {
     const uint16_t segment = bins_triangle(bins, head)->segment;
+    const struct kept_list *const list = kept_list_seen(cache);
+    uint32_t kept = list->triangle;
+    uint16_t entry = kept != SMEAR_NO_TRIANGLE ? *list->link : 0;
     int n = 0;
     do {
+        const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(bins, head);
         head = t->next;
         if (t->segment == SMEAR_POINT)
+            continue;
+        while (kept < number) {
+            entry = kept_at(cache, entry)->next;
+            kept = kept_triangle(cache, entry);
+        }
+        if (kept == number)
             continue;
         if (t->segment != segment)
             break;
@@ -295,15 +486,51 @@ static inline int take_tiny8(const struct smear_bins *bins, uint32_t head, uint1
     return n;
 }
 
-/* Draws up to eight triangles of one segment, the first of which is `head`, and points among them. Returns what follows. */
+/* Draws the next rows of a triangle whose setup is kept. */
+static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                           const struct smear_triangle *t, uint32_t number, struct kept *k, bool *moved)
+{
+    const struct smear_segment *segment = &frame->bins->segment[t->segment];
+    const int32_t *v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
+    if (draw_carried(frame, target, segment, v, k))
+        return;
+    if (k->kind != KEPT_ROWS) {
+        draw_triangle(frame, target, segment, t->color, number, v, NULL, moved);
+        return;
+    }
+    struct setup s;
+    struct smear_raster_draw smaller;
+    start(&s, frame, target, segment, t->color, v);
+    kept_take(k, &s);
+    leave_kept(target, k, k->end > target->y1);
+    s.writes_velocity = false;
+    if (has_levels(&s))
+        smear_setup_shrink(&s, &smaller);
+    smear_cover_on(&s, k->order, min_i32(k->end, target->y1), k->cut);
+}
+
+static inline void draw_kept(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                             const struct smear_triangle *t, uint32_t number, struct kept *k, bool *moved)
+{
+    if (k->kind == KEPT_FACE)
+        draw_kept_face(target, k);
+    else
+        draw_kept_setup(frame, target, t, number, k, moved);
+}
+
+/* Draws up to eight triangles of one segment, the first of which is `head`, and points and kept ones among them. Returns what
+ * follows. */
 static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
                            const struct tiny8_look *look, bool *moved)
 {
     struct tiny8_pixels pixels;
     uint16_t vertex[8][4];
     uint32_t color[8];
-    const int n = take_tiny8(frame->bins, head, vertex, color);
+    const int n = take_tiny8(frame->bins, &target->cache, head, vertex, color);
     smear_tiny8_avx2(&pixels, look, (const uint16_t(*)[4])vertex, color);
+    const struct kept_list *const list = kept_list_seen(&target->cache);
     int32_t start = 0;
     for (int k = 0; k < n;) {
         const uint32_t number = head;
@@ -312,6 +539,13 @@ static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct 
         if (t->segment == SMEAR_POINT) {
             draw_point(frame, target, t, *moved);
             continue;
+        }
+        if (number >= list->triangle) {
+            struct kept *const kept = kept_find(&target->cache, number);
+            if (kept != NULL) {
+                draw_kept(frame, target, t, number, kept, moved);
+                continue;
+            }
         }
         if ((pixels.taken >> k & 1u) != 0) {
             tiny8_put(target, look, &pixels, start, pixels.end[k]);
@@ -336,6 +570,12 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
         if (t->segment == SMEAR_POINT) {
             draw_point(frame, target, t, moved);
+            head = t->next;
+            continue;
+        }
+        struct kept *const kept = kept_find(&target->cache, number);
+        if (kept != NULL) {
+            draw_kept(frame, target, t, number, kept, &moved);
             head = t->next;
             continue;
         }
@@ -397,6 +637,9 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
+#if SMEAR_KEPT_LISTS
+    kept_list_begin(target);
+#endif
 #if SMEAR_AVX2
     if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && tiny8_suit(target)) {
         draw_list_tiny8(frame, target, head);
@@ -421,6 +664,9 @@ void smear_raster_numbers(const struct smear_raster_frame *frame, const struct s
 {
     const bool in_fog = HAS_LOOP_FOR_FOG && frame_has_fog(frame);
     bool moved = target->over;
+#if SMEAR_KEPT_LISTS
+    kept_list_begin(target);
+#endif
     for (uint32_t i = 0; i < count; i++)
         draw_entry(frame, target, bins_triangle(frame->bins, number[i]), number[i], &moved, in_fog);
 }
