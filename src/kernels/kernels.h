@@ -8,8 +8,8 @@
  *   - its contract, the comment above it: shapes, ranges, alignment, what may overlap, rounding;
  *   - NAME_reference, a short scalar loop that defines the result bit for bit;
  *   - its variants, beside the reference: NAME_vector where SMEAR_VECTORS is set, NAME_avx2 where SMEAR_AVX2 is
- *     (avx2.h), NAME_armv6m where SMEAR_ASM_ARMV6M is, NAME_unrolled where plain C that compilers turn into better
- *     code pays on every core;
+ *     (avx2.h), NAME_armv6m where SMEAR_ASM_ARMV6M is, NAME_armv7em where SMEAR_ASM_ARMV7EM is, NAME_unrolled where
+ *     plain C that compilers turn into better code pays on every core;
  *   - NAME itself, which the library calls: the best variant of this build and processor, else the reference.
  *
  * How to add one
@@ -35,6 +35,17 @@
 #define SMEAR_ASM_ARMV6M 1
 #else
 #define SMEAR_ASM_ARMV6M 0
+#endif
+#endif
+
+/* Assembly for ARMv7E-M (Cortex-M4, M7), whose products of halves and of words compilers use badly. Not for Clang, which sets r7
+ * aside, nor where size counts. */
+#ifndef SMEAR_ASM_ARMV7EM
+#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_7EM__) && defined(__thumb2__) && defined(__ARM_FEATURE_DSP) \
+    && defined(__ARM_FEATURE_UNALIGNED) && !defined(__ARM_BIG_ENDIAN) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define SMEAR_ASM_ARMV7EM 1
+#else
+#define SMEAR_ASM_ARMV7EM 0
 #endif
 #endif
 

@@ -6,16 +6,6 @@
 
 #include "kernels/texel_run.h"
 
-/* Not for Clang, which sets r7 aside, nor where size counts. */
-#ifndef SMEAR_ASM_ARMV7EM
-#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_7EM__) && defined(__thumb2__) && defined(__ARM_FEATURE_DSP) \
-    && defined(__ARM_FEATURE_UNALIGNED) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
-#define SMEAR_ASM_ARMV7EM 1
-#else
-#define SMEAR_ASM_ARMV7EM 0
-#endif
-#endif
-
 #if SMEAR_ASM_ARMV7EM
 
 SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel_run, count) == 20

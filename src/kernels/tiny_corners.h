@@ -5,6 +5,79 @@
 
 #include "kernels/tiny_box.h"
 
+/* The pixels whose centres may be covered, from the first to that behind the last one, and the range of depth units. */
+struct tiny_span {
+    int32_t left, top, right, bottom, low, high;
+};
+
+/* Records begin with x and y, q8 px, less than 2^15 px from 0, and depth units from 0 on. */
+static inline void tiny_span_reference(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+    s->left = (min_i32(v0[0], min_i32(v1[0], v2[0])) + 127) >> 8;
+    s->right = (max_i32(v0[0], max_i32(v1[0], v2[0])) + 127) >> 8;
+    s->top = (min_i32(v0[1], min_i32(v1[1], v2[1])) + 127) >> 8;
+    s->bottom = (max_i32(v0[1], max_i32(v1[1], v2[1])) + 127) >> 8;
+    s->low = min_i32(v0[2], min_i32(v1[2], v2[2]));
+    s->high = max_i32(v0[2], max_i32(v1[2], v2[2]));
+}
+
+#if SMEAR_ASM_ARMV7EM
+/* The first pixels of three corners as pairs of halves, of which the least and most are chosen by the flags of ssub16. */
+#define TINY_SPAN_FIRST(OUT, X, Y) \
+    "add " OUT ", " X ", #127\n\t" \
+    "add r3, " Y ", #127\n\t"      \
+    "asr " OUT ", " OUT ", #8\n\t" \
+    "pkhbt " OUT ", " OUT ", r3, lsl #8\n\t"
+#define TINY_SPAN_PIXELS \
+    TINY_SPAN_FIRST("r0", "r4", "r5") TINY_SPAN_FIRST("r1", "r7", "r8") TINY_SPAN_FIRST("r2", "r10", "r11") \
+    "ssub16 r3, r0, r1\n\t" \
+    "sel r4, r1, r0\n\t"    \
+    "sel r5, r0, r1\n\t"    \
+    "ssub16 r3, r4, r2\n\t" \
+    "sel r0, r2, r4\n\t"    \
+    "ssub16 r3, r2, r5\n\t" \
+    "sel r1, r2, r5\n\t"
+
+/* The least of two numbers from 0 on is one of them and what the other one less it has below 0. */
+#define TINY_SPAN_UNITS \
+    "subs r3, r6, r9\n\t"           \
+    "and r3, r3, r3, asr #31\n\t"   \
+    "adds r4, r3, r9\n\t"           \
+    "subs r5, r6, r3\n\t"           \
+    "sub r3, r4, r12\n\t"           \
+    "and r3, r3, r3, asr #31\n\t"   \
+    "add r2, r3, r12\n\t"           \
+    "sub r3, r12, r5\n\t"           \
+    "and r3, r3, r3, asr #31\n\t"   \
+    "sub r3, r12, r3"
+
+/* Half of the instructions that compilers take. */
+SMEAR_INLINE void tiny_span_armv7em(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+    register uint32_t r0 __asm__("r0") = (uint32_t)(uintptr_t)v0;
+    register uint32_t r1 __asm__("r1") = (uint32_t)(uintptr_t)v1;
+    register int32_t r2 __asm__("r2") = (int32_t)(uintptr_t)v2;
+    register int32_t r3 __asm__("r3");
+    __asm__ volatile(".syntax unified\n\t"
+                     "ldm r0, {r4, r5, r6}\n\t"
+                     "ldm r1, {r7, r8, r9}\n\t"
+                     "ldm r2, {r10, r11, r12}\n\t" TINY_SPAN_PIXELS TINY_SPAN_UNITS
+                     : "+r"(r0), "+r"(r1), "+r"(r2), "=r"(r3)
+                     :
+                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "cc", "memory");
+    *s = (struct tiny_span){ (int16_t)r0, (int16_t)(r0 >> 16), (int16_t)r1, (int16_t)(r1 >> 16), r2, r3 };
+}
+#endif
+
+SMEAR_INLINE void tiny_span(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+#if SMEAR_ASM_ARMV7EM
+    tiny_span_armv7em(s, v0, v1, v2);
+#else
+    tiny_span_reference(s, v0, v1, v2);
+#endif
+}
+
 /* 0 for edges that go up (left ones) or right (top ones), whose centres count, else -1. */
 static inline int32_t tiny_corner_bias(int32_t dx, int32_t dy) { return (dx - dy * 65536 - 1) >> 31; }
 
@@ -222,10 +295,105 @@ static inline void tiny_corners_armv6m(struct tiny_box *b, const int32_t *v0, co
 }
 #endif
 
+#if SMEAR_ASM_ARMV7EM
+/* Vectors: x1, y1, -x2 and y2 into r7, r8, r10 and r11, and what units change by. */
+#define TINY_CORNERS_VECTORS \
+    "ldm r1, {r4, r5, r6}\n\t" \
+    "ldm r2, {r7, r8, r9}\n\t" \
+    "ldm r3, {r10, r11, r12}\n\t" \
+    "sub r9, r9, r6\n\t" \
+    "sub r12, r12, r6\n\t" \
+    "lsl r9, r9, #1\n\t" \
+    "lsl r12, r12, #1\n\t" \
+    "strd r9, r12, [r0, #48]\n\t" \
+    "ldrd r1, r2, [r0]\n\t" \
+    "subs r7, r7, r4\n\t" \
+    "sub r8, r8, r5\n\t" \
+    "sub r10, r4, r10\n\t" \
+    "sub r11, r11, r5\n\t" \
+    "rsb r1, r4, r1, lsl #8\n\t" \
+    "adds r1, r1, #128\n\t" \
+    "rsb r2, r5, r2, lsl #8\n\t" \
+    "adds r2, r2, #128\n\t"
+
+/* Edge functions at the first pixel into r3 and r2, the area into r1, the sum of all into r4. */
+#define TINY_CORNERS_PLACES \
+    "mul r3, r11, r1\n\t" \
+    "mla r3, r10, r2, r3\n\t" \
+    "mul r2, r7, r2\n\t" \
+    "mls r2, r8, r1, r2\n\t" \
+    "mul r1, r7, r11\n\t" \
+    "mla r1, r10, r8, r1\n\t" \
+    "add r4, r10, r11, lsl #16\n\t" \
+    "subs r4, r4, #1\n\t" \
+    "asrs r4, r4, #31\n\t" \
+    "adds r3, r3, r4\n\t" \
+    "mvn r5, r8, lsl #16\n\t" \
+    "adds r5, r5, r7\n\t" \
+    "asrs r5, r5, #31\n\t" \
+    "adds r2, r2, r5\n\t" \
+    "adds r4, r4, r5\n\t" \
+    "adds r4, r4, r1\n\t" \
+    "sub r5, r8, r11\n\t" \
+    "add r6, r7, r10\n\t" \
+    "mvns r6, r6\n\t" \
+    "add r6, r6, r5, lsl #16\n\t" \
+    "add r4, r4, r6, asr #31\n\t"
+
+/* They are stored, with their steps. */
+#define TINY_CORNERS_STEPS \
+    "strd r3, r2, [r0]\n\t" \
+    "lsl r10, r10, #8\n\t" \
+    "lsl r7, r7, #8\n\t" \
+    "strd r10, r7, [r0, #8]\n\t" \
+    "lsl r11, r11, #8\n\t" \
+    "rsb r8, r8, #0\n\t" \
+    "lsl r8, r8, #8\n\t" \
+    "strd r11, r8, [r0, #100]\n\t" \
+    "str r4, [r0, #108]\n\t"
+
+/* tiny_scale_make. */
+#define TINY_CORNERS_RECIP \
+    "clz r4, r1\n\t" \
+    "lsls r1, r4\n\t" \
+    "ldr r3, [r0, #56]\n\t" \
+    "ubfx r2, r1, #22, #9\n\t" \
+    "ldrh r5, [r3, r2, lsl #1]\n\t" \
+    "lsrs r1, r1, #11\n\t" \
+    "mov r3, #0x80000000\n\t" \
+    "mls r1, r1, r5, r3\n\t" \
+    "asrs r1, r1, #4\n\t" \
+    "mul r1, r1, r5\n\t" \
+    "lsls r5, r5, #19\n\t" \
+    "add r5, r5, r1, asr #8\n\t" \
+    "lsrs r5, r5, #14\n\t" \
+    "subs r5, r5, #1\n\t" \
+    "strd r4, r5, [r0, #32]"
+
+/* Two thirds of the instructions that compilers take. */
+static inline void tiny_corners_armv7em(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x,
+                                        int32_t y)
+{
+    register struct tiny_box *r0 __asm__("r0") = b;
+    register const int32_t *r1 __asm__("r1") = v0;
+    register const int32_t *r2 __asm__("r2") = v1;
+    register const int32_t *r3 __asm__("r3") = v2;
+    b->e1 = x;
+    b->e2 = y;
+    b->to_pixel = (uint32_t)(uintptr_t)smear_recip_seed;
+    __asm__ volatile(".syntax unified\n\t" TINY_CORNERS_VECTORS TINY_CORNERS_PLACES TINY_CORNERS_STEPS TINY_CORNERS_RECIP
+                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+                     :
+                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "cc", "memory");
+}
+#endif
+
 static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x, int32_t y)
 {
 #if SMEAR_ASM_ARMV6M
     tiny_corners_armv6m(b, v0, v1, v2, x, y);
+#elif SMEAR_ASM_ARMV7EM
+    tiny_corners_armv7em(b, v0, v1, v2, x, y);
 #else
     tiny_corners_reference(b, v0, v1, v2, x, y);
 #endif

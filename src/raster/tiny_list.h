@@ -94,18 +94,13 @@ static SMEAR_NOINLINE bool tiny_draw(struct tiny_look *l, const int32_t *const v
 {
     struct tiny_box *const b = &l->box;
     const int32_t *const v0 = v[0], *const v1 = v[1], *const v2 = v[2];
-    int32_t low = min_i32(v0[VERTEX_X], min_i32(v1[VERTEX_X], v2[VERTEX_X]));
-    int32_t high = max_i32(v0[VERTEX_X], max_i32(v1[VERTEX_X], v2[VERTEX_X]));
-    int32_t left = (low + 127) >> 8, right = (high + 127) >> 8;
-    low = min_i32(v0[VERTEX_Y], min_i32(v1[VERTEX_Y], v2[VERTEX_Y]));
-    high = max_i32(v0[VERTEX_Y], max_i32(v1[VERTEX_Y], v2[VERTEX_Y]));
-    int32_t top = (low + 127) >> 8, bottom = (high + 127) >> 8;
+    struct tiny_span span;
+    tiny_span(&span, v0, v1, v2);
+    int32_t left = span.left, top = span.top, bottom = span.bottom;
+    const int32_t right = span.right, low = span.low, high = span.high;
     if (right - left > SMALL_PX || bottom - top > SMALL_PX || (right - left) * (bottom - top) > TINY_PIXELS)
         return false;
-    const int32_t q0 = v0[VERTEX_DEPTH], q1 = v1[VERTEX_DEPTH], q2 = v2[VERTEX_DEPTH];
-    low = min_i32(q0, min_i32(q1, q2));
-    high = max_i32(q0, max_i32(q1, q2));
-    if (!tiny_codes(b, q0, low, high) || (l->even && high - low > low >> 5))
+    if (!tiny_codes(b, v0[VERTEX_DEPTH], low, high) || (l->even && high - low > low >> 5))
         return false;
     left = max_i32(left, l->x0);
     top = max_i32(top, l->y0);

@@ -109,12 +109,37 @@ static void corners_by(struct kernel_call *c, bool best)
     out[3] = b.recip << 6 ^ (uint32_t)b.up;
     out[4] = (uint32_t)b.right1 ^ (uint32_t)b.right2 << 13;
     out[5] = (uint32_t)b.down1 ^ (uint32_t)b.down2 << 13;
-    out[6] = (uint32_t)b.to1_low ^ (uint32_t)b.to1_high << 16;
-    out[7] = (uint32_t)b.to2_low ^ (uint32_t)b.to2_high << 16;
+    b.units = 0;
+    out[6] = tiny_units_at(&b, 0xffffu, 0x5555u);
+    out[7] = tiny_units_at(&b, 0x1234u, 0xffffu);
     for (int i = 0; i < 3; i++)
         out[8 + i] = ((uint32_t)b.channel[i].to1 * 31u + (uint32_t)b.channel[i].to2) * 31u + b.channel[i].base;
 }
 
+/* Corners anywhere, or near to each other. */
+static void span_by(struct kernel_call *c, bool best)
+{
+    int32_t v[3][3];
+    struct tiny_span s;
+    for (int i = 0; i < 3; i++) {
+        v[i][0] = (int32_t)c->word[i] >> (10 + (c->word[9] & 15u));
+        v[i][1] = (int32_t)c->word[3 + i] >> (10 + (c->word[9] >> 4 & 15u));
+        v[i][2] = (int32_t)(c->word[6 + i] >> (1 + (c->word[9] >> 8 & 15u)));
+    }
+    if (best)
+        tiny_span(&s, v[0], v[1], v[2]);
+    else
+        tiny_span_reference(&s, v[0], v[1], v[2]);
+    c->word[0] = (uint32_t)s.left;
+    c->word[1] = (uint32_t)s.top;
+    c->word[2] = (uint32_t)s.right;
+    c->word[3] = (uint32_t)s.bottom;
+    c->word[4] = (uint32_t)s.low;
+    c->word[5] = (uint32_t)s.high;
+}
+
+static void span_reference(struct kernel_call *c) { span_by(c, false); }
+static void span_best(struct kernel_call *c) { span_by(c, true); }
 static void corners_reference(struct kernel_call *c) { corners_by(c, false); }
 static void corners_best(struct kernel_call *c) { corners_by(c, true); }
 
@@ -127,6 +152,7 @@ const struct kernel kernels_tiny_box[] = {
     { .name = "tiny_box (shaded)", .most = 40, .size = { 2, 4 }, .timed = 40, FORMS(codes) },
     { .name = "tiny_box (shaded, narrow)", .most = 40, .size = { 2, 2 }, .timed = 40, FORMS(codes_narrow) },
     { .name = "tiny_box (linear light)", .most = 40, .size = { 2, 4 }, .timed = 40, FORMS(light) },
+    { .name = "tiny_span", .most = 40, .size = { 1 }, .timed = 40, .form = { { "reference", span_reference }, { "best", span_best } } },
     { .name = "tiny_corners", .most = 40, .size = { 1 }, .timed = 40,
       .form = { { "reference", corners_reference }, { "best", corners_best } } },
     { .name = NULL }
