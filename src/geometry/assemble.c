@@ -9,6 +9,7 @@
 #include "geometry/assemble_avx2.h"
 #include "geometry/batch_cover.h"
 #include "geometry/batch_find.h"
+#include "geometry/batch_store.h"
 
 static void forget_all(struct smear_assembler *a)
 {
@@ -31,61 +32,7 @@ void smear_assembler_reset(struct smear_assembler *a)
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2 };
 
-static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
-{
-    struct smear_face face = smear_face_of(b->d, triangle, back);
-    return smear_face_color(b->d, b->segment, &face);
-}
-
-static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, bool back)
-{
-    if (b->face_color != NULL) {
-        const uint8_t *c = b->face_color + 4 * triangle;
-        return pixel_make(c[3], c[0], c[1], c[2]);
-    }
-    return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
-}
-
-/* Stores a vertex; returns the first word of its record. `known`: where it is now, before the division, or null. */
-static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen,
-                                            const struct smear_homogeneous *known, uint32_t triangle, bool back)
-{
-    const struct smear_assembly *d = b->d;
-    const struct smear_segment *s = b->segment;
-    const smear_mesh *mesh = d->mesh;
-    struct smear_bins *g = b->a->bins;
-    uint32_t word = g->vertex_words;
-    uint32_t *record = g->pool + word;
-    g->vertex_words = word + s->stride;
-    store_place(record, screen);
-    if (segment_textured(s))
-        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
-    if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
-        const uint8_t *c = b->vertex_color + 4 * index;
-        record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
-        record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
-    } else if (segment_colored(s)) {
-        smear_vertex_store_color(record + s->color, d, index, triangle, back);
-    }
-    if (segment_moves(s) != 0)
-        smear_batch_store_motion(record + s->motion, b, index, screen, known);
-    return word;
-}
-
-/* Returns the first word of the vertex's record, which it stores where that has not been done. */
-static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
-                                     bool back)
-{
-    const bool shares = batch_shares(b, back);
-    if (shares && v->stored > b->segment->base)
-        return v->stored - 1;
-    uint32_t word = store_vertex(b, index_of(v), &v->screen, cached_now(v), triangle, back);
-    if (shares)
-        v->stored = word + 1;
-    return word;
-}
-
-#if TINY_COVER_ARMV6M
+#if TINY_COVER_KEEPS
 /* Points from `first` on, whose weights are known, take their colour from vertices. */
 static SMEAR_RARE void color_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
                                     const struct tiny_cover *t, uint32_t first)
@@ -155,6 +102,24 @@ static SMEAR_RARE bool find_room(struct batch *b)
     return true;
 }
 
+/* Adds a triangle, for which there is room, with its vertices. */
+SMEAR_INLINE void add_stored(struct batch *b, struct smear_segment *s, struct smear_cached_vertex *v0,
+                             struct smear_cached_vertex *v1, struct smear_cached_vertex *v2, uint32_t triangle, bool back,
+                             const struct box *box)
+{
+    struct smear_bins *g = b->a->bins;
+    uint32_t base = s->base;
+    uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
+    uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
+    uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
+    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, box->y0)));
+    out->vertex[0] = offset0;
+    out->vertex[1] = offset1;
+    out->vertex[2] = offset2;
+    out->segment = (uint16_t)(s - g->segment);
+    out->color = color_of_face(b, triangle, back);
+}
+
 /* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach, with
  * its margin, beyond the part of the frame that is being filled. Returns false when there is no room. */
 SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, struct smear_cached_vertex *v1,
@@ -189,17 +154,7 @@ SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, s
         add_points(b, v, triangle, back, &t);
         return true;
     }
-    struct smear_bins *g = b->a->bins;
-    uint32_t base = s->base;
-    uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
-    uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
-    uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
-    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
-    out->vertex[0] = offset0;
-    out->vertex[1] = offset1;
-    out->vertex[2] = offset2;
-    out->segment = (uint16_t)(s - g->segment);
-    out->color = color_of_face(b, triangle, back);
+    add_stored(b, s, v0, v1, v2, triangle, back, &box);
     return true;
 }
 
@@ -249,7 +204,11 @@ static void batch_start(struct batch *b)
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
              && bins_margin(g) == 0;
     b->double_sided = d->material->double_sided;
-#if TINY_COVER_ARMV6M
+#if FRONT_COVERS
+    b->partial = b->partial || assembler_has_damage(a);
+    b->points_even = segment_by_vertices(s) && !segment_flat_depth(s);
+#endif
+#if TINY_COVER_KEEPS
     b->rings = (struct points_rings){ bins_triangle(g, 0), g->opaque_last, g->row_recip, &a->bins->triangle_count, smear_recip_seed };
 #endif
     if (d->shading.lit || !d->shading.white)
@@ -309,6 +268,53 @@ static SMEAR_NOINLINE bool add_slow(struct batch *b, const struct triangle_scan 
     return add_triangle(b, v[0], v[1], v[2], triangle);
 }
 
+#if FRONT_COVERS
+/* Adds a triangle within the frame, all of which is being filled: the scan knows what it covers. */
+SMEAR_INLINE bool add_front(struct batch *b, const struct triangle_scan *s, uint32_t triangle)
+{
+    struct smear_cached_vertex *const v[3] = { scanned(s->v[0]), scanned(s->v[2]), scanned(s->v[1]) };
+    if (b->room != 0)
+        b->room--;
+    else if (!find_room(b))
+        return false;
+    b->a->triangles_drawn++;
+    if (s->covered <= POINTS_MAX && b->points
+        && (!b->points_even || tiny_is_even(v[0]->screen.depth, v[1]->screen.depth, v[2]->screen.depth))) {
+        add_points(b, v, triangle, false, &s->front->tiny);
+    } else {
+        const uint32_t low = s->front->low, high = s->front->high;
+        const struct box box = { (int32_t)(low & 0xffffu), (int32_t)(low >> 16), (int32_t)(high & 0xffffu), (int32_t)(high >> 16) };
+        add_stored(b, b->segment, v[0], v[1], v[2], triangle, false, &box);
+    }
+    return true;
+}
+
+SMEAR_STATIC_ASSERT((int)SCAN_POINTS == (int)POINTS_MAX, "scans know what becomes points");
+
+/* Where all of the frame is filled, scans find out what triangles cover, and make points of them if their colours are known. */
+static void scan_fronts(struct triangle_scan *s, const struct batch *b, struct front_cover *front)
+{
+    s->front = b->partial ? NULL : front;
+    s->rings = b->points && !b->points_even && !segment_colored(b->segment) && b->face_color != NULL ? &b->rings : NULL;
+    s->color = b->face_color;
+    s->first = b->d->mesh->index;
+}
+#endif
+
+static inline enum scan_end scan_on(struct triangle_scan *s, struct batch *b)
+{
+#if FRONT_COVERS
+    s->room = b->room;
+    const enum scan_end at = triangle_scan(s);
+    b->a->triangles_drawn += (uint32_t)(b->room - s->room);
+    b->room = (uint16_t)s->room;
+    return at;
+#else
+    (void)b;
+    return triangle_scan(s);
+#endif
+}
+
 /* Adds triangles [first, end), of which it looks only at those that may be seen. Returns false where there is no room. */
 static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
 {
@@ -320,14 +326,22 @@ static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
                                .vertex_count = b->ready ? d->mesh->vertex_count : 0u, .width = (uint32_t)a->viewport.width << 8,
                                .height = (uint32_t)a->viewport.height << 8, .index = index + 3 * first, .end = index + 3 * end,
                                .behind = b->double_sided ? INT32_MIN : 0 };
+#if FRONT_COVERS
+    struct front_cover front;
+    scan_fronts(&s, b, &front);
+#endif
     for (;;) {
         bool added = true;
-        const enum scan_end at = triangle_scan(&s);
+        const enum scan_end at = scan_on(&s, b);
         if (at == SCAN_DONE)
             return true;
         const uint32_t next = (uint32_t)(s.index - index) * 0xaaaaaaabu;        /* a third, which is whole */
         if (at == SCAN_FRONT && !b->partial) {
+#if FRONT_COVERS
+            added = add_front(b, &s, next - 1);
+#else
             added = add_visible(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, false);
+#endif
         } else if (at == SCAN_FRONT) {
             added = add_whole(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, true);
         } else if (at == SCAN_ANY) {

@@ -5,6 +5,7 @@
 
 #include "geometry/vertex.h"
 #include "kernels/avx2.h"
+#include "kernels/front_cover.h"
 #include "kernels/tiny_points.h"
 
 /* Triangles are looked at by fours, whose vertices lie in an array, where the machine has vectors. */
@@ -14,7 +15,7 @@
 
 /* What a draw's vertices share is made ready where that pays: compilers reload it for each of them. */
 #ifndef SMEAR_VERTEX_SETUP
-#define SMEAR_VERTEX_SETUP (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+#define SMEAR_VERTEX_SETUP ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
 #endif
 
 static inline uint32_t index_of(const struct smear_cached_vertex *v)
@@ -50,14 +51,18 @@ struct batch {
     struct smear_segment *segment;      /* the newest */
     uint32_t tag;                       /* of its vertices in the cache; 0: none is there */
     bool shares;                        /* all faces of a vertex share its record */
-    bool partial;                       /* only a part of the frame is being filled, or triangles have a margin */
+    bool partial;                       /* only a part of the frame is being filled, or triangles have a margin; with FRONT_COVERS
+                                         * also where only a part is damaged */
     bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
     bool double_sided;
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
     uint16_t room;                      /* for so many more triangles there is room, if nothing else is added */
-#if TINY_COVER_ARMV6M
+#if FRONT_COVERS
+    bool points_even;                   /* that only where depths are nearly even */
+#endif
+#if TINY_COVER_KEEPS
     struct points_rings rings;          /* where points go */
 #endif
 #if SMEAR_VERTEX_SETUP

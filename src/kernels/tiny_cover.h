@@ -7,6 +7,8 @@
 
 /* In assembly all of its pixels are kept, which takes no test. */
 #define TINY_COVER_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+#define TINY_COVER_ARMV7EM (SMEAR_ASM_ARMV7EM && !SMEAR_SMALL_CODE)
+#define TINY_COVER_KEEPS (TINY_COVER_ARMV6M || TINY_COVER_ARMV7EM)
 
 /* A pixel that a triangle covers, and its edge functions there: twice the areas opposite to corners 1 and 2, q16. */
 struct covered {
@@ -14,7 +16,7 @@ struct covered {
 };
 
 /* What a triangle covers in a box of up to TINY_BOX pixels a side. */
-enum { TINY_BOX = 2, COVERED_KEPT = TINY_COVER_ARMV6M ? TINY_BOX * TINY_BOX : 2 };
+enum { TINY_BOX = 2, COVERED_KEPT = TINY_COVER_KEEPS ? TINY_BOX * TINY_BOX : 2 };
 struct tiny_cover {
     int32_t area;                   /* twice the area, q16 px */
     int32_t count;                  /* centres covered */

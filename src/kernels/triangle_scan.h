@@ -3,6 +3,8 @@
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_H
 
+#include "kernels/front_cover.h"
+#include "kernels/tiny_points.h"
 #include "kernels/vertices.h"
 
 /* A vertex of the cache. */
@@ -39,7 +41,17 @@ struct triangle_scan {
     int32_t behind;                 /* INT32_MIN: triangles that face away are SCAN_ANY, too. Else 0 */
     struct scan_vertex *v[3];       /* of a triangle: its first, third and second */
     uint32_t missing;
+#if FRONT_COVERS
+    struct front_cover *front;      /* of SCAN_FRONT, of which those that cover nothing pass; null: unknown */
+    int32_t covered;                /* and how many pixels of it are covered */
+    const struct points_rings *rings;   /* where those of up to SCAN_POINTS pixels go while there is room; null: nowhere */
+    const uint8_t *color;           /* of triangles then: red, green, blue and alpha of each, */
+    const uint16_t *first;          /* whose indices begin here */
+    int32_t room;                   /* triangles; goes down by those that became points */
+#endif
 };
+
+enum { SCAN_POINTS = 2 };
 
 /* Finds a vertex that the cache lacks. */
 static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_vertex *v, uint32_t tag)
@@ -58,18 +70,45 @@ static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_verte
     return (uint32_t)v->screen.x > s->width || (uint32_t)v->screen.y > s->height ? SCAN_OUTSIDE : SCAN_DONE;
 }
 
+#if FRONT_COVERS
+/* Takes a triangle that covers so many pixels. Returns whether it became points. */
+static inline bool scan_points(struct triangle_scan *s, int32_t covered)
+{
+    if (covered > SCAN_POINTS || s->rings == NULL || s->room == 0) {
+        s->covered = covered;
+        return false;
+    }
+    s->room--;
+    const uint8_t *const c = s->color + (s->index - s->first) / 3 * 4;
+    tiny_points_reference(s->rings, &s->front->tiny, &s->v[0]->screen.depth, &s->v[2]->screen.depth, &s->v[1]->screen.depth,
+                          pixel_make(c[3], c[0], c[1], c[2]));
+    return true;
+}
+#endif
+
 /* Takes one triangle, with vertices that are there. SCAN_DONE: it is not seen. */
-static inline enum scan_end scan_one(const struct triangle_scan *s)
+static inline enum scan_end scan_one(struct triangle_scan *s)
 {
     const struct scan_vertex *v0 = s->v[0], *v1 = s->v[2], *v2 = s->v[1];
     if ((v0->outcode | v1->outcode | v2->outcode) != 0)
         return (v0->outcode & v1->outcode & v2->outcode & SCAN_REJECT) != 0 ? SCAN_DONE : SCAN_ANY;
     const int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
     const int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
+#if SMEAR_HAS_MUL64
+    const int64_t product = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    const int32_t area = product > 0 ? 1 : product < 0 ? -1 : 0;
+#if FRONT_COVERS
+    if (area > 0 && s->front != NULL) {
+        const int32_t covered = front_cover_reference(s->front, &v0->screen.x, &v1->screen.x, &v2->screen.x);
+        return covered == 0 || scan_points(s, covered) ? SCAN_DONE : SCAN_FRONT;
+    }
+#endif
+#else
     const uint32_t small = 1 << 15;
     if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) >= 2 * small)
         return SCAN_ANY;            /* products need more than 32 bits */
     const int32_t area = x1 * y2 - x2 * y1;
+#endif
     return area > 0 ? SCAN_FRONT : (area & s->behind) != 0 ? SCAN_ANY : SCAN_DONE;
 }
 
@@ -313,10 +352,235 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 }
 #endif
 
+#if SMEAR_ASM_ARMV7EM
+SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
+                        && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
+                        && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
+                        && offsetof(struct triangle_scan, position) == 24 && offsetof(struct triangle_scan, vertex_count) == 28
+                        && offsetof(struct triangle_scan, width) == 32 && offsetof(struct triangle_scan, index) == 40
+                        && offsetof(struct triangle_scan, end) == 44 && offsetof(struct triangle_scan, behind) == 48
+                        && offsetof(struct triangle_scan, v) == 52 && offsetof(struct triangle_scan, missing) == 64
+                        && offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
+                        && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
+                        && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88,
+                    "the assembly knows struct triangle_scan");
+
+/* Tags of the triangle whose first index r0 points to into r2, r3 and r4, its entries into r5, r7 and r6. */
+#define TRIANGLE_SCAN_ENTRIES            \
+    "ldm r1, {r3, r4, r8, r9, r10}\n\t" \
+    "ldrh r2, [r0]\n\t"                 \
+    "ldrh r3, [r0, r3]\n\t"             \
+    "ldrh r4, [r0, r4]\n\t"             \
+    "orr r2, r2, r8\n\t"                \
+    "orr r3, r3, r8\n\t"                \
+    "orr r4, r4, r8\n\t"                \
+    "and r5, r2, r9\n\t"                \
+    "and r7, r3, r9\n\t"                \
+    "and r6, r4, r9\n\t"                \
+    "mla r5, r5, r12, r10\n\t"          \
+    "mla r7, r7, r12, r10\n\t"          \
+    "mla r6, r6, r12, r10\n\t"
+
+/* Goes on where vertices are in the cache, and within the frame. At 31 only the third one is asked for, at 32 all are there. */
+#define TRIANGLE_SCAN_TEST     \
+    "ldr r8, [r5]\n\t"        \
+    "cmp r8, r2\n\t"          \
+    "bne 13f\n\t"             \
+    "ldr r9, [r7]\n\t"        \
+    "cmp r9, r3\n\t"          \
+    "bne 14f\n"               \
+    "31: ldr r10, [r6]\n\t"   \
+    "cmp r10, r4\n\t"         \
+    "bne 15f\n"               \
+    "32: ldr r2, [r5, #20]\n\t" \
+    "ldr r3, [r7, #20]\n\t"   \
+    "ldr r4, [r6, #20]\n\t"   \
+    "orr r8, r2, r3\n\t"      \
+    "orrs r8, r8, r4\n\t"     \
+    "bne 17f\n\t"
+
+/* Twice the area into r2 and r3. */
+#define TRIANGLE_SCAN_AREA          \
+    "ldrd r2, r3, [r5, #8]\n\t"    \
+    "ldrd r8, r9, [r7, #8]\n\t"    \
+    "ldrd r10, r11, [r6, #8]\n\t"  \
+    "sub r4, r2, r10\n\t"          \
+    "sub r8, r8, r2\n\t"           \
+    "sub r9, r9, r3\n\t"           \
+    "sub r11, r11, r3\n\t"         \
+    "smull r2, r3, r8, r11\n\t"    \
+    "smlal r2, r3, r4, r9\n\t"
+
+/* The entry and the tag of a vertex that is missing into r8 and r12, unless the entry is in use. */
+#define TRIANGLE_SCAN_MISSING \
+    "13: mov r12, r2\n\t"    \
+    "mov r8, r5\n\t"         \
+    "b 16f\n"                \
+    "14: cmp r7, r5\n\t"     \
+    "beq 25f\n\t"            \
+    "mov r12, r3\n\t"        \
+    "mov r8, r7\n\t"         \
+    "b 16f\n"                \
+    "15: cmp r6, r5\n\t"     \
+    "it ne\n\t"              \
+    "cmpne r6, r7\n\t"       \
+    "beq 25f\n\t"            \
+    "mov r12, r4\n\t"        \
+    "mov r8, r6\n"
+
+/* That vertex into the cache, then on behind where it was asked for, with what was in r0 to r7, and lr. Else at 1 and 27. */
+#define TRIANGLE_SCAN_FIND                         \
+    "16: uxth r9, r12\n\t"                        \
+    "ldr r10, [r1, #28]\n\t"                      \
+    "cmp r9, r10\n\t"                             \
+    "bhs 25f\n\t"                                 \
+    "push {r0, r1, r2, r3, r4, r5, r6, r7, lr}\n\t" \
+    "mov lr, r8\n\t"                              \
+    "ldrd r1, r3, [r1, #20]\n\t"                  \
+    "add r0, r9, r9, lsl #1\n\t"                  \
+    "add r0, r3, r0, lsl #1\n\t" ARMV7EM_VERTEX   \
+    "mov r3, r12\n\t"                             \
+    "movs r4, #0\n\t"                             \
+    "mov r8, r4\n\t"                              \
+    "mov r12, r11\n\t"                            \
+    "stm lr, {r3, r4, r5, r6, r7, r8, r9, r10, r11, r12}\n\t" \
+    "ldr r1, [sp, #4]\n\t"                        \
+    "ldrd r3, r4, [r1, #32]\n\t"                  \
+    "cmp r5, r3\n\t"                              \
+    "bhi 27f\n\t"                                 \
+    "cmp r6, r4\n\t"                              \
+    "bhi 27f\n\t"                                 \
+    "mov r8, lr\n\t"                              \
+    "pop {r0, r1, r2, r3, r4, r5, r6, r7, lr}\n\t" \
+    "mov r12, #40\n\t"                            \
+    "cmp r8, r5\n\t"                              \
+    "beq 12b\n\t"                                 \
+    "cmp r8, r7\n\t"                              \
+    "beq 31b\n\t"                                 \
+    "b 32b\n" ARMV7EM_VERTEX_LIMIT
+
+/* What becomes of triangles that are not wholly within the frame; 24, 21: those that may be seen. */
+#define TRIANGLE_SCAN_SEEN         \
+    "17: ands r2, r2, r3\n\t"     \
+    "ands r2, r2, r4\n\t"         \
+    "tst r2, #63\n\t"             \
+    "bne 18b\n"                   \
+    "24: movs r2, #2\n"           \
+    "22: add r3, r1, #52\n\t"     \
+    "stm r3, {r5, r6, r7}\n\t"    \
+    "adds r0, #6\n\t"             \
+    "b 29f\n"
+
+/* What becomes of those that face the viewer. */
+#define TRIANGLE_SCAN_FRONT         \
+    "21: movs r2, #1\n\t"          \
+    "ldr r8, [r1, #68]\n\t"        \
+    "cmp r8, #0\n\t"               \
+    "beq 22f\n\t"                  \
+    "add r3, r1, #52\n\t"          \
+    "stm r3, {r5, r6, r7}\n\t"     \
+    "push {r0, r1, lr}\n\t"        \
+    "mov r0, r8\n\t"               \
+    "ldrd r8, r9, [r6, #8]\n\t"    \
+    "ldrd r6, r7, [r7, #8]\n\t"    \
+    "ldrd r4, r5, [r5, #8]\n\t" FRONT_COVER_ARMV7EM \
+    "mov r2, r0\n\t"               \
+    "pop {r0, r1, lr}\n\t"         \
+    "mov r12, #40\n\t"             \
+    "cmp r2, #0\n\t"               \
+    "beq 18b\n\t"                  \
+    "cmp r2, #2\n\t"               \
+    "bhi 23f\n\t"                  \
+    "ldr r3, [r1, #76]\n\t"        \
+    "cbz r3, 23f\n\t"              \
+    "ldr r4, [r1, #88]\n\t"        \
+    "cbnz r4, 30f\n"               \
+    "23: str r2, [r1, #72]\n\t"    \
+    "movs r2, #1\n\t"              \
+    "adds r0, #6\n\t"              \
+    "b 29f\n"
+
+/* Its pixels become points, by the rings in r3 while there is the room in r4. A triangle's colour lies two thirds as far from the first
+ * as its indices do. */
+#define TRIANGLE_SCAN_POINTS        \
+    "30: subs r4, #1\n\t"          \
+    "str r4, [r1, #88]\n\t"        \
+    "push {r0, r1, lr}\n\t"        \
+    "ldrd r5, r6, [r1, #80]\n\t"   \
+    "subs r6, r0, r6\n\t"          \
+    "movw r4, #0xaaab\n\t"         \
+    "movt r4, #0xaaaa\n\t"         \
+    "mul r6, r6, r4\n\t"           \
+    "ldr r5, [r5, r6, lsl #1]\n\t" \
+    "rev r5, r5\n\t"               \
+    "ror r5, r5, #8\n\t"           \
+    "mov r0, r3\n\t"               \
+    "add r6, r1, #52\n\t"          \
+    "ldr r1, [r1, #68]\n\t"        \
+    "ldm r6, {r2, r4, r6}\n\t"     \
+    "ldr r2, [r2, #16]\n\t"        \
+    "ldr r3, [r6, #16]\n\t"        \
+    "ldr r4, [r4, #16]\n\t" TINY_POINTS_ARMV7EM "\n\t" \
+    "pop {r0, r1, lr}\n\t"         \
+    "mov r12, #40\n\t"             \
+    "b 18b\n"
+
+/* Other reasons to stop. From 29 on it ends. */
+#define TRIANGLE_SCAN_STOP      \
+    "1: mov r3, r12\n\t"       \
+    "movs r2, #0\n\t"          \
+    "str r2, [lr]\n\t"         \
+    "movs r2, #4\n\t"          \
+    "b 28f\n"                  \
+    "27: ldr r3, [lr]\n\t"     \
+    "movs r2, #3\n"            \
+    "28: ldrd r0, r1, [sp]\n\t" \
+    "str r3, [r1, #64]\n\t"    \
+    "str lr, [r1, #52]\n\t"    \
+    "add sp, #36\n\t"          \
+    "b 29f\n"                  \
+    "25: movs r2, #5\n"        \
+    "29: str r0, [r1, #40]"
+
+/* The next index in r0, the scan in r1, the size of vertices in r12, the end in lr. Three fifths of the instructions that compilers
+ * take for a triangle that faces away. */
+static inline enum scan_end triangle_scan_armv7em(struct triangle_scan *s)
+{
+    register struct triangle_scan *r1 __asm__("r1") = s;
+    register uint32_t r2 __asm__("r2");
+    __asm__ volatile(".syntax unified\n\t"
+                     "ldrd r0, lr, [r1, #40]\n\t"
+                     "mov r12, #40\n\t"
+                     "b 19f\n"
+                     "11: " TRIANGLE_SCAN_ENTRIES
+                     "12: " TRIANGLE_SCAN_TEST TRIANGLE_SCAN_AREA
+                     "cmp r3, #0\n\t"
+                     "blt 20f\n\t"
+                     "orrs r2, r2, r3\n\t"
+                     "bne 21f\n\t"
+                     "b 18f\n"
+                     "20: ldr r2, [r1, #48]\n\t"
+                     "cmp r2, #0\n\t"
+                     "bne 24f\n"
+                     "18: adds r0, #6\n"
+                     "19: cmp r0, lr\n\t"
+                     "bne 11b\n\t"
+                     "movs r2, #0\n\t"
+                     "b 29f\n" TRIANGLE_SCAN_FRONT TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_FIND
+                         TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
+                     : "+r"(r1), "=r"(r2)
+                     :
+                     : "r0", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    return (enum scan_end)r2;
+}
+#endif
+
 static inline enum scan_end triangle_scan(struct triangle_scan *s)
 {
 #if SMEAR_ASM_ARMV6M
     return triangle_scan_armv6m(s);
+#elif SMEAR_ASM_ARMV7EM
+    return triangle_scan_armv7em(s);
 #else
     return triangle_scan_reference(s);
 #endif

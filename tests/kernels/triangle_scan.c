@@ -7,6 +7,38 @@
 
 enum { VERTICES = 24, ENTRIES = 16, TAG = 7 << 16 };
 enum { LOOK, CENTRE, STOPS };      /* words */
+#if FRONT_COVERS
+enum { RINGS = 4, ROOM = 7 };
+
+/* Where points go. */
+struct points {
+    struct point_entry entry[2 * ROOM];
+    uint32_t last[RINGS], count;
+    uint8_t color[4 * 40];
+    struct points_rings rings;
+};
+
+static void points_make(struct points *p)
+{
+    *p = (struct points){ .count = 0 };
+    for (int i = 0; i < RINGS; i++)
+        p->last[i] = UINT32_MAX;
+    for (int i = 0; i < 4 * 40; i++)
+        p->color[i] = (uint8_t)(i * 7);
+    p->rings = (struct points_rings){ p->entry + (2 * ROOM - 1), p->last, (1u << 22) / 40u, &p->count, smear_recip_seed };
+}
+
+static uint32_t points_sum(const struct points *p, uint32_t sum)
+{
+    for (int i = 0; i < RINGS; i++)
+        sum = sum * 31u + p->last[i];
+    for (int i = 0; i < 2 * ROOM; i++) {
+        const struct point_entry *const e = &p->entry[i];
+        sum = ((sum * 31u + (e->x | (uint32_t)e->y << 16)) * 31u + (e->depth ^ (uint32_t)e->kind << 16)) * 31u + (e->color ^ e->next);
+    }
+    return sum * 31u + p->count;
+}
+#endif
 
 /* Indices of vertices, a few of which the mesh does not have. */
 static void prepare(struct kernel_call *c)
@@ -16,19 +48,36 @@ static void prepare(struct kernel_call *c)
         index[i] = (uint16_t)(kernel_between(0, 63) == 0 ? kernel_between(0, 65535) : kernel_between(0, VERTICES - 1));
     int16_t *position = c->plane[1];
     for (int32_t i = 0; i < 3 * c->n; i++)
-        position[i] = (int16_t)kernel_between(-2000, 2000);
+        position[i] = (int16_t)(kernel_between(0, 5) == 0 ? kernel_between(-30000, 30000) : kernel_between(-2000, 2000));
 }
 
+/* Near vertices are apart by less than a pixel, or by up to eight; others by up to the frame's size. */
 static void setup_make(struct vertex_setup *v, const struct kernel_call *c)
 {
-    const int32_t steps = (c->word[LOOK] >> 8 & 1u) != 0 ? 1 << 18 : 1 << 15;
+    const int32_t steps = 1 << (24 + 2 * (c->word[LOOK] >> 8 & 3u));
     const int32_t m[3][4] = { { steps, 1 << 12, 0, (int32_t)(c->word[CENTRE] >> 5 & 0xffffffu) },
                               { 1 << 12, steps, 0, (int32_t)(c->word[CENTRE] >> 8 & 0xffffffu) },
-                              { 0, 0, 1 << 12, 1 << 22 } };
+                              { 0, 0, 1 << 12, (1 << 22) + 1000 } };
     const struct place_setup s = { m, 1 << 20, 1 << 23, 0x2aaaaaaa, -4, 4096, 0x43ff8000, 160 << 7, 120 << 7 };
     vertex_setup_make(v, &s);
     (void)vertex_setup_for(v, 1 << 22);
 }
+
+#if FRONT_COVERS
+static uint32_t front_sum(const struct triangle_scan *s, uint32_t sum)
+{
+    const struct front_cover *const f = s->front;
+    sum = (sum * 31u + f->low) * 31u + f->high;
+    if (s->covered == FRONT_LARGE)
+        return sum;
+    sum = (sum * 31u + (uint32_t)f->tiny.area) * 31u + (uint32_t)f->tiny.count;
+    for (int i = 0; i < f->tiny.count; i++) {
+        const struct covered *const k = &f->tiny.covered[i];
+        sum = (((sum * 31u + (uint32_t)k->x) * 31u + (uint32_t)k->y) * 31u + (uint32_t)k->e1) * 31u + (uint32_t)k->e2;
+    }
+    return sum;
+}
+#endif
 
 /* What is found in a cache goes into the call's words, as a sum. */
 static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle_scan *s))
@@ -43,10 +92,24 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
                                .position = c->plane[1], .vertex_count = (uint32_t)min_i32(c->n, VERTICES), .width = 160 << 8,
                                .height = 120 << 8, .index = index, .end = index + 3 * c->n,
                                .behind = (c->word[LOOK] & 2u) != 0 ? INT32_MIN : 0 };
+#if FRONT_COVERS
+    struct front_cover front = { .low = 0 };
+    struct points points;
+    points_make(&points);
+    s.front = (c->word[LOOK] & 12u) != 0 ? &front : NULL;
+    s.rings = (c->word[LOOK] & 48u) != 0 ? &points.rings : NULL;
+    s.color = points.color;
+    s.first = index;
+    s.room = ROOM;
+#endif
     for (enum scan_end at = form(&s); at != SCAN_DONE; at = form(&s)) {
         sum = sum * 31u + (uint32_t)at + (uint32_t)(s.index - index) * 8u;
         if (at == SCAN_FRONT || at == SCAN_ANY)
             sum = sum * 31u + (uint32_t)((s.v[0] - cache) + 16 * (s.v[1] - cache) + 256 * (s.v[2] - cache));
+#if FRONT_COVERS
+        if (at == SCAN_FRONT && s.front != NULL)
+            sum = front_sum(&s, sum * 31u + (uint32_t)s.covered);
+#endif
         if (at == SCAN_OUTSIDE)
             s.v[0]->outcode = s.v[0]->screen.x < 0 ? 1 : s.v[0]->screen.y < 0 ? 4 : 8;
         if (at == SCAN_UNREADY)
@@ -56,6 +119,9 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
     }
     for (int i = 0; i < ENTRIES; i++)
         sum = (sum * 31u + cache[i].tag) * 31u + (uint32_t)(cache[i].screen.x ^ cache[i].screen.y ^ cache[i].screen.depth ^ cache[i].now.w);
+#if FRONT_COVERS
+    sum = points_sum(&points, sum * 31u + (uint32_t)s.room);
+#endif
     c->word[STOPS] = sum;
 }
 

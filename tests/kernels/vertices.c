@@ -61,6 +61,9 @@ static void reference(struct kernel_call *c) { find(c, vertex_find_reference); }
 #if SMEAR_ASM_ARMV6M
 static void armv6m(struct kernel_call *c) { find(c, vertex_find_armv6m); }
 #endif
+#if SMEAR_ASM_ARMV7EM
+static void armv7em(struct kernel_call *c) { find(c, vertex_find_armv7em); }
+#endif
 
 extern const struct kernel kernels_vertices[];
 const struct kernel kernels_vertices[] = {
@@ -68,6 +71,9 @@ const struct kernel kernels_vertices[] = {
       .form = { { "reference", reference },
 #if SMEAR_ASM_ARMV6M
                 { "armv6m", armv6m },
+#endif
+#if SMEAR_ASM_ARMV7EM
+                { "armv7em", armv7em },
 #endif
       } },
     { .name = NULL }
