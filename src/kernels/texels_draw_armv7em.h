@@ -14,108 +14,168 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
                     "the assembly knows struct texel_run");
 
 /* dz is in r1, du, dv, ddu and ddv in r2 to r5, z in r9, u in r10, v in r11; r7 points to colours, depths lie r8 bytes further on, r12
- * points to texels. r0, r6 and lr are for whatever comes. */
-#define ARMV7EM_STEP \
-        "add r10, r10, r2\n\t" \
-        "add r11, r11, r3\n\t" \
+ * points to texels. In lr lie the bits that an index has of v, and in r0 and r6 whatever comes. */
+#define ARMV7EM_BEND \
         "add r2, r2, r4\n\t" \
         "add r3, r3, r5\n\t"
 
+#define ARMV7EM_STEP(BEND) \
+        "add r10, r10, r2\n\t" \
+        "add r11, r11, r3\n\t" \
+        BEND
+
 #define ARMV7EM_TEXEL \
-        "lsr r0, r11, %[from_v]\n\t" \
-        "lsr r6, r10, %[from_u]\n\t" \
-        "orr r0, r6, r0, lsl %[to_v]\n\t" \
+        "and r0, lr, r11, lsr %[index_v]\n\t" \
+        "orr r0, r0, r10, lsr %[from_u]\n\t" \
         "ldrh r0, [r12, r0, lsl #1]\n\t"
 
-/* A pixel, which is stepped over in memory. */
-#define ARMV7EM_PIXEL \
+#define ARMV7EM_MASK "movw lr, %[mask_v]\n\t"
+
+/* A pixel, which is stepped over in memory; lr keeps what it has. */
+#define ARMV7EM_PIXEL(BEND) \
         "ldrh r0, [r7, r8]\n\t" \
         "cmp r0, r9, lsr #16\n\t" \
         "bhs 9f\n\t" \
         "lsr r6, r9, #16\n\t" \
         "strh r6, [r7, r8]\n\t" \
+        "lsr r0, r11, %[from_v]\n\t" \
+        "lsr r6, r10, %[from_u]\n\t" \
+        "orr r0, r6, r0, lsl %[to_v]\n\t" \
+        "ldrh r0, [r12, r0, lsl #1]\n\t" \
+        "strh r0, [r7]\n" \
+        "9: adds r7, #2\n\t" \
+        "add r9, r9, r1\n\t" \
+        ARMV7EM_STEP(BEND)
+
+/* Two pixels, if both are seen; else SLOW, an instruction that goes elsewhere if r0 is 0. Halves of r0 are 0 where the old depth is
+ * not less, and so is their product where one of them is. */
+#define ARMV7EM_PAIR(SLOW, BEND) \
+        "add r6, r9, r1\n\t" \
+        "pkhtb r6, r6, r9, asr #16\n\t" \
+        "ldr r0, [r7, r8]\n\t" \
+        "uqsub16 r0, r6, r0\n\t" \
+        "add r9, r9, r1, lsl #1\n\t" \
+        "smulbt r0, r0, r0\n\t" \
+        SLOW \
+        "str r6, [r7, r8]\n\t" \
+        ARMV7EM_TEXEL \
+        "strh r0, [r7], #2\n\t" \
+        ARMV7EM_STEP(BEND) \
+        ARMV7EM_TEXEL \
+        "strh r0, [r7], #2\n\t" \
+        ARMV7EM_STEP(BEND)
+
+/* Two pixels of which one at most is seen; their codes are in r6. */
+#define ARMV7EM_SLOW_PAIR(BEND, BOTH) \
+        "ldr r0, [r7, r8]\n\t" \
+        "uqsub16 r0, r6, r0\n\t" \
+        "cbz r0, 8f\n\t" \
+        "lsls r0, r0, #16\n\t" \
+        "beq 7f\n\t" \
+        "strh r6, [r7, r8]\n\t" \
         ARMV7EM_TEXEL \
         "strh r0, [r7]\n" \
-        "9: add r7, r7, #2\n\t" \
-        "add r9, r9, r1\n\t" \
-        ARMV7EM_STEP
-
-/* Two pixels, if both are seen; else at SLOW. The flags of usub16 are set for halves in which the old depth is not less. */
-#define ARMV7EM_PAIR(SLOW) \
-        "add lr, r9, r1\n\t" \
-        "pkhtb lr, lr, r9, asr #16\n\t" \
-        "ldr r0, [r7, r8]\n\t" \
-        "usub16 r6, r0, lr\n\t" \
-        "mrs r6, APSR\n\t" \
-        "ands r6, r6, #0xf0000\n\t" \
-        "bne " SLOW "f\n\t" \
-        "add r9, r9, r1, lsl #1\n\t" \
-        "str lr, [r7, r8]\n\t" \
+        "8: adds r7, #4\n\t" \
+        BOTH \
+        "b 9f\n" \
+        "7: adds r7, #2\n\t" \
+        ARMV7EM_STEP(BEND) \
+        "lsrs r6, r6, #16\n\t" \
+        "strh r6, [r7, r8]\n\t" \
         ARMV7EM_TEXEL \
         "strh r0, [r7], #2\n\t" \
-        ARMV7EM_STEP \
-        ARMV7EM_TEXEL \
-        "strh r0, [r7], #2\n\t" \
-        ARMV7EM_STEP
+        ARMV7EM_STEP(BEND) \
+        "9:\n\t"
 
-/* Two pixels of which one at most is seen. */
-#define ARMV7EM_SLOW_PAIR \
-        "cmp r6, #0xf0000\n\t" \
-        "bne 8f\n\t" \
-        "add r7, r7, #4\n\t" \
-        "add r9, r9, r1, lsl #1\n\t" \
-        ARMV7EM_STEP \
-        ARMV7EM_STEP \
-        "b 29f\n" \
-        "8:\n\t" \
-        ARMV7EM_PIXEL \
-        ARMV7EM_PIXEL \
-        "29:\n\t"
+/* Coordinates go on by two pixels. */
+#define ARMV7EM_BOTH \
+        "add r10, r10, r2, lsl #1\n\t" \
+        "add r11, r11, r3, lsl #1\n\t"
 
-/* Narrow texels that are copied: 14 instructions a pixel where neighbours are seen, of 17. The sizes are constants. On the stack lie
- * the ends of pairs and of all, and the run. */
+#define ARMV7EM_BOTH_BENT \
+        "add r10, r10, r4\n\t" \
+        "add r11, r11, r5\n\t" \
+        ARMV7EM_BOTH \
+        "add r2, r2, r4, lsl #1\n\t" \
+        "add r3, r3, r5, lsl #1\n\t"
+
+/* lr > 0 pixels, behind whose last r4 points, and so does the number at sp where changes change. Goes on at 25, or at DONE. */
+#define ARMV7EM_STRAIGHT \
+        "lsrs r0, lr, #1\n\t" \
+        "bcc 22f\n\t" \
+        ARMV7EM_PIXEL("") \
+        "22: lsrs r0, lr, #2\n\t" \
+        ARMV7EM_MASK \
+        "bcs 24f\n\t" \
+        "beq 25f\n" \
+        "23:\n\t" \
+        ARMV7EM_PAIR("cbz r0, 26f\n\t", "") \
+        "24:\n\t" \
+        ARMV7EM_PAIR("cbz r0, 27f\n\t", "") \
+        "28: cmp r7, r4\n\t" \
+        "bne 23b\n\t" \
+        "b 25f\n" \
+        "26:\n\t" \
+        ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
+        "b 24b\n" \
+        "27:\n\t" \
+        ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
+        "b 28b\n"
+
+#define ARMV7EM_BENT(DONE) \
+        "lsrs r0, lr, #1\n\t" \
+        "bcc 32f\n\t" \
+        ARMV7EM_PIXEL(ARMV7EM_BEND) \
+        "32: lsrs r0, lr, #2\n\t" \
+        ARMV7EM_MASK \
+        "bcs 34f\n\t" \
+        "beq " DONE "\n" \
+        "33:\n\t" \
+        ARMV7EM_PAIR("cmp r0, #0\n\tbeq 36f\n\t", ARMV7EM_BEND) \
+        "34:\n\t" \
+        ARMV7EM_PAIR("cbz r0, 37f\n\t", ARMV7EM_BEND) \
+        "38: ldr r0, [sp]\n\t" \
+        "cmp r7, r0\n\t" \
+        "bne 33b\n\t" \
+        "b " DONE "\n" \
+        "37:\n\t" \
+        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        "b 38b\n" \
+        "36:\n\t" \
+        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        "b 34b\n"
+
+/* What the instructions have of the texture's sizes. */
+#define ARMV7EM_SIZES \
+        [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width), [from_u] "i"(32 - log2_width), \
+        [index_v] "i"(32 - log2_height - log2_width), [mask_v] "i"(((1 << log2_height) - 1) << log2_width)
+
+/* Narrow texels that are copied: where neighbours are seen 10 1/2 instructions a pixel, 12 3/4 where changes change, of 17. The sizes are
+ * constants, and the sum of their logarithms is 16 at most. On the stack lie the end, and the run. */
 static inline __attribute__((always_inline)) void texels_narrow_armv7em(struct texel_run *p, int log2_width, int log2_height)
 {
     register struct texel_run *r0 __asm__("r0") = p;
     __asm__ volatile(
         ".syntax unified\n\t"
         "push {r0}\n\t"
-        "ldm r0!, {r1, r2, r3, r4, r5, r6}\n\t"
+        "sub sp, #4\n\t"
+        "ldm r0!, {r1, r2, r3, r4, r5, lr}\n\t"
         "ldm r0, {r7, r8, r9, r10, r11, r12}\n\t"
         "sub r8, r8, r7\n\t"
-        "add lr, r7, r6, lsl #1\n\t"
-        "bic r0, r6, #1\n\t"
-        "add r0, r7, r0, lsl #1\n\t"
-        "push {r0, lr}\n\t"
-        "cmp r0, r7\n\t"
-        "beq 5f\n\t"
-        "lsls r6, r6, #30\n\t"
-        "bmi 3f\n"
-        "2:\n\t"
-        ARMV7EM_PAIR("6")
-        "3:\n\t"
-        ARMV7EM_PAIR("7")
-        "4: ldr r0, [sp]\n\t"
-        "cmp r7, r0\n\t"
-        "bne 2b\n"
-        "5: ldr r0, [sp, #4]\n\t"
-        "cmp r7, r0\n\t"
-        "beq 5f\n\t"
-        ARMV7EM_PIXEL
-        "b 5f\n"
-        "6:\n\t"
-        ARMV7EM_SLOW_PAIR
-        "b 3b\n"
-        "7:\n\t"
-        ARMV7EM_SLOW_PAIR
-        "b 4b\n"
-        "5: add sp, sp, #8\n\t"
+        "orrs r0, r4, r5\n\t"
+        "bne 31f\n\t"
+        "add r4, r7, lr, lsl #1\n\t"
+        ARMV7EM_STRAIGHT
+        "31: add r0, r7, lr, lsl #1\n\t"
+        "str r0, [sp]\n\t"
+        ARMV7EM_BENT("25f")
+        "25: add sp, #4\n\t"
         "pop {r0}\n\t"
         "add r8, r8, r7\n\t"
         "str r7, [r0, #24]\n\t"
         "strd r8, r9, [r0, #28]"
         : "+r"(r0)
-        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width), [from_u] "i"(32 - log2_width)
+        : ARMV7EM_SIZES
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 #endif

@@ -11,6 +11,7 @@
 #include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
 #include "kernels/flat_rows_armv6m.h"
+#include "kernels/flat_rows_armv7em.h"
 #include "kernels/row_sides.h"
 #include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
@@ -303,8 +304,7 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);
-            edge_left(g.rows.side, &d.left, n);
-            edge_right(g.rows.side, &d.right, n, s->frame->width);
+            edge_sides(g.rows.side, &d.left, &d.right, n, s->frame->width);
             g.rows.count = n;
             g.ring_row += n;
             gather_draw(&g, s, draw);
@@ -423,8 +423,11 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
     }
 }
 
+/* Whether a kernel draws rows that have no depth break. */
+#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
+
 /* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
-#if SMEAR_ASM_ARMV6M
+#if FLAT_ROWS_ASM
 #elif defined(__ARM_ARCH_6M__)
 #define cover_flat_whole cover_flat_cut
 #else
@@ -434,7 +437,7 @@ static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 }
 #endif
 
-#if !SMEAR_ASM_ARMV6M
+#if !FLAT_ROWS_ASM
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
     cover_flat(s, true, false);
@@ -489,7 +492,7 @@ void smear_cover_carry(const struct setup *s, struct flat_carried *f, int32_t y)
 
 #endif
 
-#if SMEAR_ASM_ARMV6M
+#if FLAT_ROWS_ASM
 /* The same rows by a kernel, whatever cuts them off. */
 static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
 {
@@ -512,7 +515,11 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
         rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
         rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
         rows.depth = t->depth + at;
+#if SMEAR_ASM_ARMV6M
         flat_rows_armv6m(&rows, &d.left, &d.right);
+#else
+        flat_rows_armv7em(&rows, &d.left, &d.right);
+#endif
         rows.z += rows.dz_down * (uint32_t)rows.rows;
         ring_row += rows.rows;
         if (ring_row == t->window_rows.ring)
@@ -534,7 +541,7 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         cover_flat_break(s);
         return;
     }
-#if SMEAR_ASM_ARMV6M
+#if FLAT_ROWS_ASM
     (void)t;
     (void)box;
     cover_flat_kernel(s);

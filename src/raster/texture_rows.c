@@ -4,6 +4,7 @@
  * a triangle are drawn together, a block of pixels after the other. */
 #include "raster/texture_rows.h"
 
+#include "kernels/texel_curves_armv7em.h"
 #include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 #include "raster/fog.h"
@@ -529,6 +530,31 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     }
 }
 
+#if SMEAR_ASM_ARMV7EM
+static inline struct texel_polynomial polynomial_of(const struct curve *c)
+{
+    return (struct texel_polynomial){ (uint32_t)c->dxy, (uint32_t)c->dx, (uint32_t)c->dyy, (uint32_t)c->dy, (uint32_t)c->at,
+                                      (uint32_t)c->dxx };
+}
+
+/* Whole rows of copied texels. */
+SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = texture_of(s);
+    struct texel_curve_rows rows = {
+        .side = r->side, .count = r->count, .x0 = t->x0, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
+        .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope), .depth = target->depth + r->at,
+        .stride = 2 * target->window_rows.stride, .u = polynomial_of(&t->curve[0]), .v = polynomial_of(&t->curve[1]),
+        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
+        .to_depth = (int32_t)((uintptr_t)target->depth - (uintptr_t)target->direct), .texels = s->draw->sampler.texels
+    };
+    rows.ddu = 2 * rows.u.dxx;
+    rows.ddv = 2 * rows.v.dxx;
+    texel_curve_rows_armv7em(&rows, log2_width, log2_height);
+}
+#endif
+
 #if TEXEL_TABLES
 /* Whether rows have so many pixels that a table for their light is worth it, of 32 and 64 levels. */
 static bool rows_are_many(const struct span_rows *r)
@@ -549,14 +575,16 @@ static bool rows_are_many(const struct span_rows *r)
 #define LIGHT_TABLE(LIGHT, R) (void)(R);
 #endif
 
-#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
+#define BLOCK_ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
     static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         struct row_list list; \
         draw_blocks(s, r, &list, NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
         if (list.count != 0) \
             draw_places(s, r, &list, NULL); \
-    } \
+    }
+#define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
+    BLOCK_ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
     static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         draw_curves(s, r, NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
@@ -598,9 +626,23 @@ ROWS(wide_256, 8, 8, TEXELS_WIDE)
 LIT_ROWS(lit, TEXELS_LIT)
 #if SMEAR_DIRECT
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
-ROWS(narrow_64, 6, 6, TEXELS_NARROW)
-ROWS(narrow_128, 7, 7, TEXELS_NARROW)
-ROWS(narrow_256, 8, 8, TEXELS_NARROW)
+#if SMEAR_ASM_ARMV7EM
+/* Rows that are not whole are few. */
+#define NARROW_ROWS(NAME, LOG2_SIZE) \
+    BLOCK_ROWS(NAME, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW) \
+    static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
+    { \
+        if (rows_are_whole(s, r)) \
+            draw_whole_curves(s, r, LOG2_SIZE, LOG2_SIZE); \
+        else \
+            curves_narrow_any(s, r); \
+    }
+#else
+#define NARROW_ROWS(NAME, LOG2_SIZE) ROWS(NAME, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW)
+#endif
+NARROW_ROWS(narrow_64, 6)
+NARROW_ROWS(narrow_128, 7)
+NARROW_ROWS(narrow_256, 8)
 LIT_ROWS(lit_narrow, TEXELS_LIT_NARROW)
 #endif
 

@@ -55,8 +55,7 @@ static void sides_by(struct kernel_call *c, bool best)
     edge_start(&e, a, b, word(c, Y));
     f = e;
     if (best) {
-        edge_left(c->plane[0], &e, rows);
-        edge_right(c->plane[0], &f, rows, width);
+        edge_sides(c->plane[0], &e, &f, rows, width);
     } else {
         edge_left_reference(c->plane[0], &e, rows);
         edge_right_reference(c->plane[0], &f, rows, width);
@@ -72,7 +71,7 @@ extern const struct kernel kernels_edge_walk[];
 const struct kernel kernels_edge_walk[] = {
     { .name = "edge_walk", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", by_rest }, { "best", best } } },
-    { .name = "edge_left, edge_right", .least = 1, .most = 19, .size = { 12 }, .align = { 4 }, .prepare = prepare, .timed = 19,
+    { .name = "edge_sides", .least = 1, .most = 19, .size = { 12 }, .align = { 4 }, .prepare = prepare, .timed = 19,
       .form = { { "reference", sides_reference }, { "best", sides_best } } },
     { .name = NULL }
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
 #include "kernels/flat_rows_armv6m.h"
+#include "kernels/flat_rows_armv7em.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -59,6 +60,10 @@ static void rows_by(struct kernel_call *c, bool narrow, bool best)
 #if SMEAR_ASM_ARMV6M
     if (best)
         flat_rows_armv6m(&rows, &a, &b);
+    else
+#elif SMEAR_ASM_ARMV7EM
+    if (best)
+        flat_rows_armv7em(&rows, &a, &b);
     else
 #else
     (void)best;

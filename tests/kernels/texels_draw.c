@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
- * those it doesn't, as of lit ones. */
+ * those it doesn't, as of lit ones; and texel_curves_armv7em.h. */
+#include "kernels/texel_curves_armv7em.h"
 #include "kernels/texels_draw.h"
 
 #include "tests/kernels/kernels.h"
@@ -132,6 +133,37 @@ CALLS(armv7em)
 #define ARMV7EM(CALL)
 #endif
 
+#if SMEAR_ASM_ARMV7EM
+enum { STRIDE = 35 };
+
+static struct span_side sides[4];
+static struct texel_polynomial polynomials[2];
+
+/* Rows of pixels within the stride, some of none. */
+static void curves_prepare(struct kernel_call *c)
+{
+    c->bytes[TEXTURE] = TEXELS * 4;
+    for (int i = 0; i < 4; i++) {
+        const int32_t left = kernel_between(0, STRIDE - 1);
+        sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
+    }
+    for (int i = 0; i < 2; i++)
+        polynomials[i] = (struct texel_polynomial){ kernel_random(), kernel_random(), kernel_random(), kernel_random(), kernel_random(),
+                                                    kernel_random() >> 12 };
+}
+
+SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int))
+{
+    struct texel_curve_rows rows = { sides, c->n / STRIDE, (int32_t)c->word[U], (int32_t)c->word[V], c->word[Z], c->word[DU],
+                                     c->plane[DEPTH], STRIDE * 2, polynomials[0], polynomials[1], c->word[DZ], c->word[DDU],
+                                     c->word[DDV], (int32_t)((uint8_t *)c->plane[DEPTH] - (uint8_t *)c->plane[COLOR]), c->plane[TEXTURE] };
+    draw(&rows, LOG2_WIDTH, LOG2_HEIGHT);
+}
+
+static void curves_reference(struct kernel_call *c) { curves_by(c, texel_curve_rows_reference); }
+static void curves_armv7em(struct kernel_call *c) { curves_by(c, texel_curve_rows_armv7em); }
+#endif
+
 #define KERNEL(NAME, KIND, SIZE) \
     { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
       .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) \
@@ -145,5 +177,9 @@ const struct kernel kernels_texels_draw[] = {
     KERNEL("texels_draw (any size, narrow)", narrow_any, 2),
     KERNEL("texels_draw (lit)", lit, 4),
     KERNEL("texels_draw (lit, narrow)", lit_narrow, 2),
+#if SMEAR_ASM_ARMV7EM
+    { .name = "texel_curve_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 4 }, .prepare = curves_prepare,
+      .form = { { "reference", curves_reference }, { "armv7em", curves_armv7em } } },
+#endif
     { .name = NULL }
 };
