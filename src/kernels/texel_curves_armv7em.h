@@ -25,7 +25,7 @@ struct texel_curve_rows {
     struct texel_polynomial u, v;
     uint32_t dz, ddu, ddv;      /* ddu is 2 dxx of u */
     int32_t to_depth;           /* bytes from a pixel to its depth */
-    const uint16_t *texels;
+    const void *texels;
 };
 
 SMEAR_STATIC_ASSERT(offsetof(struct texel_curve_rows, u) == 32 && offsetof(struct texel_curve_rows, dz) == 80

@@ -68,7 +68,10 @@ struct texcoord {
 SMEAR_INLINE struct texcoord places_between(struct place from, struct place to, int32_t n, int up, bool parabolic, bool turns)
 {
     struct texcoord c = { (uint32_t)from.u << up, (uint32_t)from.v << up, 0, 0, 0, 0 };
-    const int32_t part = inverse_of(n);
+    int32_t part = inverse_of(n);
+#if SMEAR_ASM_ARMV7EM
+    SMEAR_KEEP_VALUE(part);             /* else compilers multiply 64 bits by 64 */
+#endif
     int32_t du = part_by(sub_wrap(to.u, from.u), part), dv = part_by(sub_wrap(to.v, from.v), part);
     if (parabolic) {
         int32_t rate = (from.nearness + to.nearness + 2) >> 1;      /* q'/q, q16: each was rounded down */

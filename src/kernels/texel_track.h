@@ -17,6 +17,9 @@ struct texel_track {
     bool parabolic;
     int32_t part, n;            /* of a block that is not whole: 2^16 / n */
     int32_t qx, ux, vx;         /* how planes change from pixel to pixel */
+#if SMEAR_ASM_ARMV7EM
+    int32_t last, counter;      /* of a whole block: its last pixel's number; 256 less its pixels */
+#endif
 };
 
 /* A row's start: the planes' values at (x, row), and the place there. A plane is at, dx, dy; `plane` is q, u and v. */

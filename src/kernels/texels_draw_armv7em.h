@@ -99,28 +99,47 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "add r2, r2, r4, lsl #1\n\t" \
         "add r3, r3, r5, lsl #1\n\t"
 
-/* lr > 0 pixels, behind whose last r4 points, and so does the number at sp where changes change. Goes on at 25, or at DONE. */
-#define ARMV7EM_STRAIGHT \
-        "lsrs r0, lr, #1\n\t" \
-        "bcc 22f\n\t" \
-        ARMV7EM_PIXEL("") \
-        "22: lsrs r0, lr, #2\n\t" \
-        ARMV7EM_MASK \
-        "bcs 24f\n\t" \
-        "beq 25f\n" \
+/* Rounds of four pixels, at 23 or 33; at 24 or 34 the last two of one. MORE sets flags: NE where more are to come. Goes on at DONE. */
+#define ARMV7EM_STRAIGHT_QUADS(MORE, DONE) \
         "23:\n\t" \
         ARMV7EM_PAIR("cbz r0, 26f\n\t", "") \
         "24:\n\t" \
         ARMV7EM_PAIR("cbz r0, 27f\n\t", "") \
-        "28: cmp r7, r4\n\t" \
+        "28: " MORE \
         "bne 23b\n\t" \
-        "b 25f\n" \
+        "b " DONE "\n" \
         "26:\n\t" \
         ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
         "b 24b\n" \
         "27:\n\t" \
         ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
         "b 28b\n"
+
+#define ARMV7EM_BENT_QUADS(MORE, DONE) \
+        "33:\n\t" \
+        ARMV7EM_PAIR("cmp r0, #0\n\tbeq 36f\n\t", ARMV7EM_BEND) \
+        "34:\n\t" \
+        ARMV7EM_PAIR("cbz r0, 37f\n\t", ARMV7EM_BEND) \
+        "38: " MORE \
+        "bne 33b\n\t" \
+        "b " DONE "\n" \
+        "37:\n\t" \
+        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        "b 38b\n" \
+        "36:\n\t" \
+        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        "b 34b\n"
+
+/* The same of any number of pixels, lr > 0. Behind the last points r4, or the number at sp where changes change. */
+#define ARMV7EM_STRAIGHT(DONE) \
+        "lsrs r0, lr, #1\n\t" \
+        "bcc 22f\n\t" \
+        ARMV7EM_PIXEL("") \
+        "22: lsrs r0, lr, #2\n\t" \
+        ARMV7EM_MASK \
+        "bcs 24f\n\t" \
+        "beq " DONE "\n" \
+        ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\t", DONE)
 
 #define ARMV7EM_BENT(DONE) \
         "lsrs r0, lr, #1\n\t" \
@@ -130,20 +149,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         ARMV7EM_MASK \
         "bcs 34f\n\t" \
         "beq " DONE "\n" \
-        "33:\n\t" \
-        ARMV7EM_PAIR("cmp r0, #0\n\tbeq 36f\n\t", ARMV7EM_BEND) \
-        "34:\n\t" \
-        ARMV7EM_PAIR("cbz r0, 37f\n\t", ARMV7EM_BEND) \
-        "38: ldr r0, [sp]\n\t" \
-        "cmp r7, r0\n\t" \
-        "bne 33b\n\t" \
-        "b " DONE "\n" \
-        "37:\n\t" \
-        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
-        "b 38b\n" \
-        "36:\n\t" \
-        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
-        "b 34b\n"
+        ARMV7EM_BENT_QUADS("ldr r0, [sp]\n\tcmp r7, r0\n\t", DONE)
 
 /* What the instructions have of the texture's sizes. */
 #define ARMV7EM_SIZES \
@@ -165,7 +171,7 @@ static inline __attribute__((always_inline)) void texels_narrow_armv7em(struct t
         "orrs r0, r4, r5\n\t"
         "bne 31f\n\t"
         "add r4, r7, lr, lsl #1\n\t"
-        ARMV7EM_STRAIGHT
+        ARMV7EM_STRAIGHT("25f")
         "31: add r0, r7, lr, lsl #1\n\t"
         "str r0, [sp]\n\t"
         ARMV7EM_BENT("25f")

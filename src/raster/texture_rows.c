@@ -4,11 +4,12 @@
  * a triangle are drawn together, a block of pixels after the other. */
 #include "raster/texture_rows.h"
 
-#include "kernels/texel_curves_armv7em.h"
+#include "kernels/texel_blocks_armv7em.h"
 #include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 #include "raster/fog.h"
 #include "raster/texcoord.h"
+#include "raster/texture_curves.h"
 
 #if SMEAR_SPAN_ROWS
 
@@ -152,6 +153,10 @@ SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setu
     k->slope = t->slope;
     k->seed = smear_recip_seed;
     k->parabolic = t->parabolic;
+#if SMEAR_ASM_ARMV7EM
+    k->last = t->block - 1;
+    k->counter = 256 - t->block;
+#endif
     texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
 }
 
@@ -342,6 +347,14 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
     do {
         int32_t count = block, more = 0;
         if (is_in_run && rest - block >= least) {       /* as most are: whole, in the run, and not the last */
+#if SMEAR_ASM_ARMV7EM
+            if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width)) {
+                const int32_t blocks = (rest - least) >> k->log2;
+                texel_blocks_armv7em(k, blocks, log2_width, log2_height);
+                rest -= blocks << k->log2;
+                continue;
+            }
+#endif
             track_block(k);
             rest -= block;
         } else {
@@ -529,31 +542,6 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
         draw_curve(s, r, row, &run, !whole && (p.a != left || p.b != left + n) ? &p : NULL, log2_width, log2_height, kind);
     }
 }
-
-#if SMEAR_ASM_ARMV7EM
-static inline struct texel_polynomial polynomial_of(const struct curve *c)
-{
-    return (struct texel_polynomial){ (uint32_t)c->dxy, (uint32_t)c->dx, (uint32_t)c->dyy, (uint32_t)c->dy, (uint32_t)c->at,
-                                      (uint32_t)c->dxx };
-}
-
-/* Whole rows of copied texels. */
-SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
-{
-    const struct smear_raster_target *target = s->target;
-    const struct texture_setup *t = texture_of(s);
-    struct texel_curve_rows rows = {
-        .side = r->side, .count = r->count, .x0 = t->x0, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
-        .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope), .depth = target->depth + r->at,
-        .stride = 2 * target->window_rows.stride, .u = polynomial_of(&t->curve[0]), .v = polynomial_of(&t->curve[1]),
-        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
-        .to_depth = (int32_t)((uintptr_t)target->depth - (uintptr_t)target->direct), .texels = s->draw->sampler.texels
-    };
-    rows.ddu = 2 * rows.u.dxx;
-    rows.ddv = 2 * rows.v.dxx;
-    texel_curve_rows_armv7em(&rows, log2_width, log2_height);
-}
-#endif
 
 #if TEXEL_TABLES
 /* Whether rows have so many pixels that a table for their light is worth it, of 32 and 64 levels. */

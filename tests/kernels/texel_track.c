@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_track.c - how check_kernels calls kernels/texel_track.h: blocks one after the other, along planes of which some are like those of
- * triangles and some are anything. */
+ * triangles and some are anything; and texel_blocks_armv7em.h. */
+#include "kernels/texel_blocks_armv7em.h"
 #include "kernels/texel_track.h"
 
 #include "tests/kernels/kernels.h"
@@ -32,6 +33,22 @@ static void set_planes(const struct kernel_call *c, int32_t *plane, int32_t x, i
     }
 }
 
+/* What does not change along a row. */
+static void set_track(const struct kernel_call *c, struct texel_track *k)
+{
+    k->dq = (int32_t)c->word[DQ];
+    k->du = (int32_t)c->word[DU];
+    k->dv = (int32_t)c->word[DV];
+    k->log2 = 2 + (int32_t)(c->word[KIND] % 5u);
+    k->up = (int32_t)(c->word[KIND] >> 8 & 15u);
+    k->slope = (int32_t)c->word[SLOPE];
+    k->seed = smear_recip_seed;
+    k->parabolic = (c->word[KIND] >> 16 & 1u) != 0;
+    k->qx = k->dq >> 4;
+    k->ux = k->du >> 4;
+    k->vx = k->dv >> 4;
+}
+
 /* Whole blocks and others, in the order of the bits of a word. */
 SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, const int32_t *, int32_t, int32_t),
                        void next(struct texel_track *), void part(struct texel_track *, int32_t))
@@ -40,17 +57,7 @@ SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, c
     uint32_t *out = c->plane[0];
     const int32_t x = (int32_t)(c->word[KIND] >> 20), row = (int32_t)(c->word[KIND] & 511u);
     int32_t plane[9];
-    k.dq = (int32_t)c->word[DQ];
-    k.du = (int32_t)c->word[DU];
-    k.dv = (int32_t)c->word[DV];
-    k.log2 = 2 + (int32_t)(c->word[KIND] % 5u);
-    k.up = (int32_t)(c->word[KIND] >> 8 & 15u);
-    k.slope = (int32_t)c->word[SLOPE];
-    k.seed = smear_recip_seed;
-    k.parabolic = (c->word[KIND] >> 16 & 1u) != 0;
-    k.qx = k.dq >> 4;
-    k.ux = k.du >> 4;
-    k.vx = k.dv >> 4;
+    set_track(c, &k);
     set_planes(c, plane, x, row);
     start(&k, plane, x, row);
     texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
@@ -89,6 +96,48 @@ CALL(reference)
 CALL(armv6m)
 #endif
 
+#if SMEAR_ASM_ARMV7EM
+enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END };       /* words from Z on */
+
+static void blocks_prepare(struct kernel_call *c)
+{
+    prepare(c);
+    c->bytes[0] = c->n * 2;
+    c->bytes[2] = 2 << (LOG2_WIDTH + LOG2_HEIGHT);
+}
+
+/* As many whole blocks as n pixels have. */
+SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, int32_t, int, int))
+{
+    struct texel_track k;
+    set_track(c, &k);
+    k.log2 = 2 + k.log2 % 3;
+    k.last = (1 << k.log2) - 1;
+    k.counter = 256 - (1 << k.log2);
+    k.q = (int32_t)c->word[Q];
+    k.u = (int32_t)c->word[U];
+    k.v = (int32_t)c->word[V];
+    k.place = place_divided(k.q, k.u, k.v, k.slope, k.parabolic);
+    texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
+    k.run.color = c->plane[0];
+    k.run.depth = c->plane[1];
+    k.run.texels = c->plane[2];
+    k.run.z = c->word[Z];
+    k.run.dz = c->word[DZ];
+    draw(&k, c->n >> k.log2, LOG2_WIDTH, LOG2_HEIGHT);
+    c->word[Q] = (uint32_t)k.q;
+    c->word[U] = (uint32_t)k.place.u;
+    c->word[V] = (uint32_t)k.place.v;
+    c->word[DU] = (uint32_t)k.place.nearness;
+    c->word[Z] = k.run.z;
+    c->word[COLOR_END] = (uint32_t)((uint8_t *)k.run.color - (uint8_t *)c->plane[0]);
+    c->word[DEPTH_END] = (uint32_t)((uint8_t *)k.run.depth - (uint8_t *)c->plane[1]);
+}
+
+static void blocks_reference(struct kernel_call *c) { blocks(c, texel_blocks_reference); }
+static void blocks_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em); }
+#endif
+
 extern const struct kernel kernels_texel_track[];
 const struct kernel kernels_texel_track[] = {
     { .name = "texel_track", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
@@ -97,5 +146,9 @@ const struct kernel kernels_texel_track[] = {
                 { "armv6m", armv6m },
 #endif
       } },
+#if SMEAR_ASM_ARMV7EM
+    { .name = "texel_blocks", .least = 16, .most = 70, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
+      .form = { { "reference", blocks_reference }, { "armv7em", blocks_armv7em } } },
+#endif
     { .name = NULL }
 };
