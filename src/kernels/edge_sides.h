@@ -148,15 +148,4 @@ static inline void edge_sides_armv7em(struct span_side *side, struct edge_walk *
 }
 #endif
 
-/* Both sides. */
-static inline void edge_sides(struct span_side *side, struct edge_walk *left, struct edge_walk *right, int32_t n, int32_t width)
-{
-#if SMEAR_ASM_ARMV7EM
-    edge_sides_armv7em(side, left, right, n, width);
-#else
-    edge_left(side, left, n);
-    edge_right(side, right, n, width);
-#endif
-}
-
 #endif

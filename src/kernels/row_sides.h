@@ -25,7 +25,7 @@ static inline void row_sides_reference(struct span_side *side, const struct corn
 }
 
 #if SMEAR_AVX2
-/* The same: sides of a multiple of eight are stored. A quarter of the instructions of edge_sides. */
+/* The same: sides of a multiple of eight are stored. A quarter of the instructions of edge_left and edge_right. */
 void smear_row_sides_avx2(struct span_side *side, const struct corners *c, int32_t y, int32_t n, int32_t width);
 #endif
 
