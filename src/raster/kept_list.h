@@ -90,13 +90,22 @@ static inline void kept_drop(const struct smear_raster_cache *cache)
     l->free = number;
 }
 
+/* Whether a triangle goes on in the target's rows: those between it and the last one may have been another worker's. */
+static inline bool kept_goes_on(const struct kept_list *l, const struct kept *k) { return k->end > l->area.y0; }
+
 /* The entry of a triangle, which is the next one then; null where it has none. */
 static inline struct kept *kept_find(const struct smear_raster_cache *cache, uint32_t triangle)
 {
     const struct kept_list *const l = kept_list_seen(cache);
     while (l->triangle < triangle)
         kept_drop(cache);
-    return l->triangle == triangle ? kept_at(cache, *l->link) : NULL;
+    if (l->triangle != triangle)
+        return NULL;
+    struct kept *const k = kept_at(cache, *l->link);
+    if (kept_goes_on(l, k))
+        return k;
+    kept_drop(cache);
+    return NULL;
 }
 
 /* Puts a new entry before the next one, and passes it. Null where there is no room. */

@@ -90,7 +90,8 @@ static inline void keep(const struct smear_raster_target *target, struct kept *k
     k->order = rows ? (uint8_t)smear_cover_order(s) : 0;
     k->cut = max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1;
 #if SMEAR_LANE_ROWS
-    if (rows && !has_levels(s) && smear_lane_carry(&((struct kept_texels *)(void *)k)->texels, s, target->y1, k->cut)) {
+    const bool shrunk = s->draw != &s->frame->draw[s->segment->draw];       /* a sampler is not kept */
+    if (rows && !shrunk && smear_lane_carry(&((struct kept_texels *)(void *)k)->texels, s, target->y1, k->cut)) {
         k->kind = KEPT_TEXELS;
         k->end = (int16_t)end;
         return;
@@ -472,7 +473,7 @@ static inline int take_tiny8(const struct smear_bins *bins, const struct smear_r
             entry = kept_at(cache, entry)->next;
             kept = kept_triangle(cache, entry);
         }
-        if (kept == number)
+        if (kept == number && kept_goes_on(list, kept_at(cache, entry)))
             continue;
         if (t->segment != segment)
             break;
