@@ -106,7 +106,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct span_side) == 12 && offsetof(struct span_side,
                         && sizeof(struct edge_walk) == 20 && offsetof(struct edge_walk, step_rest) == 12,
                     "the assembly knows edges and sides");
 
-/* An edge goes on by a row. */
+/* An edge goes on by a row: its place X and REST, the numbers of which it is made. */
 #define EDGE_SIDES_STEP(X, REST, STEP, STEP_REST, DY) \
     "add " X ", " X ", " STEP "\n\t"                  \
     "adds " REST ", " REST ", " STEP_REST "\n\t"      \

@@ -4,6 +4,7 @@
 #ifndef SMEAR_KERNELS_FLAT_ROWS_ARMV7EM_H
 #define SMEAR_KERNELS_FLAT_ROWS_ARMV7EM_H
 
+#include "kernels/edge_sides.h"
 #include "kernels/flat_rows.h"
 
 #if SMEAR_ASM_ARMV7EM
@@ -23,14 +24,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_rows_lines, pixels) == 32 && offsetof(s
                         && offsetof(struct flat_rows_lines, color) == 32 + 28,
                     "the assembly knows struct flat_rows_lines");
 SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_walk, rest) == 4, "the assembly knows struct edge_walk");
-
-/* An edge goes on by a row: its place X and REST, the numbers of which it is made. */
-#define FLAT_LINES_EDGE(X, REST, STEP, STEP_REST, DY) \
-    "add " X ", " X ", " STEP "\n\t"                  \
-    "adds " REST ", " REST ", " STEP_REST "\n\t"      \
-    "itt gt\n\t"                                      \
-    "subgt " REST ", " REST ", " DY "\n\t"            \
-    "addgt " X ", " X ", #1\n\t"
 
 /* A pixel whose colour has SIZE bytes. */
 #define FLAT_LINES_PIXEL(STORE, SIZE)  \
@@ -95,8 +88,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
                      "cmp r7, r12, asr #8\n\t"                                              \
                      "it gt\n\t"                                                            \
                      "asrgt r7, r12, #8\n\t"                                                \
-                     FLAT_LINES_EDGE("r10", "r11", "r0", "r1", "r2")                        \
-                     FLAT_LINES_EDGE("r12", "lr", "r3", "r4", "r5")                         \
+                     EDGE_SIDES_STEP("r10", "r11", "r0", "r1", "r2")                        \
+                     EDGE_SIDES_STEP("r12", "lr", "r3", "r4", "r5")                         \
                      "subs r7, r7, r6\n\t"                                                  \
                      "ble 5f\n\t"                                                           \
                      "ldm r9, {r0, r1, r2, r3, r4, r5, r8}\n\t"                             \

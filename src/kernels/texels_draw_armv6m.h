@@ -19,15 +19,19 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
                         && offsetof(struct texel_light, mask_v) == 24 && offsetof(struct texel_light, from_u) == 28,
                     "the assembly knows struct texel_light");
 
-/* Pixel I of a round, whose colour has 2^SIZE bytes; LABEL is behind it. r0 points to colours,
- * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
-#define ARMV6M_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
+/* Goes on to LABEL where pixel I of a round is hidden; else its depth is written. */
+#define ARMV6M_SEEN(I, LABEL) \
         "lsrs r6, r2, #16\n\t" \
         "ldrh r7, [r1, #2*(" I ")]\n\t" \
         "add r2, r8\n\t" \
         "cmp r7, r6\n\t" \
         "bhs " LABEL "f\n\t" \
-        "strh r6, [r1, #2*(" I ")]\n\t" \
+        "strh r6, [r1, #2*(" I ")]\n\t"
+
+/* Pixel I of a round, whose colour has 2^SIZE bytes; LABEL is behind it. r0 points to colours,
+ * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
+#define ARMV6M_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
+        ARMV6M_SEEN(I, LABEL) \
         "lsrs r6, r4, %[from_v]\n\t" \
         "lsls r6, r6, %[to_v]\n\t" \
         "lsrs r7, r3, %[from_u]\n\t" \
@@ -162,12 +166,7 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
 /* As ARMV6M_PIXEL, of any size. On the stack from sp + 4 on lie how far v goes down to a texel's row, the mask of that, how far u
  * goes down, and a pointer to texels. */
 #define ARMV6M_ANY_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
-        "lsrs r6, r2, #16\n\t" \
-        "ldrh r7, [r1, #2*(" I ")]\n\t" \
-        "add r2, r8\n\t" \
-        "cmp r7, r6\n\t" \
-        "bhs " LABEL "f\n\t" \
-        "strh r6, [r1, #2*(" I ")]\n\t" \
+        ARMV6M_SEEN(I, LABEL) \
         "ldr r7, [sp, #12]\n\t" \
         "movs r6, r3\n\t" \
         "lsrs r6, r7\n\t" \

@@ -140,7 +140,7 @@ static inline enum scan_end triangle_scan_reference(struct triangle_scan *s)
     return SCAN_DONE;
 }
 
-#if SMEAR_ASM_ARMV6M
+#if SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
                         && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
                         && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
@@ -149,7 +149,9 @@ SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_ver
                         && offsetof(struct triangle_scan, end) == 44 && offsetof(struct triangle_scan, behind) == 48
                         && offsetof(struct triangle_scan, v) == 52 && offsetof(struct triangle_scan, missing) == 64,
                     "the assembly knows struct triangle_scan");
+#endif
 
+#if SMEAR_ASM_ARMV6M
 /* What does not change: the end into r8, 2^15 into r9, `behind` into r12, from the scan in r0. */
 #define TRIANGLE_SCAN_LOAD  \
     "ldr r1, [r0, #44]\n\t" \
@@ -353,14 +355,7 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 #endif
 
 #if SMEAR_ASM_ARMV7EM
-SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
-                        && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
-                        && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
-                        && offsetof(struct triangle_scan, position) == 24 && offsetof(struct triangle_scan, vertex_count) == 28
-                        && offsetof(struct triangle_scan, width) == 32 && offsetof(struct triangle_scan, index) == 40
-                        && offsetof(struct triangle_scan, end) == 44 && offsetof(struct triangle_scan, behind) == 48
-                        && offsetof(struct triangle_scan, v) == 52 && offsetof(struct triangle_scan, missing) == 64
-                        && offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
+SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
                         && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
                         && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88,
                     "the assembly knows struct triangle_scan");
