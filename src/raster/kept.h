@@ -133,6 +133,11 @@ static inline void kept_keep(struct kept *k, struct setup *s, uint32_t triangle,
     kept_copy(s, kept_setup(k), false);
 }
 
+static inline struct kept *kept_at(const struct smear_raster_cache *cache, uint32_t i)
+{
+    return (struct kept *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
+}
+
 static inline void kept_take(struct kept *k, struct setup *s) { kept_copy(s, kept_setup(k), true); }
 
 #endif

@@ -25,11 +25,6 @@ SMEAR_STATIC_ASSERT(sizeof(struct kept_list) <= sizeof(struct kept_face) && size
 
 static const struct kept_list kept_none = { .triangle = SMEAR_NO_TRIANGLE };
 
-static inline struct kept *kept_at(const struct smear_raster_cache *cache, uint32_t i)
-{
-    return (struct kept *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
-}
-
 static inline struct kept_list *kept_list_of(const struct smear_raster_cache *cache) { return (struct kept_list *)cache->entry; }
 
 /* An empty one where nothing is kept. */

@@ -14,11 +14,6 @@
 
 enum { ENTRIES_MAX = 512 };
 
-static inline struct kept *entry_at(const struct smear_raster_cache *cache, uint32_t i)
-{
-    return (struct kept *)(void *)((uint8_t *)cache->entry + (size_t)i * cache->entry_bytes);
-}
-
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
 {
 #if SMEAR_KEPT_LISTS
@@ -42,14 +37,14 @@ struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, in
     }
 #else
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
-        entry_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
+        kept_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
 #endif
     return cache;
 }
 
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
 {
-    return (struct smear_raster_cache){ entry_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
+    return (struct smear_raster_cache){ kept_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
 }
 
 static inline bool has_levels(const struct setup *s)
@@ -119,7 +114,7 @@ static inline struct kept *find_kept(const struct smear_raster_target *target, u
     struct kept *free = NULL;
     uint32_t at = (triangle * 40503u & 0xffffu) * target->cache.entries >> 16;
     for (int i = 0; i < PROBES; i++) {
-        struct kept *entry = entry_at(&target->cache, at);
+        struct kept *entry = kept_at(&target->cache, at);
         if (continues && entry->triangle == triangle) {
             *known = true;
             return entry;
