@@ -58,7 +58,7 @@ targets() {
         suite game-cortex-m0plus $make -s TARGET=cortex-m0plus game-test
         suite tiny $make -s TARGET=microbit tiny-test
         # Of the switches some: that each can be off is what the suite `switches` shows.
-        suite footprint env SWITCHES="SMEAR_WITH_RECONSTRUCT SMEAR_WITH_SUBFRAMES SMEAR_WITH_TEXTURE SMEAR_WITH_MODEL" \
+        suite footprint env SWITCHES="SMEAR_WITH_SUBFRAMES SMEAR_WITH_TEXTURE" \
             $make -s footprint FOOTPRINT=cortex-m3:-O2
         suite demo-lm3s6965evb $make -s TARGET=lm3s6965evb demo-test
         suite target-raspi0 $make -s TARGET=raspi0 target-test

@@ -33,14 +33,10 @@ absent=""
 generates() {
     ! here "$2" || job "code: $1 $3" "$2 $3 $strict -c -o $base/NUMBER.o $single/smear.c"
 }
-generates "gcc for cortex-m0" "arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -ffreestanding" -O2
-for level in -O3 -O2; do
-    generates "gcc for cortex-m0plus" "arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -ffreestanding" $level
-    generates "clang for cortex-m0plus" "clang-14 --target=thumbv6m-none-eabi -mcpu=cortex-m0plus -std=c99 -ffreestanding" $level
-done
+generates "clang for cortex-m0plus" "clang-14 --target=thumbv6m-none-eabi -mcpu=cortex-m0plus -std=c99 -ffreestanding" -O3
 # For size, where helpers are functions: a file of its own must not call what it defines under another name. For debuggers:
 # registers are few without optimization.
-for level in -O0 -Og -O1 -Os; do
+for level in -O3 -O2 -Os -O1 -Og -O0; do
     generates "gcc for cortex-m0plus" "arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -ffreestanding" $level
 done
 generates "g++ for cortex-m0plus" "arm-none-eabi-g++ -mcpu=cortex-m0plus -mthumb -x c++ -std=c++11 -ffreestanding" -O2

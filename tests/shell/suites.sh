@@ -14,11 +14,20 @@ missing=0
 started=$(date +%s)
 jobs=-j$(getconf _NPROCESSORS_ONLN)
 
+# processors: spent is how many seconds of processors what this shell waited for has taken. (A subshell would tell of itself.)
+processors() {
+    times >"$log/$name.times"
+    spent=$(awk -F '[ ms]+' 'NR == 2 { printf "%d", 60 * ($1 + $3) + $2 + $4 }' "$log/$name.times")
+    rm -f "$log/$name.times"
+}
+
 # suite NAME COMMAND...: a suite counts its tests in a last line "N passed, N failed"; else it is one test.
 suite() {
     name=$1
     shift
     before=$(date +%s)
+    processors
+    spent_before=$spent
     "$@" >"$log/$name.log" 2>&1
     status=$?
     line=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log/$name.log" | tail -n 1)
@@ -34,7 +43,9 @@ suite() {
     passed=$((passed + good))
     failed=$((failed + bad))
     # Printed in one piece, as another lane may print, too.
-    line=$(printf '%-28s %4d passed, %d failed  (%d s)' "$name" "$good" "$bad" $(($(date +%s) - before)))
+    processors
+    line=$(printf '%-28s %4d passed, %d failed  (%d s, %d of processors)' "$name" "$good" "$bad" $(($(date +%s) - before)) \
+        $((spent - spent_before)))
     [ "$bad" -eq 0 ] || line="$line
 --- $log/$name.log
 $(tail -n 60 "$log/$name.log")

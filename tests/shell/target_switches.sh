@@ -24,17 +24,15 @@ fi
 # shellcheck disable=SC2086
 ${CC:-cc} $flags -c -o "$base/tapes.o" build/tapes/golden.c || exit 1
 
-# draws_alone NAME FLAGS...: for one switch nearly every source is another one, as it changes what structures hold. So all are only
-# read, with every warning of the language, and the pictures are those of the one-file form, which also tells of functions that
-# nobody calls. With less optimization calls would be left of what is not there; inlined by force, all takes twice as long, and some
-# looks uninitialized where it is not.
-quick="-O1 -DSMEAR_INLINE_FORCED=0 -Wall -Wextra -Wno-maybe-uninitialized -Werror"
+# draws_alone NAME FLAGS...: for one switch nearly every source is another one, as it changes what structures hold. So all are
+# compiled together, in the one-file form, which also tells of functions that nobody calls. With less optimization calls would be
+# left of what is not there; inlined by force, all takes twice as long, and some looks uninitialized where it is not.
+quick="-O1 -DSMEAR_INLINE_FORCED=0 -Wall -Wextra -Wconversion -Wno-maybe-uninitialized -Werror"
 draws_alone() {
     name=$1
     shift
     # shellcheck disable=SC2086
-    printf '%s\n' src/*.c src/*/*.c $players | xargs -P 2 -n 32 ${CC:-cc} $flags $vectors "$@" -fsyntax-only &&
-        ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" build/dist/single/smear.c &&
+    ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" build/dist/single/smear.c &&
         ${CC:-cc} $flags "$@" -o "$base/$name" $players "$base/tapes.o" "$base/$name.o" && plays "$name"
 }
 
