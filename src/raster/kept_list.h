@@ -15,6 +15,7 @@ struct kept_list {
     uint16_t first;             /* 0: none */
     uint16_t free;              /* those that were in use are a list, too */
     uint16_t used;              /* entries behind these never were */
+    bool apart;                 /* no list of triangles has them meanwhile */
     struct flat_area area;      /* the target for which it is gone through */
     int32_t turn;               /* the row of the frame from which on rows lie at the ring's start, if they go round in the target */
     int32_t back;               /* pixels to there */
@@ -51,6 +52,7 @@ static inline void kept_list_begin(const struct smear_raster_target *t)
         return;
     struct kept_list *const l = kept_list_of(&t->cache);
     if (l->area.x0 != t->x0 || l->area.x1 != t->x1 || l->area.narrow != target_is_direct(t)) {
+        SMEAR_ASSERT(!l->apart || l->first == 0);
         kept_list_clear(&t->cache);
     } else if (l->area.y0 != t->y0) {
         l->link = &l->first;

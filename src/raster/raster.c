@@ -455,7 +455,7 @@ static inline int take_tiny8(const struct smear_bins *bins, const struct smear_r
 {
     const uint16_t segment = bins_triangle(bins, head)->segment;
     const struct kept_list *const list = kept_list_seen(cache);
-    uint32_t kept = list->triangle;
+    uint32_t kept = list->apart ? SMEAR_NO_TRIANGLE : list->triangle;
     uint16_t entry = kept != SMEAR_NO_TRIANGLE ? *list->link : 0;
     int n = 0;
     do {
@@ -484,8 +484,9 @@ static inline int take_tiny8(const struct smear_bins *bins, const struct smear_r
 
 /* Draws the next rows of a triangle whose setup is kept. */
 static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                           const struct smear_triangle *t, uint32_t number, struct kept *k, bool *moved)
+                                           struct kept *k, bool *moved)
 {
+    const struct smear_triangle *const t = bins_triangle(frame->bins, k->triangle);
     const struct smear_segment *segment = &frame->bins->segment[t->segment];
     const int32_t *v[3];
     for (int i = 0; i < 3; i++)
@@ -493,7 +494,7 @@ static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *fram
     if (draw_carried(frame, target, segment, v, k))
         return;
     if (k->kind != KEPT_ROWS) {
-        draw_triangle(frame, target, segment, t->color, number, v, NULL, moved);
+        draw_triangle(frame, target, segment, t->color, k->triangle, v, NULL, moved);
         return;
     }
     struct setup s;
@@ -507,13 +508,25 @@ static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *fram
     smear_cover_on(&s, k->order, min_i32(k->end, target->y1), k->cut);
 }
 
-static inline void draw_kept(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                             const struct smear_triangle *t, uint32_t number, struct kept *k, bool *moved)
+/* Draws the next rows of what is kept of triangles up to this one. False if nothing is kept of this one. */
+static bool draw_kept_to(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t number, bool *moved)
 {
-    if (k->kind == KEPT_FACE)
-        draw_kept_face(target, k);
-    else
-        draw_kept_setup(frame, target, t, number, k, moved);
+    const struct kept_list *const list = kept_list_seen(&target->cache);
+    bool found = false;
+    while (list->triangle <= number) {
+        const bool is_last = list->triangle == number;
+        struct kept *const k = kept_at(&target->cache, *list->link);
+        if (!kept_goes_on(list, k)) {
+            kept_drop(&target->cache);
+            continue;
+        }
+        found = is_last;
+        if (k->kind == KEPT_FACE)
+            draw_kept_face(target, k);
+        else
+            draw_kept_setup(frame, target, k, moved);
+    }
+    return found;
 }
 
 /* Draws up to eight triangles of one segment, the first of which is `head`, and points and kept ones among them. Returns what
@@ -532,16 +545,11 @@ static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct 
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
         head = t->next;
+        if (number >= list->triangle && draw_kept_to(frame, target, number, moved))
+            continue;
         if (t->segment == SMEAR_POINT) {
             draw_point(frame, target, t, *moved);
             continue;
-        }
-        if (number >= list->triangle) {
-            struct kept *const kept = kept_find(&target->cache, number);
-            if (kept != NULL) {
-                draw_kept(frame, target, t, number, kept, moved);
-                continue;
-            }
         }
         if ((pixels.taken >> k & 1u) != 0) {
             tiny8_put(target, look, &pixels, start, pixels.end[k]);
@@ -558,20 +566,19 @@ static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct 
 
 static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
+    const struct kept_list *const list = kept_list_seen(&target->cache);
     bool moved = target->over, suits = false;
     uint32_t segment = SMEAR_POINT;
     struct tiny8_look look;
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
-        if (t->segment == SMEAR_POINT) {
-            draw_point(frame, target, t, moved);
+        if (number >= list->triangle && draw_kept_to(frame, target, number, &moved)) {
             head = t->next;
             continue;
         }
-        struct kept *const kept = kept_find(&target->cache, number);
-        if (kept != NULL) {
-            draw_kept(frame, target, t, number, kept, &moved);
+        if (t->segment == SMEAR_POINT) {
+            draw_point(frame, target, t, moved);
             head = t->next;
             continue;
         }
@@ -589,6 +596,7 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
         draw_triangle(frame, target, &frame->bins->segment[segment], t->color, number, v, NULL, &moved);
         head = t->next;
     }
+    draw_kept_to(frame, target, SMEAR_NO_TRIANGLE - 1, &moved);
 }
 #endif
 
@@ -637,7 +645,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
     kept_list_begin(target);
 #endif
 #if SMEAR_AVX2
-    if (!frame_has_fog(frame) && head != SMEAR_NO_TRIANGLE && tiny8_suit(target)) {
+    if (!frame_has_fog(frame) && (head != SMEAR_NO_TRIANGLE || kept_list_seen(&target->cache)->first != 0) && tiny8_suit(target)) {
         draw_list_tiny8(frame, target, head);
         return;
     }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_direct.c - sharp frames drawn as the display's pixels are those that were drawn as working
  * pixels and converted. A context with a window never draws directly. */
+#include "smear_overlay.h"
+
 #include "probe.h"
 #include "base/pixel.h"
 #include "raster/texture.h"
@@ -44,8 +46,8 @@ static int draw(uint16_t *out, const struct presented *frame, const smear_desc *
     return result;
 }
 
-/* How many of `count` frames were drawn directly; all must equal those through the window. */
-static int compare(const char *name, int count, bool texels_565, smear_desc desc)
+/* How many of `count` frames were drawn directly; all must equal those through the window. `overlay`: or null. */
+static int compare_under(const char *name, int count, bool texels_565, smear_desc desc, const smear_overlay *overlay)
 {
     static uint16_t direct[PIXELS], window[PIXELS];
     struct failure f = { "" };
@@ -58,17 +60,19 @@ static int compare(const char *name, int count, bool texels_565, smear_desc desc
         struct present_options options = { .fps = scene.fps, .shutter_degrees = 180, .method = SMEAR_NONE,
                                            .clear = 0x6f9ac3, .light = (smear_light_space)(i & 1),
                                            .texels_565 = texels_565 };
-        const struct presented *frame = presenter_frame(presenter, 5 * i / scene.fps, &options, &f);
-        if (!CHECK(frame != NULL))
+        const struct presented *const shown = presenter_frame(presenter, 5 * i / scene.fps, &options, &f);
+        if (!CHECK(shown != NULL))
             break;
+        struct presented frame = *shown;
+        frame.frame.overlay = overlay;
         memset(direct, 0x55, sizeof direct);
         desc.methods = SMEAR_SET(SMEAR_NONE);
-        drawn += draw(direct, frame, &desc) == 1;
+        drawn += draw(direct, &frame, &desc) == 1;
         smear_desc other = desc;
         other.methods = SMEAR_SET(SMEAR_RECONSTRUCT);
         other.band_rows = 0;
         memset(window, 0xaa, sizeof window);
-        CHECK_EQ(draw(window, frame, &other), 0);
+        CHECK_EQ(draw(window, &frame, &other), 0);
         int differ = 0;
         for (int k = 0; k < PIXELS; k++)
             differ += direct[k] != window[k];
@@ -77,6 +81,11 @@ static int compare(const char *name, int count, bool texels_565, smear_desc desc
     presenter_free(presenter);
     scene_free(&scene);
     return drawn;
+}
+
+static int compare(const char *name, int count, bool texels_565, smear_desc desc)
+{
+    return compare_under(name, count, texels_565, desc, NULL);
 }
 
 static void test_every_kind_of_span(void)
@@ -100,6 +109,20 @@ static void test_a_frame_in_parts(void)
 {
     smear_desc desc = { .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE, .band_rows = 8, .max_triangles = 500 };
     CHECK_EQ(compare("peer/E", 2, true, desc), 2);
+}
+
+/* What goes on through rows of the frame that are drawn as working pixels, since something lies over them, goes on below. */
+static void test_rows_through_the_window_among_others(void)
+{
+    static const char *const name[] = { "peer/B64", "peer/E", "suite/textured", "suite/arena" };
+    const smear_overlay_item item[2] = { { .x = 20, .y = 30, .width = 40, .height = 3, .color = { 255, 200, 0, 255 } },
+                                         { .x = 90, .y = 64, .width = 9, .height = 20, .color = { 0, 90, 255, 128 } } };
+    const smear_overlay overlay = { item, 2, NULL };
+    for (size_t i = 0; i < sizeof name / sizeof *name; i++)
+        for (int rows = 8; rows <= 16; rows += 8) {
+            const smear_desc desc = { .format = SMEAR_RGB565, .display.dither = SMEAR_DITHER_NONE, .band_rows = (int16_t)rows };
+            CHECK_EQ(compare_under(name[i], 2, true, desc, &overlay), 2);
+        }
 }
 
 static void test_only_where_nothing_is_rounded_twice(void)
@@ -138,6 +161,7 @@ void suite_direct(void)
     RUN(test_every_kind_of_span);
     RUN(test_either_byte_order);
     RUN(test_a_frame_in_parts);
+    RUN(test_rows_through_the_window_among_others);
     RUN(test_only_where_nothing_is_rounded_twice);
     RUN(test_texels_of_the_display_stay);
 }
