@@ -60,4 +60,41 @@ SMEAR_AVX2_FUNCTION void smear_row_sides_avx2(struct span_side *side, const stru
     below.x -= below.step * (uint32_t)upper;
     sides_find(side, n, width, &whole, &part, &below, upper, true);
 }
+
+/* ------------------------------------------------------------------ sides that go on */
+
+/* One from corner a to b, of which some row is given that lies below a. */
+SMEAR_AVX2_INLINE void side_carry(struct carried_sides *c, int side, const int32_t *a, const int32_t *b, int32_t row)
+{
+    struct edge_walk e;
+    edge_start(&e, a, b, row);
+    c->x[side] = e.x - e.step * (uint64_t)(int64_t)(row - c->y);
+    c->step[side] = e.step;
+}
+
+SMEAR_AVX2_FUNCTION void smear_sides_carry_avx2(struct carried_sides *c, const int32_t *const corner[3], int32_t y)
+{
+    struct corners k;
+    corners_find(&k, corner, y, INT16_MAX);
+    *c = (struct carried_sides){ .y = y };
+    c->knee = (k.middle[1] + 127) >> 8;
+    side_carry(c, SIDE_LONG, k.top, k.bottom, y);
+    if (c->knee > y)
+        side_carry(c, SIDE_ABOVE, k.top, k.middle, y);
+    if (k.bottom[1] > k.middle[1])
+        side_carry(c, SIDE_BELOW, k.middle, k.bottom, max_i32(y, c->knee));
+}
+
+SMEAR_AVX2_FUNCTION void smear_row_sides_carried_avx2(struct span_side *side, const struct carried_sides *c, int32_t n, int32_t width)
+{
+    const int32_t upper = c->knee - c->y;
+    const int short_side = upper > 0 ? SIDE_ABOVE : SIDE_BELOW;
+    const struct edge_walk whole = { c->x[SIDE_LONG], c->step[SIDE_LONG] }, part = { c->x[short_side], c->step[short_side] };
+    if (upper <= 0 || upper >= n) {
+        sides_find(side, n, width, &whole, &part, &part, 0, false);
+        return;
+    }
+    const struct edge_walk below = { c->x[SIDE_BELOW], c->step[SIDE_BELOW] };
+    sides_find(side, n, width, &whole, &part, &below, upper, true);
+}
 #endif

@@ -30,7 +30,7 @@ enum kept_kind {
     KEPT_SETUP,
     KEPT_ROWS,                  /* a setup of which nothing but rows is drawn, by its `rows` */
     KEPT_FACE,                  /* in place of a setup, sides of one colour */
-    KEPT_TEXELS                 /* or what copied texels need */
+    KEPT_CURVES, KEPT_PLACES    /* or what copied texels need, by these */
 };
 
 struct kept_face {
@@ -41,6 +41,7 @@ struct kept_face {
 #if SMEAR_LANE_ROWS
 struct kept_texels {
     struct kept kept;
+    uint16_t draw;
     struct texel_carried texels;
 };
 #endif
@@ -63,6 +64,10 @@ static inline size_t kept_bytes(const struct smear_segment *s)
         bytes += sizeof(struct setup) - offsetof(struct setup, area_recip);
 #if SMEAR_KEPT_LISTS
     bytes = ((bytes > sizeof(struct kept_face) ? bytes : sizeof(struct kept_face)) + 7) & ~(size_t)7;
+#if SMEAR_LANE_ROWS
+    if (segment_textured(s) && bytes < sizeof(struct kept_texels))
+        bytes = sizeof(struct kept_texels);
+#endif
 #endif
     return bytes;
 }

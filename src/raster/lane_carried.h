@@ -3,29 +3,31 @@
 #ifndef SMEAR_LANE_CARRIED_H
 #define SMEAR_LANE_CARRIED_H
 
-#include "kernels/corners.h"
+#include "kernels/row_sides.h"
 #include "kernels/texel_rows.h"
 #include "raster/texture_rows.h"
 
 #if SMEAR_LANE_ROWS
-/* What rows of copied texels need of a triangle, from row y on, in place of its setup. */
+/* What rows of copied texels need of a triangle, from the row of its sides on, in place of its setup. */
 struct texel_carried {
-    int32_t y;
-    uint32_t z, dz, dz_down;    /* depth codes 16.16 at column 0 of row y, and their steps */
-    bool curved;
+    struct carried_sides sides;
+    uint32_t z, dz, dz_down;    /* depth codes 16.16 at column 0 of that row, and their steps */
     union {
         struct texel_curves curves;
         struct texel_planes planes;
-    } at;                       /* row 0 is row y */
+    } at;                       /* row 0 is that row */
 };
 
-/* Makes that of row y of a triangle which smear_lane_rows_choose() has found rows for; false where they need more than this.
- * `cut`: the target's columns may cut rows off. */
-bool smear_lane_carry(struct texel_carried *c, const struct setup *s, int32_t y, bool cut);
+/* Whether rows that smear_lane_rows_choose() has found for a triangle need no more than this. `cut`: the target's columns may cut
+ * them off. Then makes that of row y: returns whether they are by curves, else by places. */
+bool smear_lane_carries(const struct setup *s, bool cut);
+bool smear_lane_carry(struct texel_carried *c, const struct setup *s, int32_t y);
 
-/* Draws the target's rows [corners->first, corners->end), none of them above row y, which becomes the last ones' first. */
-void smear_lane_carried(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *sampler,
-                        const struct corners *corners, int32_t width);
+/* Draw the target's rows [y, end) in a frame of `width` columns, none of them above the row of sides, which goes on to them. */
+void smear_lane_curves_on(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *m, int32_t y,
+                          int32_t end, int32_t width);
+void smear_lane_places_on(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *m, int32_t y,
+                          int32_t end, int32_t width);
 #endif
 
 #endif

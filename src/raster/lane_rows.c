@@ -206,32 +206,34 @@ smear_rows_fn *smear_lane_rows_choose(const struct setup *s)
 
 /* ------------------------------------------------------------------ rows of a triangle that goes on */
 
-bool smear_lane_carry(struct texel_carried *c, const struct setup *s, int32_t y, bool cut)
+bool smear_lane_carries(const struct setup *s, bool cut)
+{
+    return rows_are_plain(s) && (s->rows == lane_places || (s->rows == lane_curves && !cut));
+}
+
+bool smear_lane_carry(struct texel_carried *c, const struct setup *s, int32_t y)
 {
     const bool curved = s->rows == lane_curves;
-    if ((!curved && s->rows != lane_places) || !rows_are_plain(s) || (curved && cut))
-        return false;
-    c->y = y;
+    smear_sides_carry_avx2(&c->sides, s->v, y);
     c->z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
     c->dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
     c->dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
-    c->curved = curved;
     if (curved)
         curves_from(&c->at.curves, &s->texture, y);
     else
         c->at.planes = planes_from(&s->texture, y);
-    return true;
+    return curved;
 }
 
 static inline void plane_go(struct texel_plane *p, int32_t rows) { p->at = add_wrap(p->at, mul_wrap(p->dy, rows)); }
 
 /* Goes on to row y. */
-static inline void carried_go(struct texel_carried *c, int32_t y)
+SMEAR_INLINE void carried_go(struct texel_carried *c, int32_t y, bool curved)
 {
-    const int32_t rows = y - c->y;
-    c->y = y;
+    const int32_t rows = y - c->sides.y;
+    carried_sides_go(&c->sides, rows);
     c->z += c->dz_down * (uint32_t)rows;
-    if (c->curved) {
+    if (curved) {
         c->at.curves.y0 -= rows;
         return;
     }
@@ -240,26 +242,38 @@ static inline void carried_go(struct texel_carried *c, int32_t y)
     plane_go(&c->at.planes.v, rows);
 }
 
-void smear_lane_carried(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *sampler,
-                        const struct corners *corners, int32_t width)
+SMEAR_INLINE void carried_draw(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *m,
+                               int32_t y, int32_t end, int32_t width, bool curved)
 {
     const struct smear_plane_rows *const w = &target->window_rows;
     struct span_side side[SPAN_ROWS];
     struct texel_spans spans;
     struct texel_rows t;
-    for (int32_t y = corners->first, n; y < corners->end; y += n) {
+    for (int32_t n; y < end; y += n) {
         const int32_t ring_row = w->ring_row + (y - target->y0), turned = ring_row >= w->ring ? ring_row - w->ring : ring_row;
-        n = min_i32(min_i32(corners->end - y, SPAN_ROWS), w->ring - turned);
-        carried_go(c, y);
-        texel_rows_start(&t, target, sampler, turned * w->stride - w->x0);
-        smear_row_sides_avx2(side, corners, y, n, width);
-        if (c->curved) {
+        n = min_i32(min_i32(end - y, SPAN_ROWS), w->ring - turned);
+        carried_go(c, y, curved);
+        texel_rows_start(&t, target, m, turned * w->stride - w->x0);
+        smear_row_sides_carried_avx2(side, &c->sides, n, width);
+        if (curved) {
             const struct texel_sides sides = { side, n, c->z, c->dz, c->dz_down };
             smear_texel_columns_avx2(&t, &sides, &c->at.curves);
-            continue;
+        } else {
+            spans_of_sides(&spans, side, n, target, c->z, c->dz, c->dz_down);
+            smear_texel_rows_places_avx2(&t, &spans, &c->at.planes);
         }
-        spans_of_sides(&spans, side, n, target, c->z, c->dz, c->dz_down);
-        smear_texel_rows_places_avx2(&t, &spans, &c->at.planes);
     }
+}
+
+void smear_lane_curves_on(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *m, int32_t y,
+                          int32_t end, int32_t width)
+{
+    carried_draw(c, target, m, y, end, width, true);
+}
+
+void smear_lane_places_on(struct texel_carried *c, const struct smear_raster_target *target, const struct smear_sampler *m, int32_t y,
+                          int32_t end, int32_t width)
+{
+    carried_draw(c, target, m, y, end, width, false);
 }
 #endif

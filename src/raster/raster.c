@@ -72,10 +72,16 @@ static inline void leave_kept(const struct smear_raster_target *target, struct k
         kept_drop(&target->cache);
 }
 
-/* Keeps a setup; again, where something is kept. */
-static inline void keep(const struct smear_raster_target *target, struct kept *k, struct setup *s, uint32_t triangle,
-                        const struct pixel_box *box, int32_t end, bool small)
+/* Whether the target's columns may cut a triangle's rows off. */
+static inline bool box_is_cut(const struct setup *s, const struct pixel_box *box)
 {
+    return max_i32(box->left, 0) < s->target->x0 || min_i32(box->right, s->frame->width) > s->target->x1;
+}
+
+/* Keeps a setup; again, where something is kept. */
+static inline void keep_setup(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
+{
+    const struct smear_raster_target *target = s->target;
     if (k == NULL)
         k = kept_add(&target->cache, triangle);
     if (k == NULL)
@@ -83,15 +89,7 @@ static inline void keep(const struct smear_raster_target *target, struct kept *k
     const bool rows = s->rows != NULL && !small && !target_has_velocity(target);
     k->kind = rows ? KEPT_ROWS : KEPT_SETUP;
     k->order = rows ? (uint8_t)smear_cover_order(s) : 0;
-    k->cut = max_i32(box->left, 0) < target->x0 || min_i32(box->right, s->frame->width) > target->x1;
-#if SMEAR_LANE_ROWS
-    const bool shrunk = s->draw != &s->frame->draw[s->segment->draw];       /* a sampler is not kept */
-    if (rows && !shrunk && smear_lane_carry(&((struct kept_texels *)(void *)k)->texels, s, target->y1, k->cut)) {
-        k->kind = KEPT_TEXELS;
-        k->end = (int16_t)end;
-        return;
-    }
-#endif
+    k->cut = box_is_cut(s, box);
     kept_keep(k, s, triangle, end);
 }
 #else
@@ -135,16 +133,6 @@ static inline void leave_kept(const struct smear_raster_target *target, struct k
     (void)target;
     if (!goes_on)
         k->triangle = SMEAR_NO_TRIANGLE;
-}
-
-static inline void keep(const struct smear_raster_target *target, struct kept *k, struct setup *s, uint32_t triangle,
-                        const struct pixel_box *box, int32_t end, bool small)
-{
-    (void)target;
-    (void)box;
-    (void)small;
-    if (k != NULL)
-        kept_keep(k, s, triangle, end);
 }
 #endif
 
@@ -238,34 +226,32 @@ static inline void draw_kept_face(const struct smear_raster_target *target, stru
 }
 
 #if SMEAR_LANE_ROWS
-static inline void draw_kept_texels(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                    const struct smear_segment *segment, const int32_t *const v[3], struct kept *k)
+static SMEAR_NOINLINE void draw_texels(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                       struct kept_texels *k, int32_t y, int32_t end)
 {
-    const int32_t end = min_i32(k->end, target->y1);
-    struct corners corners;
-    leave_kept(target, k, k->end > target->y1);
-    corners_ordered(&corners, v, k->order, target->y0, end);
-    smear_lane_carried(&((struct kept_texels *)(void *)k)->texels, target, &frame->draw[segment->draw].sampler, &corners, frame->width);
+    const struct smear_sampler *const m = &frame->draw[k->draw].sampler;
+    if (k->kept.kind == KEPT_CURVES)
+        smear_lane_curves_on(&k->texels, target, m, y, end, frame->width);
+    else
+        smear_lane_places_on(&k->texels, target, m, y, end, frame->width);
 }
 #endif
 
 /* Draws the next rows of a triangle where more than its setup is kept. */
-static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                const struct smear_segment *segment, const int32_t *const v[3], struct kept *k)
+SMEAR_INLINE bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct kept *k)
 {
     if (k->kind == KEPT_FACE) {
         draw_kept_face(target, k);
         return true;
     }
 #if SMEAR_LANE_ROWS
-    if (k->kind == KEPT_TEXELS) {
-        draw_kept_texels(frame, target, segment, v, k);
+    if (k->kind >= KEPT_CURVES) {
+        leave_kept(target, k, k->end > target->y1);
+        draw_texels(frame, target, (struct kept_texels *)(void *)k, target->y0, min_i32(k->end, target->y1));
         return true;
     }
 #else
     (void)frame;
-    (void)segment;
-    (void)v;
 #endif
     return false;
 }
@@ -285,24 +271,55 @@ static inline bool keep_face(const struct setup *s, uint32_t triangle, const str
     draw_face(kept_list_of(&t->cache), &k->face, box->top, box->bottom);
     return true;
 }
-#else
-static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                const struct smear_segment *segment, const int32_t *const v[3], const struct kept *k)
-{
-    (void)frame;
-    (void)target;
-    (void)segment;
-    (void)v;
-    (void)k;
-    return false;
-}
 
-static inline bool keep_face(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
+/* Draws a large triangle of copied texels likewise. */
+static SMEAR_NOINLINE bool keep_texels(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
 {
+#if SMEAR_LANE_ROWS
+    const struct smear_raster_target *t = s->target;
+    const bool shrunk = s->draw != &s->frame->draw[s->segment->draw];       /* a sampler is not kept */
+    if (s->rows == NULL || shrunk || target_has_velocity(t) || !smear_lane_carries(s, box_is_cut(s, box)))
+        return false;
+    struct kept_texels *const k = (struct kept_texels *)(void *)kept_add(&t->cache, triangle);
+    if (k == NULL)
+        return false;
+    k->kept.kind = smear_lane_carry(&k->texels, s, box->top) ? KEPT_CURVES : KEPT_PLACES;
+    k->kept.end = (int16_t)end;
+    k->draw = s->segment->draw;
+    draw_texels(s->frame, t, k, box->top, box->bottom);
+    return true;
+#else
     (void)s;
     (void)triangle;
     (void)box;
     (void)end;
+    return false;
+#endif
+}
+
+/* Keeps a triangle that goes on; its setup again, where that is kept. True where it has been drawn. */
+static SMEAR_NOINLINE bool keep(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
+{
+    if (k == NULL && !small && (keep_face(s, triangle, box, end) || keep_texels(s, triangle, box, end)))
+        return true;
+    keep_setup(k, s, triangle, box, end, small);
+    return false;
+}
+#else
+static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct kept *k)
+{
+    (void)frame;
+    (void)target;
+    (void)k;
+    return false;
+}
+
+static inline bool keep(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
+{
+    (void)box;
+    (void)small;
+    if (k != NULL)
+        kept_keep(k, s, triangle, end);
     return false;
 }
 #endif
@@ -337,7 +354,7 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
 
     bool known;
     struct kept *const kept = find_kept(target, triangle, continues, goes_on, &known);
-    if (known && draw_carried(frame, target, segment, v, kept))
+    if (known && draw_carried(frame, target, kept))
         return;
     struct setup s;
     struct smear_raster_draw smaller;
@@ -364,10 +381,8 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         complete_kept(&s, &smaller, small);
     }
     const bool is_new = make_velocity(&s) || !known;
-    if (!known && goes_on && !small && keep_face(&s, triangle, &box, bottom))
+    if (is_new && (SMEAR_KEPT_LISTS || kept != NULL) && goes_on && keep(kept, &s, triangle, &box, bottom, small))
         return;
-    if (is_new && (SMEAR_KEPT_LISTS || kept != NULL) && goes_on)
-        keep(target, kept, &s, triangle, &box, bottom, small);
     smear_cover(&s, &box, small);
 }
 
@@ -491,8 +506,6 @@ static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *fram
     const int32_t *v[3];
     for (int i = 0; i < 3; i++)
         v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
-    if (draw_carried(frame, target, segment, v, k))
-        return;
     if (k->kind != KEPT_ROWS) {
         draw_triangle(frame, target, segment, t->color, k->triangle, v, NULL, moved);
         return;
@@ -521,9 +534,7 @@ static bool draw_kept_to(const struct smear_raster_frame *frame, const struct sm
             continue;
         }
         found = is_last;
-        if (k->kind == KEPT_FACE)
-            draw_kept_face(target, k);
-        else
+        if (!draw_carried(frame, target, k))
             draw_kept_setup(frame, target, k, moved);
     }
     return found;

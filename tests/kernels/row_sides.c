@@ -51,9 +51,35 @@ static void sides_by(struct kernel_call *c, bool best)
 static void reference(struct kernel_call *c) { sides_by(c, false); }
 static void best(struct kernel_call *c) { sides_by(c, true); }
 
+/* The same, but made ready once, and found in parts of some rows. */
+static void carried(struct kernel_call *c)
+{
+#if SMEAR_AVX2
+    const int32_t *const at = (const int32_t *)&c->word[CORNERS], *const corner[3] = { at, at + 2, at + 4 };
+    struct corners k;
+    corners_find(&k, corner, (int32_t)c->word[Y], INT16_MAX);
+    const int32_t end = k.first + min_i32(k.end - k.first, c->n);
+    if (smear_has_avx2()) {
+        struct carried_sides sides;
+        if (k.first < end)
+            smear_sides_carry_avx2(&sides, corner, k.first);
+        for (int32_t y = k.first, next; y < end; y = next) {
+            struct span_side side[ROW_SIDES];
+            next = min_i32(y + 1 + (y & INT16_MAX) % 11, end);
+            carried_sides_go(&sides, y - sides.y);
+            smear_row_sides_carried_avx2(side, &sides, next - y, (int32_t)c->word[WIDTH]);
+            for (int32_t i = y; i < next; i++)
+                ((struct span_side *)c->plane[0])[i - k.first] = side[i - y];
+        }
+        return;
+    }
+#endif
+    sides_by(c, false);
+}
+
 extern const struct kernel kernels_row_sides[];
 const struct kernel kernels_row_sides[] = {
     { .name = "row_sides", .least = 1, .most = 29, .size = { 12 }, .align = { 4 }, .prepare = prepare, .timed = 29,
-      .form = { { "reference", reference }, { "best", best } } },
+      .form = { { "reference", reference }, { "best", best }, { "carried", carried } } },
     { .name = NULL }
 };
