@@ -620,6 +620,10 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
     struct tiny_look look;
     struct points_plane points;
     const bool at_once = tiny_points(&points, frame, target), narrow = target_is_direct(target);
+#if TINY_TRIANGLES
+    bool loops = false;
+    struct tiny_triangles triangles;
+#endif
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
@@ -636,14 +640,27 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         if (t->segment != segment) {
             segment = t->segment;
             tiny = suits = tiny_look(&look, frame, target, g);
+#if TINY_TRIANGLES
+            loops = suits && at_once && tiny_loop(&triangles, &look, &points, frame->bins, g);
+#endif
         }
+#if TINY_TRIANGLES
+        if (loops && (tiny || (number & 3u) == 0)) {
+            const uint32_t reached = tiny_triangles(&triangles, number);
+            tiny = reached != number;
+            if (tiny) {
+                head = reached;
+                continue;
+            }
+        }
+#endif
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
         /* After one that is large, some are not even looked at. */
-        if (suits && (tiny || (number & 3u) == 0))
-            tiny = tiny_draw(&look, v, t->color);
-        else
-            tiny = false;
+#if TINY_TRIANGLES
+        if (!loops)
+#endif
+            tiny = suits && (tiny || (number & 3u) == 0) && tiny_draw(&look, v, t->color);
         if (!tiny)
             draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }

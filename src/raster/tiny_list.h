@@ -6,6 +6,7 @@
 
 #include "kernels/points_list.h"
 #include "kernels/tiny_corners.h"
+#include "kernels/tiny_triangles.h"
 #include "raster/cover_tiny.h"
 
 /* Lists have a loop of their own for them, where size does not count: it does in a page, and in the GBA's fast memory. */
@@ -77,6 +78,31 @@ static bool tiny_look(struct tiny_look *l, const struct smear_raster_frame *fram
     l->box.narrow = target_is_direct(t);
     return true;
 }
+
+#if TINY_TRIANGLES
+SMEAR_STATIC_ASSERT(sizeof(struct triangle_entry) == sizeof(struct smear_triangle)
+                        && offsetof(struct triangle_entry, segment) == offsetof(struct smear_triangle, segment)
+                        && offsetof(struct triangle_entry, next) == offsetof(struct smear_triangle, next)
+                        && offsetof(struct triangle_entry, color) == offsetof(struct smear_triangle, color)
+                        && (int)TINY_SIDE == (int)SMALL_PX && (int)TINY_AREA == (int)TINY_PIXELS,
+                    "tiny triangles are entries of lists");
+
+/* The same for a loop over them. False where it cannot draw them. */
+static bool tiny_loop(struct tiny_triangles *t, const struct tiny_look *l, const struct points_plane *plane,
+                      const struct smear_bins *bins, const struct smear_segment *segment)
+{
+    if (l->box.shaded && (l->box.linear || l->color != VERTEX_BASE_WORDS))
+        return false;
+    t->plane = *plane;
+    t->vertex = bins_vertex(bins, segment, 0);
+    t->segment = (uint32_t)(segment - bins->segment);
+    t->even = l->even;
+    t->shaded = l->box.shaded;
+    t->narrow = l->box.narrow;
+    tiny_triangles_begin(t);
+    return true;
+}
+#endif
 
 /* Draws rows [top, bottom) of a box whose first pixel is (x, top). */
 static inline void tiny_rows(struct tiny_look *l, int32_t x, int32_t top, int32_t bottom)
