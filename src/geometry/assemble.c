@@ -295,8 +295,10 @@ SMEAR_STATIC_ASSERT((int)SCAN_POINTS == (int)POINTS_MAX, "scans know what become
 static void scan_fronts(struct triangle_scan *s, const struct batch *b, struct front_cover *front)
 {
     s->front = b->partial ? NULL : front;
-    s->rings = b->points && !b->points_even && !segment_colored(b->segment) && b->face_color != NULL ? &b->rings : NULL;
-    s->color = b->face_color;
+    s->color = !b->points_even && !segment_colored(b->segment) ? b->face_color : NULL;
+    s->vertex_color = b->vertex_color;
+    s->even = b->points_even;
+    s->rings = b->points && (s->color != NULL || s->vertex_color != NULL) ? &b->rings : NULL;
     s->first = b->d->mesh->index;
 }
 #endif

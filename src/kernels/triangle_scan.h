@@ -4,6 +4,7 @@
 #define SMEAR_KERNELS_TRIANGLE_SCAN_H
 
 #include "kernels/front_cover.h"
+#include "kernels/tiny_corners.h"
 #include "kernels/tiny_points.h"
 #include "kernels/vertices.h"
 
@@ -45,9 +46,11 @@ struct triangle_scan {
     struct front_cover *front;      /* of SCAN_FRONT, of which those that cover nothing pass; null: unknown */
     int32_t covered;                /* and how many pixels of it are covered */
     const struct points_rings *rings;   /* where those of up to SCAN_POINTS pixels go while there is room; null: nowhere */
-    const uint8_t *color;           /* of triangles then: red, green, blue and alpha of each, */
-    const uint16_t *first;          /* whose indices begin here */
+    const uint8_t *color;           /* of triangles then: red, green, blue and alpha of each; or null */
+    const uint16_t *first;          /* their indices begin here */
     int32_t room;                   /* triangles; goes down by those that became points */
+    const uint8_t *vertex_color;    /* of vertices, where triangles have none: points mix them */
+    bool even;                      /* but only where depths are nearly even (tiny_is_even) */
 #endif
 };
 
@@ -71,17 +74,39 @@ static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_verte
 }
 
 #if FRONT_COVERS
+/* Points from `first` on, whose weights are known, take their colour from vertices. */
+static inline void scan_mix_reference(const struct triangle_scan *s, uint32_t first)
+{
+    const struct tiny_cover *const t = &s->front->tiny;
+    const uint8_t *c[3];
+    for (int i = 0; i < 3; i++)
+        c[i] = s->vertex_color + 4 * (s->v[(3 - i) % 3]->tag & 0xffffu);
+    for (int32_t k = 0; k < t->count; k++) {
+        uint32_t code[3];
+        for (int i = 0; i < 3; i++) {
+            struct tiny_channel channel;
+            tiny_channel_make(&channel, c[0][i] * 256u, c[1][i] * 256u, c[2][i] * 256u, 1u << 21);
+            code[i] = tiny_channel_at(&channel, (uint32_t)t->covered[k].e1, (uint32_t)t->covered[k].e2, false);
+        }
+        points_entry(s->rings, first + (uint32_t)k)->color = pixel_make(0, code[0], code[1], code[2]);
+    }
+}
+
 /* Takes a triangle that covers so many pixels. Returns whether it became points. */
 static inline bool scan_points(struct triangle_scan *s, int32_t covered)
 {
-    if (covered > SCAN_POINTS || s->rings == NULL || s->room == 0) {
+    const int32_t *const depth[3] = { &s->v[0]->screen.depth, &s->v[2]->screen.depth, &s->v[1]->screen.depth };
+    const bool uneven = s->color == NULL && s->even && !tiny_is_even(*depth[0], *depth[1], *depth[2]);
+    if (covered > SCAN_POINTS || s->rings == NULL || s->room == 0 || uneven) {
         s->covered = covered;
         return false;
     }
     s->room--;
-    const uint8_t *const c = s->color + (s->index - s->first) / 3 * 4;
-    tiny_points_reference(s->rings, &s->front->tiny, &s->v[0]->screen.depth, &s->v[2]->screen.depth, &s->v[1]->screen.depth,
-                          pixel_make(c[3], c[0], c[1], c[2]));
+    const uint32_t first = *s->rings->count;
+    const uint8_t *const c = s->color != NULL ? s->color + (s->index - s->first) / 3 * 4 : s->vertex_color;
+    tiny_points_reference(s->rings, &s->front->tiny, depth[0], depth[1], depth[2], pixel_make(c[3], c[0], c[1], c[2]));
+    if (s->color == NULL)
+        scan_mix_reference(s, first);
     return true;
 }
 #endif
@@ -357,7 +382,8 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 #if SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
                         && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
-                        && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88,
+                        && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88
+                        && offsetof(struct triangle_scan, vertex_color) == 92 && offsetof(struct triangle_scan, even) == 96,
                     "the assembly knows struct triangle_scan");
 
 /* Tags of the triangle whose first index r0 points to into r2, r3 and r4, its entries into r5, r7 and r6. */
@@ -498,10 +524,12 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(stru
 /* Its pixels become points, by the rings in r3 while there is the room in r4. A triangle's colour lies two thirds as far from the first
  * as its indices do. */
 #define TRIANGLE_SCAN_POINTS        \
-    "30: subs r4, #1\n\t"          \
+    "30: ldrd r5, r6, [r1, #80]\n\t" \
+    "cbnz r5, 36f\n\t"             \
+    "b 33f\n"                       \
+    "36: subs r4, #1\n\t"          \
     "str r4, [r1, #88]\n\t"        \
     "push {r0, r1, lr}\n\t"        \
-    "ldrd r5, r6, [r1, #80]\n\t"   \
     "subs r6, r0, r6\n\t"          \
     "movw r4, #0xaaab\n\t"         \
     "movt r4, #0xaaaa\n\t"         \
@@ -518,6 +546,95 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(stru
     "ldr r4, [r4, #16]\n\t" TINY_POINTS_ARMV7EM "\n\t" \
     "pop {r0, r1, lr}\n\t"         \
     "mov r12, #40\n\t"             \
+    "b 18b\n"
+
+/* The same of those whose colours are mixed, if their depths are nearly even: units of corners go into r8, r9 and r10. */
+#define TRIANGLE_SCAN_EVEN               \
+    "33: add r5, r1, #52\n\t"          \
+    "ldm r5, {r5, r6, r7}\n\t"         \
+    "ldr r8, [r5, #16]\n\t"            \
+    "ldr r9, [r7, #16]\n\t"            \
+    "ldr r10, [r6, #16]\n\t"           \
+    "ldrb r5, [r1, #96]\n\t"           \
+    "cbz r5, 34f\n\t"                  \
+    "sub r5, r8, r9\n\t"               \
+    "and r5, r5, r5, asr #31\n\t"      \
+    "add r5, r5, r9\n\t"               \
+    "sub r6, r5, r10\n\t"              \
+    "and r6, r6, r6, asr #31\n\t"      \
+    "add r6, r6, r10\n\t"              \
+    "add r6, r6, r6, asr #5\n\t"       \
+    "cmp r8, r6\n\t"                   \
+    "itt le\n\t"                       \
+    "cmple r9, r6\n\t"                 \
+    "cmple r10, r6\n\t"                \
+    "bgt 23b\n"                         \
+    "34: subs r4, #1\n\t"              \
+    "str r4, [r1, #88]\n\t"            \
+    "push {r0, r1, lr}\n\t"            \
+    "mov r0, r3\n\t"                   \
+    "ldr r1, [r1, #68]\n\t"            \
+    "mov r2, r8\n\t"                   \
+    "mov r3, r9\n\t"                   \
+    "mov r4, r10\n\t" TINY_POINTS_ARMV7EM "\n\t"
+
+/* Codes of v[0] in r3, r4 and r5: red, green and blue; pairs of those of the others in r8, r10 and r9. */
+#define TRIANGLE_SCAN_CODES              \
+    "ldr r1, [sp, #4]\n\t"             \
+    "add r2, r1, #52\n\t"              \
+    "ldm r2, {r2, r3, r4}\n\t"         \
+    "ldrd r5, r6, [r1, #92]\n\t"       \
+    "ldrh r2, [r2]\n\t"                \
+    "ldrh r3, [r3]\n\t"                \
+    "ldrh r4, [r4]\n\t"                \
+    "ldr r2, [r5, r2, lsl #2]\n\t"     \
+    "ldr r3, [r5, r3, lsl #2]\n\t"     \
+    "ldr r4, [r5, r4, lsl #2]\n\t"     \
+    "uxtb16 r6, r4\n\t"                \
+    "uxtb16 r7, r3\n\t"                \
+    "pkhbt r8, r6, r7, lsl #16\n\t"    \
+    "pkhtb r9, r7, r6, asr #16\n\t"    \
+    "uxtb16 r6, r4, ror #8\n\t"        \
+    "uxtb16 r7, r3, ror #8\n\t"        \
+    "pkhbt r10, r6, r7, lsl #16\n\t"   \
+    "uxtb r3, r2\n\t"                  \
+    "ubfx r4, r2, #8, #8\n\t"          \
+    "ubfx r5, r2, #16, #8\n\t"
+
+/* Weights add up to 2^14, of which v[0] has the rest; 2^13 rounds. */
+#define TRIANGLE_SCAN_MIX                \
+    "ldr r6, [r1, #68]\n\t"            \
+    "ldr r7, [r6, #4]\n\t"             \
+    "ldr r11, [r0, #12]\n\t"           \
+    "ldr r11, [r11]\n\t"               \
+    "ldr r12, [r0]\n\t"                \
+    "sub r11, r11, r7\n\t"             \
+    "sub r12, r12, r11, lsl #4\n\t"    \
+    "add r12, r12, #12\n\t"            \
+    "add r6, r6, #16\n\t"              \
+    "mov r11, #0x2000\n"                \
+    "35: ldrd r0, r1, [r6], #16\n\t"   \
+    "lsrs r0, r0, #2\n\t"              \
+    "lsrs r1, r1, #2\n\t"              \
+    "rsb r2, r0, #0x4000\n\t"          \
+    "subs r2, r2, r1\n\t"              \
+    "pkhbt r0, r0, r1, lsl #16\n\t"    \
+    "smlad r1, r8, r0, r11\n\t"        \
+    "mla r1, r3, r2, r1\n\t"           \
+    "smlad lr, r9, r0, r11\n\t"        \
+    "mla lr, r5, r2, lr\n\t"           \
+    "smlad r0, r10, r0, r11\n\t"       \
+    "mla r0, r4, r2, r0\n\t"           \
+    "lsrs r1, r1, #14\n\t"             \
+    "lsr lr, lr, #14\n\t"              \
+    "lsrs r0, r0, #14\n\t"             \
+    "orr r1, lr, r1, lsl #16\n\t"      \
+    "orr r1, r1, r0, lsl #8\n\t"       \
+    "str r1, [r12], #-16\n\t"          \
+    "subs r7, #1\n\t"                  \
+    "bne 35b\n\t"                      \
+    "pop {r0, r1, lr}\n\t"             \
+    "mov r12, #40\n\t"                 \
     "b 18b\n"
 
 /* Other reasons to stop. From 29 on it ends. */
@@ -561,8 +678,8 @@ static inline enum scan_end triangle_scan_armv7em(struct triangle_scan *s)
                      "19: cmp r0, lr\n\t"
                      "bne 11b\n\t"
                      "movs r2, #0\n\t"
-                     "b 29f\n" TRIANGLE_SCAN_FRONT TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_FIND
-                         TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
+                     "b 29f\n" TRIANGLE_SCAN_FRONT TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_EVEN TRIANGLE_SCAN_CODES
+                         TRIANGLE_SCAN_MIX TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_FIND TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
                      : "+r"(r1), "=r"(r2)
                      :
                      : "r0", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");

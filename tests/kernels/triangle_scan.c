@@ -14,7 +14,7 @@ enum { RINGS = 4, ROOM = 7 };
 struct points {
     struct point_entry entry[2 * ROOM];
     uint32_t last[RINGS], count;
-    uint8_t color[4 * 40];
+    uint8_t color[4 * 40 + 1];
     struct points_rings rings;
 };
 
@@ -23,8 +23,8 @@ static void points_make(struct points *p)
     *p = (struct points){ .count = 0 };
     for (int i = 0; i < RINGS; i++)
         p->last[i] = UINT32_MAX;
-    for (int i = 0; i < 4 * 40; i++)
-        p->color[i] = (uint8_t)(i * 7);
+    for (int i = 0; i < 4 * 40 + 1; i++)
+        p->color[i] = (uint8_t)(i * 73);
     p->rings = (struct points_rings){ p->entry + (2 * ROOM - 1), p->last, (1u << 22) / 40u, &p->count, smear_recip_seed };
 }
 
@@ -98,7 +98,9 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
     points_make(&points);
     s.front = (c->word[LOOK] & 12u) != 0 ? &front : NULL;
     s.rings = (c->word[LOOK] & 48u) != 0 ? &points.rings : NULL;
-    s.color = points.color;
+    s.color = (c->word[LOOK] & 64u) != 0 ? points.color : NULL;
+    s.vertex_color = points.color + 1;
+    s.even = (c->word[LOOK] & 128u) != 0;
     s.first = index;
     s.room = ROOM;
 #endif
