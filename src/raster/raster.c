@@ -620,8 +620,8 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
     struct tiny_look look;
     struct points_plane points;
     const bool at_once = tiny_points(&points, frame, target), narrow = target_is_direct(target);
+    bool loops = false;         /* tiny_loop draws */
 #if TINY_TRIANGLES
-    bool loops = false;
     struct tiny_triangles triangles;
 #endif
     while (head != SMEAR_NO_TRIANGLE) {
@@ -644,8 +644,10 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
             loops = suits && at_once && tiny_loop(&triangles, &look, &points, frame->bins, g);
 #endif
         }
+        /* After one that is large, some are not even looked at. */
+        const bool looks = suits && (tiny || (number & 3u) == 0);
 #if TINY_TRIANGLES
-        if (loops && (tiny || (number & 3u) == 0)) {
+        if (loops && looks) {
             const uint32_t reached = tiny_triangles(&triangles, number);
             tiny = reached != number;
             if (tiny) {
@@ -656,11 +658,8 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
 #endif
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
-        /* After one that is large, some are not even looked at. */
-#if TINY_TRIANGLES
         if (!loops)
-#endif
-            tiny = suits && (tiny || (number & 3u) == 0) && tiny_draw(&look, v, t->color);
+            tiny = looks && tiny_draw(&look, v, t->color);
         if (!tiny)
             draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }

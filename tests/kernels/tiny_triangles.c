@@ -80,13 +80,16 @@ CALLS(flat_narrow, true, false)
 CALLS(codes, false, true)
 CALLS(codes_narrow, true, true)
 
-#define FORMS(NAME) .form = { { "reference", NAME##_reference }, { "best", NAME##_best } }
+#define KERNEL(NAME, CALL, BYTES)                                                                                                      \
+    {                                                                                                                                  \
+        .name = NAME, .most = 20, .size = { 8, BYTES, 16, 20 }, .align = { 2, BYTES / PIXELS, 4, 4 }, .prepare = prepare, .timed = 20, \
+        .form = { { "reference", CALL##_reference },                                                                                   \
+                  { "best", CALL##_best } }                                                                                            \
+    }
 
 extern const struct kernel kernels_tiny_triangles[];
-const struct kernel kernels_tiny_triangles[] = {
-    { .name = "tiny_triangles (one colour)", .most = 20, .size = { 8, 16, 16, 20 }, .align = { 2, 4, 4, 4 }, .prepare = prepare, .timed = 20, FORMS(flat) },
-    { .name = "tiny_triangles (one colour, narrow)", .most = 20, .size = { 8, 8, 16, 20 }, .align = { 2, 2, 4, 4 }, .prepare = prepare, .timed = 20, FORMS(flat_narrow) },
-    { .name = "tiny_triangles (shaded)", .most = 20, .size = { 8, 16, 16, 20 }, .align = { 2, 4, 4, 4 }, .prepare = prepare, .timed = 20, FORMS(codes) },
-    { .name = "tiny_triangles (shaded, narrow)", .most = 20, .size = { 8, 8, 16, 20 }, .align = { 2, 2, 4, 4 }, .prepare = prepare, .timed = 20, FORMS(codes_narrow) },
-    { .name = NULL }
-};
+const struct kernel kernels_tiny_triangles[] = { KERNEL("tiny_triangles (one colour)", flat, 16),
+                                                 KERNEL("tiny_triangles (one colour, narrow)", flat_narrow, 8),
+                                                 KERNEL("tiny_triangles (shaded)", codes, 16),
+                                                 KERNEL("tiny_triangles (shaded, narrow)", codes_narrow, 8),
+                                                 { .name = NULL } };

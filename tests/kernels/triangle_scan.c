@@ -57,8 +57,9 @@ static void setup_make(struct vertex_setup *v, const struct kernel_call *c)
     const int32_t steps = 1 << (24 + 2 * (c->word[LOOK] >> 8 & 3u));
     const int32_t m[3][4] = { { steps, 1 << 12, 0, (int32_t)(c->word[CENTRE] >> 5 & 0xffffffu) },
                               { 1 << 12, steps, 0, (int32_t)(c->word[CENTRE] >> 8 & 0xffffffu) },
-                              { 0, 0, 1 << 12, (1 << 22) + 1000 } };
-    const struct place_setup s = { m, 1 << 20, 1 << 23, 0x2aaaaaaa, -4, 4096, 0x43ff8000, 160 << 7, 120 << 7 };
+                              { 0, 0, 1 << ((c->word[LOOK] & 1024u) != 0 ? 12 : 22), 3 << 21 } };
+    const int depth_shift = (c->word[LOOK] & 2048u) != 0 ? -4 : -12;
+    const struct place_setup s = { m, 1 << 20, 1 << 23, 0x2aaaaaaa, depth_shift, 4096, 0x43ff8000, 160 << 7, 120 << 7 };
     vertex_setup_make(v, &s);
     (void)vertex_setup_for(v, 1 << 22);
 }
