@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* texel_blocks_armv7em.h - whole blocks of narrow texels along a row, in assembly for Cortex-M4: what leads from block to block takes
- * half of the compiler's instructions, and what is drawn stays in registers. */
+/* texel_blocks_armv7em.h - blocks of narrow texels along a row, in assembly for Cortex-M4: what leads from block to block takes half of
+ * the compiler's instructions, and what is drawn stays in registers. */
 #ifndef SMEAR_KERNELS_TEXEL_BLOCKS_ARMV7EM_H
 #define SMEAR_KERNELS_TEXEL_BLOCKS_ARMV7EM_H
 
@@ -12,26 +12,29 @@
 SMEAR_STATIC_ASSERT(offsetof(struct texel_track, q) == 52 && offsetof(struct texel_track, place) == 64
                         && offsetof(struct texel_track, dq) == 76 && offsetof(struct texel_track, log2) == 88
                         && offsetof(struct texel_track, seed) == 100 && offsetof(struct texel_track, parabolic) == 104
+                        && offsetof(struct texel_track, n) == 112 && offsetof(struct texel_track, qx) == 116
                         && offsetof(struct texel_track, last) == 128 && offsetof(struct texel_track, counter) == 132,
                     "the assembly knows struct texel_track");
 
-/* Draws `count` > 0 blocks. Of the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are
- * anything. */
-static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int log2_width, int log2_height)
+/* Draws `count` >= 0 whole blocks, then `rest` pixels that are no more than a block and the one behind them, if there are any. Of
+ * the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are anything. */
+static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height)
 {
     for (; count > 0; count--) {
         texel_track_next_reference(k);
         texels_draw_reference(&k->run, 1 << k->log2, log2_width, log2_height, TEXELS_NARROW);
     }
+    while (rest > 0) {
+        const int32_t n = block_next(1 << k->log2, rest);
+        texel_track_part_reference(k, n);
+        rest -= n;
+        texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, TEXELS_NARROW);
+    }
 }
 
-/* Goes on by a block: the place at its end, the track's q being at r12. pu and pv, the place before, come into r4 and r5, nearness into
- * r6, changes over the block into r2 and r3, 1/q into r1, `up` into r11. */
-#define ARMV7EM_PLACE \
-        "ldm r12, {r1, r2, r3, r4, r5, r6, r10, r11, lr}\n\t" \
-        "add r1, r1, r10\n\t" \
-        "add r2, r2, r11\n\t" \
-        "add r3, r3, lr\n\t" \
+/* The place of planes r1, r2 and r3, which become the track's, whose q is at r12: 1/q into r1, coordinates into r2 and r3, the leading
+ * zeros of q less one into lr. */
+#define ARMV7EM_DIVIDE \
         "stm r12, {r1, r2, r3}\n\t" \
         "cmp r1, #2048\n\t" \
         "it lt\n\t" \
@@ -55,16 +58,68 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         "asrs r3, r3, #1\n\t" \
         "lsl r3, r3, lr\n\t" \
         "smmul r3, r3, r1\n\t" \
-        "ldrd r10, r11, [r12, #36]\n\t" \
         "strd r2, r3, [r12, #12]\n\t" \
         "subs r2, r2, r4\n\t" \
+        "subs r3, r3, r5\n\t"
+
+/* Goes on by a block: the place at its end. pu and pv, the place before, come into r4 and r5, nearness into r6, changes from pixel to
+ * pixel of the block into r2 and r3, 1/q into r1, `up` into r11. */
+#define ARMV7EM_PLACE \
+        "ldm r12, {r1, r2, r3, r4, r5, r6, r10, r11, lr}\n\t" \
+        "add r1, r1, r10\n\t" \
+        "add r2, r2, r11\n\t" \
+        "add r3, r3, lr\n\t" \
+        ARMV7EM_DIVIDE \
+        "ldrd r10, r11, [r12, #36]\n\t" \
         "asr r2, r2, r10\n\t" \
-        "subs r3, r3, r5\n\t" \
         "asr r3, r3, r10\n\t"
 
+/* How many pixels the next part has, into lr, of the rest in it: all, where they are a block, or 32 or 16. The number to be drawn goes
+ * to the run's count, that of pixels behind them to the stack. */
+#define ARMV7EM_PART_SIZE \
+        "cmp lr, #16\n\t" \
+        "bls 61f\n\t" \
+        "ldr r0, [r12, #76]\n\t" \
+        "cmp lr, r0\n\t" \
+        "bgt 61f\n\t" \
+        "cmp lr, #32\n\t" \
+        "ite ge\n\t" \
+        "movge lr, #32\n\t" \
+        "movlt lr, #16\n" \
+        "61: ldr r0, [sp, #12]\n\t" \
+        "subs r0, r0, lr\n\t" \
+        "str r0, [sp, #12]\n\t" \
+        "ite eq\n\t" \
+        "addeq r0, lr, #1\n\t" \
+        "movne r0, lr\n\t" \
+        "str r0, [r12, #-32]\n\t"
+
+/* Goes on by such a part, by whose rounded inverse changes are multiplied. */
+#define ARMV7EM_PART_PLACE \
+        ARMV7EM_PART_SIZE \
+        "str lr, [r12, #60]\n\t" \
+        "ldm r12, {r1, r2, r3, r4, r5, r6}\n\t" \
+        "add r0, r12, #64\n\t" \
+        "ldm r0, {r0, r10, r11}\n\t" \
+        "mla r1, r0, lr, r1\n\t" \
+        "mla r2, r10, lr, r2\n\t" \
+        "mla r3, r11, lr, r3\n\t" \
+        ARMV7EM_DIVIDE \
+        "ldr r11, [r12, #60]\n\t" \
+        "mov r10, #65536\n\t" \
+        "add r10, r10, r11, lsr #1\n\t" \
+        "udiv r10, r10, r11\n\t" \
+        "smull r0, r2, r10, r2\n\t" \
+        "smull r11, r3, r10, r3\n\t" \
+        "lsrs r0, r0, #16\n\t" \
+        "orr r2, r0, r2, lsl #16\n\t" \
+        "lsr r11, r11, #16\n\t" \
+        "orr r3, r11, r3, lsl #16\n\t" \
+        "ldr r11, [r12, #40]\n\t"
+
 /* Of a parabola: the rate into r0, twice b into r1 and r6, first changes, and the changes of changes into r4 and r5. The start of v goes
- * to lr. */
-#define ARMV7EM_PARABOLA \
+ * to lr. LAST: the last pixel's number into r0. */
+#define ARMV7EM_PARABOLA(LAST) \
         "ldr r0, [r12, #44]\n\t" \
         "smmul r0, r0, r1\n\t" \
         "rsb lr, lr, #19\n\t" \
@@ -81,7 +136,7 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         "asrs r6, r3, #10\n\t" \
         "muls r6, r0, r6\n\t" \
         "asrs r6, r6, #5\n\t" \
-        "ldr r0, [r12, #76]\n\t" \
+        LAST \
         "mul r4, r1, r0\n\t" \
         "add r2, r2, r4, asr #1\n\t" \
         "mul r4, r6, r0\n\t" \
@@ -106,24 +161,39 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         "ldr r12, [r12, #-8]\n\t" \
         ARMV7EM_MASK
 
-/* On the stack lie the track's q, and how many blocks are left. */
-static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct texel_track *k, int32_t count, int log2_width,
-                                                                       int log2_height)
+/* Starts the part's run: its number into lr, where it ends into END. */
+#define ARMV7EM_PART_RUN(END) \
+        "lsl r2, r2, r11\n\t" \
+        "lsl r3, r3, r11\n\t" \
+        "bic r3, r3, #255\n\t" \
+        "mov r11, lr\n\t" \
+        "ldr lr, [r12, #-32]\n\t" \
+        "ldr r1, [r12, #-52]\n\t" \
+        "ldr r12, [r12, #-8]\n\t" \
+        "add " END ", r7, lr, lsl #1\n\t"
+
+/* On the stack lie a part's end, the track's q, how many blocks are left, and how many pixels behind them. */
+static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct texel_track *k, int32_t count, int32_t rest,
+                                                                       int log2_width, int log2_height)
 {
     register int32_t *r0 __asm__("r0") = &k->q;
     register int32_t r1 __asm__("r1") = count;
+    register int32_t r2 __asm__("r2") = rest;
     __asm__ volatile(
         ".syntax unified\n\t"
-        "push {r0, r1}\n\t"
+        "push {r0, r1, r2}\n\t"
+        "sub sp, #4\n\t"
         "ldr r7, [r0, #-28]\n\t"
         "ldrd r8, r9, [r0, #-24]\n\t"
-        "sub r8, r8, r7\n"
-        "51: ldr r12, [sp]\n\t"
+        "sub r8, r8, r7\n\t"
+        "cmp r1, #0\n\t"
+        "beq 54f\n"
+        "51: ldr r12, [sp, #4]\n\t"
         ARMV7EM_PLACE
         "ldrb r0, [r12, #52]\n\t"
         "cmp r0, #0\n\t"
         "beq 52f\n\t"
-        ARMV7EM_PARABOLA
+        ARMV7EM_PARABOLA("ldr r0, [r12, #76]\n\t")
         ARMV7EM_RUN
         ARMV7EM_BENT_QUADS("lsls r0, r11, #24\n\t", "53f")
         "52: lsl r10, r4, r11\n\t"
@@ -132,17 +202,34 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
         "rsb r4, r0, #256\n\t"
         "add r4, r7, r4, lsl #1\n\t"
         ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\t", "53f")
-        "53: ldr r0, [sp, #4]\n\t"
+        "53: ldr r0, [sp, #8]\n\t"
         "subs r0, r0, #1\n\t"
-        "str r0, [sp, #4]\n\t"
-        "bne 51b\n\t"
-        "pop {r0, r1}\n\t"
+        "str r0, [sp, #8]\n\t"
+        "bne 51b\n"
+        "54: ldr lr, [sp, #12]\n\t"
+        "ldr r12, [sp, #4]\n\t"
+        "cmp lr, #0\n\t"
+        "beq 57f\n\t"
+        ARMV7EM_PART_PLACE
+        "ldrb r0, [r12, #52]\n\t"
+        "cmp r0, #0\n\t"
+        "beq 55f\n\t"
+        ARMV7EM_PARABOLA("ldr r0, [r12, #60]\n\tsubs r0, r0, #1\n\t")
+        ARMV7EM_PART_RUN("r0")
+        "str r0, [sp]\n\t"
+        ARMV7EM_BENT("54b")
+        "55: lsl r10, r4, r11\n\t"
+        "lsl lr, r5, r11\n\t"
+        ARMV7EM_PART_RUN("r4")
+        ARMV7EM_STRAIGHT("54b")
+        "57: add sp, #4\n\t"
+        "pop {r0, r1, r2}\n\t"
         "add r8, r8, r7\n\t"
         "str r7, [r0, #-28]\n\t"
         "strd r8, r9, [r0, #-24]"
-        : "+r"(r0), "+r"(r1)
+        : "+r"(r0), "+r"(r1), "+r"(r2)
         : ARMV7EM_SIZES
-        : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+        : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 #endif
 

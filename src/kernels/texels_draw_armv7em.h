@@ -47,8 +47,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "add r9, r9, r1\n\t" \
         ARMV7EM_STEP(BEND)
 
-/* Two pixels, if both are seen; else SLOW, an instruction that goes elsewhere if r0 is 0. Halves of r0 are 0 where the old depth is
- * not less, and so is their product where one of them is. */
+/* Two pixels, if both are seen; else SLOW, which goes elsewhere if r0 is 0. Halves of r0 are 0 where the old depth is not less, and
+ * so is their product where one of them is. */
 #define ARMV7EM_PAIR(SLOW, BEND) \
         "add r6, r9, r1\n\t" \
         "pkhtb r6, r6, r9, asr #16\n\t" \
@@ -117,7 +117,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
 
 #define ARMV7EM_BENT_QUADS(MORE, DONE) \
         "33:\n\t" \
-        ARMV7EM_PAIR("cmp r0, #0\n\tbeq 36f\n\t", ARMV7EM_BEND) \
+        ARMV7EM_PAIR("cbnz r0, 9f\n\tb 36f\n9:\n\t", ARMV7EM_BEND) \
         "34:\n\t" \
         ARMV7EM_PAIR("cbz r0, 37f\n\t", ARMV7EM_BEND) \
         "38: " MORE \
@@ -156,7 +156,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width), [from_u] "i"(32 - log2_width), \
         [index_v] "i"(32 - log2_height - log2_width), [mask_v] "i"(((1 << log2_height) - 1) << log2_width)
 
-/* Narrow texels that are copied: where neighbours are seen 10 1/2 instructions a pixel, 12 3/4 where changes change, of 17. The sizes are
+/* Narrow texels that are copied: where neighbours are seen 10 1/2 instructions a pixel, 12 1/2 where changes change, of 17. The sizes are
  * constants, and the sum of their logarithms is 16 at most. On the stack lie the end, and the run. */
 static inline __attribute__((always_inline)) void texels_narrow_armv7em(struct texel_run *p, int log2_width, int log2_height)
 {

@@ -324,6 +324,18 @@ static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, in
     return true;
 }
 
+#if SMEAR_ASM_ARMV7EM
+/* Blocks of narrow texels of a run, of which `rest` pixels and the last are to come: all where the row ends in it, else whole ones of
+ * which no less than `least` come behind. Returns the rest. */
+SMEAR_INLINE int32_t draw_run_blocks(struct texel_track *k, int32_t rest, int32_t least, bool is_last, int log2_width, int log2_height)
+{
+    const int32_t blocks = (rest - least) >> k->log2, behind = rest - (blocks << k->log2);
+    if (blocks > 0 || is_last)
+        texel_blocks_armv7em(k, blocks, is_last ? behind : 0, log2_width, log2_height);
+    return is_last ? 0 : behind;
+}
+#endif
+
 /* A row, of which the first run is known. */
 SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
                                   struct row_run *p, struct texel_light *light, int log2_width, int log2_height,
@@ -346,15 +358,15 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
     bool is_in_run = p->a == x;
     do {
         int32_t count = block, more = 0;
-        if (is_in_run && rest - block >= least) {       /* as most are: whole, in the run, and not the last */
 #if SMEAR_ASM_ARMV7EM
-            if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width)) {
-                const int32_t blocks = (rest - least) >> k->log2;
-                texel_blocks_armv7em(k, blocks, log2_width, log2_height);
-                rest -= blocks << k->log2;
+        if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width) && is_in_run && rest >= least) {
+            const int32_t before = rest;
+            rest = draw_run_blocks(k, rest, least, p->b == right, log2_width, log2_height);
+            if (rest != before)
                 continue;
-            }
+        }
 #endif
+        if (is_in_run && rest - block >= least) {       /* as most are: whole, in the run, and not the last */
             track_block(k);
             rest -= block;
         } else {

@@ -106,12 +106,12 @@ static void blocks_prepare(struct kernel_call *c)
     c->bytes[2] = 2 << (LOG2_WIDTH + LOG2_HEIGHT);
 }
 
-/* As many whole blocks as n pixels have. */
-SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, int32_t, int, int))
+/* Blocks of n pixels, or as many whole ones as these have. */
+SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, int32_t, int32_t, int, int))
 {
     struct texel_track k;
     set_track(c, &k);
-    k.log2 = 2 + k.log2 % 3;
+    k.log2 = 2 + k.log2 % 5;
     k.last = (1 << k.log2) - 1;
     k.counter = 256 - (1 << k.log2);
     k.q = (int32_t)c->word[Q];
@@ -124,7 +124,8 @@ SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, 
     k.run.texels = c->plane[2];
     k.run.z = c->word[Z];
     k.run.dz = c->word[DZ];
-    draw(&k, c->n >> k.log2, LOG2_WIDTH, LOG2_HEIGHT);
+    const int32_t count = (c->n - 2) >> k.log2, rest = c->n - 1 - (count << k.log2);
+    draw(&k, count, (c->word[KIND] & 3u) != 0 ? rest : 0, LOG2_WIDTH, LOG2_HEIGHT);
     c->word[Q] = (uint32_t)k.q;
     c->word[U] = (uint32_t)k.place.u;
     c->word[V] = (uint32_t)k.place.v;
@@ -147,7 +148,7 @@ const struct kernel kernels_texel_track[] = {
 #endif
       } },
 #if SMEAR_ASM_ARMV7EM
-    { .name = "texel_blocks", .least = 16, .most = 70, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
+    { .name = "texel_blocks", .least = 3, .most = 140, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
       .form = { { "reference", blocks_reference }, { "armv7em", blocks_armv7em } } },
 #endif
     { .name = NULL }
