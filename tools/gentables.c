@@ -135,6 +135,16 @@ static uint32_t dither_step(uint32_t k)
     return step;
 }
 
+/* Place i of 8 x 8 of ordered dither, Bayer's: the bits of x ^ y and y, interleaved from the lowest up. */
+static uint32_t ordered_of(int i)
+{
+    const int x = i & 7, y = i >> 3;
+    int v = 0;
+    for (int bit = 0; bit < 3; bit++)
+        v = v << 2 | ((x ^ y) >> bit & 1) << 1 | (y >> bit & 1);
+    return (uint32_t)v;
+}
+
 int main(void)
 {
     static uint32_t t[4096];
@@ -171,12 +181,8 @@ int main(void)
         t[i] = (uint32_t)(int)floor(127 * sin(i * 2 * 3.14159265358979323846 / 256) + 0.5);
     print_signed_table("127 sin(i 2 pi / 256)", "smear_sine", t, 256);
 
-    for (int i = 0; i < 64; i++) {      /* Bayer: the bits of x ^ y and y, interleaved from the lowest up */
-        int x = i & 7, y = i >> 3, v = 0;
-        for (int bit = 0; bit < 3; bit++)
-            v = v << 2 | ((x ^ y) >> bit & 1) << 1 | (y >> bit & 1);
-        t[i] = (uint32_t)v * 4 + 2;
-    }
+    for (int i = 0; i < 64; i++)
+        t[i] = ordered_of(i) * 4 + 2;
     print_table("ordered dither, 8 x 8, thresholds in 1/256", "uint8_t", "smear_dither_ordered", t, 64);
 
     blue_noise(t);
@@ -188,6 +194,12 @@ int main(void)
     for (uint32_t k = 0; k < 64; k++)
         t[k] = dither_step(k);
     print_table("what a threshold 4 k + 2 adds to a code of 31 levels, see pixel_rows.c", "uint16_t", "smear_dither_steps", t, 64);
+    uint32_t ordered[64];
+    for (int i = 0; i < 64; i++)
+        ordered[i] = t[ordered_of(i)];
+    for (int i = 0; i < 32; i++)
+        t[i] = ordered[2 * i] | ordered[2 * i + 1] << 16;
+    print_table("the same of ordered dither, two columns in a word, the left one below", "uint32_t", "smear_dither_pairs", t, 32);
 
     for (int i = 0; i < 128; i++) {     /* of the middle of each 1/128 of a radius */
         const double d = (i + 0.5) / 128, half = sqrt(1 - d * d);

@@ -21,6 +21,7 @@ extern const int8_t smear_sine[256];            /* 127 sin(i 2 pi / 256) */
 extern const uint8_t smear_dither_ordered[64];  /* thresholds in 1/256, 8 x 8 */
 extern const uint8_t smear_dither_blue[1024];   /* thresholds in 1/256, 32 x 32 */
 extern const uint16_t smear_dither_steps[64];   /* of thresholds 4 k + 2: pixel_rows.c */
+extern const uint32_t smear_dither_pairs[32];   /* those of smear_dither_ordered, two columns in a word */
 extern const uint32_t smear_streak_across[128]; /* of a dot's chords: points.c */
 extern const uint16_t smear_streak_end[256];    /* part of a chord's light up to a place */
 

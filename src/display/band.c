@@ -129,7 +129,7 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
         convert(r, in + (end - x0), end, x1, y);
 }
 
-#if SMEAR_AVX2
+#if SMEAR_ROWS_AT_ONCE
 /* Converts pixels with nothing over them, as many rows at once as lie one behind the other in their ring. False where rows are
  * converted one by one. */
 static bool convert_at_once(const struct row_job *r, const struct smear_raster_target *t, const struct overlay_box *box)
@@ -139,8 +139,8 @@ static bool convert_at_once(const struct row_job *r, const struct smear_raster_t
     const uint32_t stride = smear_format_stride(job_right(r) - left, format);
     uint8_t *band = band_column_0(r, format);
     for (int32_t y = box->y0, n; y < box->y1; y += n) {
-        const int32_t at = target_row(&t->color_rows, t, y), ring_row = (at + t->color_rows.x0) / t->color_rows.stride;
-        n = min_i32(box->y1 - y, t->color_rows.ring - ring_row);
+        const int32_t at = target_row(&t->color_rows, t, y), left_over = t->color_rows.ring - t->color_rows.ring_row - (y - t->y0);
+        n = min_i32(box->y1 - y, left_over > 0 ? left_over : left_over + t->color_rows.ring);
         if (!smear_format_rows(band + (uint32_t)(y - top) * stride, stride, t->color + at + box->x0, t->color_rows.stride, n,
                                box->x1 - box->x0, box->x0, y, format, (smear_dither)r->rows->desc->display.dither))
             return false;
@@ -156,7 +156,7 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
     const bool covered = rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
     if (rows_have_points(r->rows))
         smear_points_draw(r->rows, t, &box);
-#if SMEAR_AVX2
+#if SMEAR_ROWS_AT_ONCE
     if (!covered && x0 < x1 && convert_at_once(r, t, &box))
         return;
 #endif

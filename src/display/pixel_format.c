@@ -200,4 +200,16 @@ bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     smear_rows_dithered_avx2(&r, layout_of(format));
     return true;
 }
+#elif SMEAR_ROWS_AT_ONCE
+bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
+                       int32_t y, smear_format format, smear_dither dither)
+{
+    uint16_t *const out = (uint16_t *)(void *)band + x;
+    if (!format_is_16bit(format) || !SMEAR_WITH_DITHER || dither != SMEAR_DITHER_ORDERED || ((n | x) & 7) != 0
+        || (((uintptr_t)out | stride) & 3u) != 0)
+        return false;
+    const struct dithered_rows r = { out, in, (ptrdiff_t)(stride / 2), in_stride, rows, n, x, y, NULL, 0 };
+    smear_rows_dithered_blocks(&r, layout_of(format));
+    return true;
+}
 #endif

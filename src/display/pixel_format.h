@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "kernels/avx2.h"
+#include "kernels/kernels.h"
 
 /* Whether the format was compiled in, with that dither. */
 bool smear_format_has(int format, int dither);
@@ -22,7 +23,14 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format);
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                       int32_t y0, smear_format format, smear_dither dither);
 
-#if SMEAR_AVX2
+/* Where a row's pixels take longer than what there is around them, rows are converted one by one. */
+#if SMEAR_AVX2 || (!SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565))
+#define SMEAR_ROWS_AT_ONCE 1
+#else
+#define SMEAR_ROWS_AT_ONCE 0
+#endif
+
+#if SMEAR_ROWS_AT_ONCE
 /* Writes `rows` rows of n pixels, `in_stride` pixels apart, into `band`, whose first row is y. False where that is no faster than
  * row by row: then nothing is written. */
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,

@@ -223,6 +223,13 @@ static SMEAR_NOINLINE void blocks_565_swapped(uint16_t *out, const uint32_t *in,
     dithered_blocks_of(out, in, blocks, step, false, true);
 }
 
+static inline blocks_fn *blocks_of(enum row_16bit format)
+{
+    return SMEAR_WITH_RGB && format == ROW_555            ? blocks_555
+         : SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED ? blocks_565_swapped
+                                                          : blocks_565;
+}
+
 /* Few pixels, at the ends of a row. */
 static SMEAR_NOINLINE void dithered_ends(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                          enum row_16bit format)
@@ -239,9 +246,7 @@ static inline uint32_t steps_of(const uint8_t *threshold, int32_t x)
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format)
 {
-    blocks_fn *const fn = SMEAR_WITH_RGB && format == ROW_555            ? blocks_555
-                        : SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED ? blocks_565_swapped
-                                                                         : blocks_565;
+    blocks_fn *const fn = blocks_of(format);
     const int32_t head = min_i32((int32_t)((uintptr_t)out >> 1 & 1u), n), blocks = (n - head) / BLOCK;
     if (head != 0)
         dithered_ends(out, in, head, x, threshold, format);
@@ -256,6 +261,23 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
     const int32_t done = BLOCK * blocks;
     if (n - head > done)
         dithered_ends(out + done, in + done, n - head - done, x + done, threshold, format);
+}
+
+void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit format)
+{
+    blocks_fn *const fn = blocks_of(format);
+    const int32_t blocks = r->n / BLOCK;
+    uint16_t *out = r->out;
+    const uint32_t *in = r->in;
+    for (int32_t y = r->y; blocks > 0 && y < r->y + r->rows; y++, out += r->out_stride, in += r->in_stride) {
+        const uint32_t *step = smear_dither_pairs + (y & 7) * BLOCK_PAIRS;
+#if SMEAR_BIG_ENDIAN
+        const uint32_t turned[BLOCK_PAIRS] = { pair_of(step[0] & 0xffffu, step[0] >> 16), pair_of(step[1] & 0xffffu, step[1] >> 16),
+                                               pair_of(step[2] & 0xffffu, step[2] >> 16), pair_of(step[3] & 0xffffu, step[3] >> 16) };
+        step = turned;
+#endif
+        fn(out, in, blocks, step);
+    }
 }
 #endif
 

@@ -151,18 +151,6 @@ static inline void row_dithered_reference(uint16_t *out, const uint32_t *in, int
     }
 }
 
-#ifndef __OPTIMIZE_SIZE__
-/* Stores dithered pixels by eight thresholds of the form 4 k + 2 (mask is 7). A block of eight columns of one colour
- * looks like the last of its colour in this row; other pixels take one sum for two channels. */
-void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
-                               enum row_16bit format);
-#endif
-#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
-/* Stores eight pixels a round, by any thresholds; mask is 7 or 31. */
-void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
-                               int32_t mask, enum row_16bit format);
-#endif
-#if SMEAR_AVX2
 /* Rows y, y + 1 ... of n >= 0 columns from x on; row y has the thresholds (y & mask) (mask + 1) and following. */
 struct dithered_rows {
     uint16_t *out;
@@ -173,6 +161,22 @@ struct dithered_rows {
     int32_t mask;
 };
 
+#ifndef __OPTIMIZE_SIZE__
+/* Stores dithered pixels by eight thresholds of the form 4 k + 2 (mask is 7). A block of eight columns of one colour
+ * looks like the last of its colour in this row; other pixels take one sum for two channels. */
+void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                               enum row_16bit format);
+
+/* The same of rows that have the thresholds of smear_dither_ordered. They are whole blocks: x and n are multiples of eight, and
+ * each begins at a multiple of four bytes. */
+void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit format);
+#endif
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+/* Stores eight pixels a round, by any thresholds; mask is 7 or 31. */
+void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
+                               int32_t mask, enum row_16bit format);
+#endif
+#if SMEAR_AVX2
 /* Stores sixteen pixels a round; mask is 7, with thresholds of the form 4 k + 2, or 31, with any. */
 void smear_rows_dithered_avx2(const struct dithered_rows *r, enum row_16bit format);
 #endif

@@ -129,7 +129,7 @@ static void blue_avx2(struct kernel_call *c)
 #endif
 #endif
 
-#if SMEAR_AVX2
+#ifndef __OPTIMIZE_SIZE__
 /* Three rows of a third of the pixels each. */
 static void rows_reference(struct kernel_call *c)
 {
@@ -140,6 +140,23 @@ static void rows_reference(struct kernel_call *c)
                                (enum row_16bit)c->word[LAYOUT]);
 }
 
+static void prepare_rows(struct kernel_call *c)
+{
+    c->n -= c->n % 24;
+    prepare_dithered(c);
+    c->word[X] &= 8u;
+    c->bytes[0] = 2 * c->n;
+}
+
+static void rows_blocks(struct kernel_call *c)
+{
+    const int32_t width = c->n / 3;
+    const struct dithered_rows rows = { c->plane[0], c->plane[1], width, width, 3, width, (int32_t)c->word[X],
+                                        (int32_t)c->word[Y] & 15, NULL, 0 };
+    smear_rows_dithered_blocks(&rows, (enum row_16bit)c->word[LAYOUT]);
+}
+
+#if SMEAR_AVX2
 static void rows_avx2(struct kernel_call *c)
 {
     const int32_t width = c->n / 3;
@@ -147,6 +164,7 @@ static void rows_avx2(struct kernel_call *c)
                                         (int32_t)c->word[Y] & 15, smear_dither_ordered, 7 };
     smear_rows_dithered_avx2(&rows, (enum row_16bit)c->word[LAYOUT]);
 }
+#endif
 #endif
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. Some have a block of the first pixel's
@@ -225,6 +243,10 @@ const struct kernel kernels_pixel_rows[] = {
                 { "avx2", blue_avx2 },
 #endif
       } },
+#endif
+#ifndef __OPTIMIZE_SIZE__
+    { .name = "rows_dithered_blocks", .most = 201, .size = { 2, 4 }, .align = { 4 }, .prepare = prepare_rows,
+      .form = { { "reference", rows_reference }, { "blocks", rows_blocks } } },
 #endif
 #if SMEAR_AVX2
     { .name = "rows_dithered", .most = 201, .size = { 2, 4 }, .prepare = prepare_dithered,
