@@ -182,6 +182,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, SMEAR_VERTEX_COLORS_MOST && a->mesh->normal != NULL,
                        frame_is_linear(&c->rows.raster), &c->sun);
+    assembly_remember_light(a);
     assembly_find_flat(a);
     if (!moves)
         return true;

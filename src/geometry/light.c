@@ -15,10 +15,48 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
+#if !defined(__OPTIMIZE_SIZE__) && UINTPTR_MAX <= 0xffffffffu
+#define LENGTHS_ARE_SHORT 1
+#else
+#define LENGTHS_ARE_SHORT 0
+#endif
+
+#if LENGTHS_ARE_SHORT
+/* Returns floor(sqrt(x)), exactly, of 33 to 48 bits: as sqrt_floor_64, in half of the precision. Normals have so many. */
+static inline uint32_t sqrt_floor_48(uint64_t x)
+{
+    const uint32_t high = (uint32_t)(x >> 32), low = (uint32_t)x;
+    const int shift = (count_leading_zeros(high) & ~1) - 16;
+    /* n = x 2^shift has 47 or 48 bits. A line is within 3 %, Heron's rule then within 2^-11 in 16 bits. */
+    const uint32_t top = (uint32_t)(x >> (16 - shift)), line = min_u32(11244u + ((top >> 16) * 11244u >> 15), 32767u);
+    const uint32_t seed = smear_recip_seed[line >> 5 & 511u];           /* 2^25 / line */
+    uint32_t r = 2 * line + (uint32_t)(((int32_t)((top >> 2) - line * line) >> 6) * (int32_t)seed >> 19);
+    r = min_u32(max_u32(r, 32768), 65535);
+    /* And within a step or two of 24 bits. */
+    const int32_t rest = (int32_t)((top << 8 | (low << shift >> 8 & 255u)) - (r * r << 8));
+    r = ((r << 8) + (uint32_t)(mulh_i32(rest, (int32_t)recip_norm(r << 16)) >> 14)) >> (shift >> 1);
+    int32_t left = (int32_t)(low - r * r);
+    while (left < 0)
+        left += (int32_t)(2 * r-- - 1);
+    while (left > (int32_t)(2 * r))
+        left -= (int32_t)(2 * r++ + 1);
+    return r;
+}
+
+static SMEAR_RARE uint32_t length_of_any(uint64_t square)
+{
+    return sqrt_floor_64(square);
+}
+#endif
+
 /* This file has one copy, whose name linker scripts can choose for fast memory. */
 static SMEAR_RARE uint32_t length_from(uint64_t square)
 {
+#if LENGTHS_ARE_SHORT
+    return square >> 48 == 0 && square >> 32 != 0 ? sqrt_floor_48(square) : length_of_any(square);
+#else
     return sqrt_floor_64(square);
+#endif
 }
 
 /* Returns by how much to shift right for `largest` to have that many bits; negative: left. */
@@ -103,6 +141,7 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *m, bool has_normals, bool linear, const struct smear_sun *sun)
 {
+    s->last = NULL;
     s->sun = sun;
     s->linear = linear;
     s->lit = !m->unlit;
@@ -187,6 +226,25 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
     return cosine_of(s, n);
 }
 
+/* The same of a face, whose normal may be that of the face before. */
+static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32_t n[3])
+{
+#ifndef __OPTIMIZE_SIZE__
+    struct smear_lit *const last = s->last;
+    if (last != NULL && n[0] == last->normal[0] && n[1] == last->normal[1] && n[2] == last->normal[2])
+        return last->cosine;
+    const uint32_t cosine = cosine_of(s, n);
+    if (last != NULL) {
+        for (int i = 0; i < 3; i++)
+            last->normal[i] = n[i];
+        last->cosine = cosine;
+    }
+    return cosine;
+#else
+    return cosine_of(s, n);
+#endif
+}
+
 static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
 
 /* Returns the light of a face with edges of any length. */
@@ -203,7 +261,7 @@ static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const in
     int shift = shift_to(largest, 14);
     for (int i = 0; i < 3; i++)
         n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
-    return cosine_of(s, n);
+    return cosine_of_face(s, n);
 }
 
 uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], const int16_t b[3],
@@ -227,7 +285,7 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
             n[1] *= 1 << -shift;
             n[2] *= 1 << -shift;
         }
-        return cosine_of(s, n);
+        return cosine_of_face(s, n);
     }
 #endif
     return light_of_long(s, u, v);

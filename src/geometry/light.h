@@ -17,6 +17,14 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
+/* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
+struct smear_lit {
+    int32_t normal[3];              /* of any length; INT32_MAX first: none */
+    uint32_t cosine;
+    const uint8_t *color;           /* of the face whose colour is `packed`; null: none */
+    uint32_t color_cosine, packed;
+};
+
 /* The light seen from a draw's object space. */
 struct smear_shading {
     const struct smear_sun *sun;
@@ -28,6 +36,7 @@ struct smear_shading {
     bool linear;                    /* working values: linear light, else sRGB codes */
     bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
+    struct smear_lit *last;         /* or null */
 };
 
 static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }

@@ -146,14 +146,35 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
         store_color(record + s->color, v->color);
 }
 
+#ifndef __OPTIMIZE_SIZE__
+static inline bool same_color(const uint8_t *a, const uint8_t *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+}
+#endif
+
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
                           const struct smear_face *face)
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
     struct smear_color color;
+#ifndef __OPTIMIZE_SIZE__
+    struct smear_lit *const last = d->shading.last;
+    const bool is_plain = last != NULL && face->vertex_color == NULL && face->color != NULL;
+    if (is_plain && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, face->color))
+        return last->packed;
+#endif
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
-    return smear_color_pack(&color, shading_is_linear(&d->shading));
+    const uint32_t packed = smear_color_pack(&color, shading_is_linear(&d->shading));
+#ifndef __OPTIMIZE_SIZE__
+    if (is_plain) {
+        last->color = face->color;
+        last->color_cosine = face->cosine;
+        last->packed = packed;
+    }
+#endif
+    return packed;
 }
 
 /* Returns the code of channel c (r g b) of a vertex as pixels get it (see channel_value in setup.h). */

@@ -146,7 +146,20 @@ struct smear_assembly {
         struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];   /* shutter open and close */
     } motion;
     struct smear_shading shading;
+    struct smear_lit lit;               /* of shading.last */
 };
+
+/* Faces may take what was found of those before them: once the shading is made. */
+static inline void assembly_remember_light(struct smear_assembly *d)
+{
+#ifndef __OPTIMIZE_SIZE__
+    d->lit.normal[0] = INT32_MAX;
+    d->lit.color = NULL;
+    d->shading.last = &d->lit;
+#else
+    (void)d;
+#endif
+}
 
 /* These are false at compile time where the methods and surfaces that need them were left out. */
 static inline bool assembler_keeps_motion(const struct smear_assembler *a)
