@@ -60,35 +60,31 @@ POSES_INLINE __m256i poses_times(__m256i a, __m256i u)
     return _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
 }
 
+POSES_INLINE __m256i poses_read(const int32_t *p) { return _mm256_loadu_si256((const __m256i *)(const void *)p); }
+POSES_INLINE void poses_write(int32_t *p, __m256i a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
+
 /* path_coordinate, within the guard band. */
-POSES_INLINE __m256i poses_coordinate(__m256i open, __m256i middle, __m256i close, __m256i u, int32_t low, int32_t high)
+POSES_INLINE __m256i poses_coordinate(const struct poses_course *c, __m256i u, int32_t low, int32_t high)
 {
-    const __m256i slope = poses_less(close, open), curvature = poses_less(poses_add(open, close), _mm256_slli_epi32(middle, 1));
-    const __m256i along = poses_add(_mm256_slli_epi32(slope, 6), poses_times(_mm256_slli_epi32(curvature, 8), u));
+    const __m256i along = poses_add(poses_read(c->slope), poses_times(poses_read(c->curvature), u));
     const __m256i way = poses_add(poses_times(_mm256_slli_epi32(along, 3), u), poses_all(128));
-    return poses_max(poses_min(poses_add(middle, _mm256_srai_epi32(way, 8)), poses_all(high)), poses_all(low));
+    return poses_max(poses_min(poses_add(poses_read(c->middle), _mm256_srai_epi32(way, 8)), poses_all(high)), poses_all(low));
 }
 
 /* path_depth, within the range of depths. */
-POSES_INLINE __m256i poses_depth(__m256i open, __m256i middle, __m256i close, __m256i u, const struct poses_setup *s)
+POSES_INLINE __m256i poses_depth(const struct poses_course *c, __m256i u, const struct poses_setup *s)
 {
-    const __m256i curvature = poses_less(_mm256_srli_epi32(poses_add(open, close), 1), middle);
-    const __m256i along = poses_add(_mm256_srai_epi32(poses_less(close, open), 3), poses_times(curvature, u));
-    const __m256i depth = poses_add(middle, _mm256_slli_epi32(poses_times(_mm256_slli_epi32(along, 2), u), 2));
+    const __m256i along = poses_add(poses_read(c->slope), poses_times(poses_read(c->curvature), u));
+    const __m256i depth = poses_add(poses_read(c->middle), _mm256_slli_epi32(poses_times(_mm256_slli_epi32(along, 2), u), 2));
     return poses_max(poses_min(depth, poses_all(s->depth_most)), poses_all(s->depth_least));
 }
 
-POSES_INLINE struct poses_corner poses_corner_at(const struct poses_setup *s, const uint16_t vertex[8][4], int i)
+POSES_INLINE struct poses_corner poses_corner_at(const struct poses_setup *s, const struct poses_courses *c, int i)
 {
-    /* Loads of four words: the second one ends in close x, the third one begins with the depth at open. */
-    const struct poses_words now = poses_load(s->vertex, vertex, i), open = poses_load(s->vertex + s->motion, vertex, i),
-                             close = poses_load(s->vertex + s->motion + 2, vertex, i);
     const __m256i u = poses_all(s->phase);
-    return (struct poses_corner){
-        poses_coordinate(open.word[0], now.word[0], close.word[1], u, s->low[0], s->high[0]),
-        poses_coordinate(open.word[1], now.word[1], close.word[2], u, s->low[1], s->high[1]),
-        poses_depth(open.word[2], now.word[2], close.word[3], u, s), now.word[3]
-    };
+    return (struct poses_corner){ poses_coordinate(&c->of[i][0], u, s->low[0], s->high[0]),
+                                  poses_coordinate(&c->of[i][1], u, s->low[1], s->high[1]), poses_depth(&c->of[i][2], u, s),
+                                  poses_read(c->more[i]) };
 }
 
 /* Which turn clockwise: x1 y2 > x2 y1, in 64 bits. */
@@ -129,10 +125,38 @@ POSES_INLINE void poses_find_boxes(struct poses *out, const struct poses_setup *
     _mm_storeu_si128((__m128i *)(void *)out->box, _mm_sign_epi32(least, _mm_setr_epi32(1, 1, -1, -1)));
 }
 
-/* A triangle takes 70 instructions, where it takes 500 alone. */
-SMEAR_AVX2_FUNCTION void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const uint16_t vertex[8][4], int count)
+POSES_INLINE void poses_course_of(struct poses_course *out, __m256i open, __m256i middle, __m256i close)
 {
-    const struct poses_corner c[3] = { poses_corner_at(s, vertex, 0), poses_corner_at(s, vertex, 1), poses_corner_at(s, vertex, 2) };
+    poses_write(out->middle, middle);
+    poses_write(out->slope, _mm256_slli_epi32(poses_less(close, open), 6));
+    poses_write(out->curvature, _mm256_slli_epi32(poses_less(poses_add(open, close), _mm256_slli_epi32(middle, 1)), 8));
+}
+
+POSES_INLINE void poses_course_of_depth(struct poses_course *out, __m256i open, __m256i middle, __m256i close)
+{
+    poses_write(out->middle, middle);
+    poses_write(out->slope, _mm256_srai_epi32(poses_less(close, open), 3));
+    poses_write(out->curvature, poses_less(_mm256_srli_epi32(poses_add(open, close), 1), middle));
+}
+
+SMEAR_AVX2_FUNCTION void smear_poses_courses_avx2(struct poses_courses *out, const struct poses_setup *s, const uint16_t vertex[8][4])
+{
+    for (int i = 0; i < 3; i++) {
+        /* Loads of four words: the second one ends in close x, the third one begins with the depth at open. */
+        const struct poses_words now = poses_load(s->vertex, vertex, i), open = poses_load(s->vertex + s->motion, vertex, i),
+                                 close = poses_load(s->vertex + s->motion + 2, vertex, i);
+        poses_course_of(&out->of[i][0], open.word[0], now.word[0], close.word[1]);
+        poses_course_of(&out->of[i][1], open.word[1], now.word[1], close.word[2]);
+        poses_course_of_depth(&out->of[i][2], open.word[2], now.word[2], close.word[3]);
+        poses_write(out->more[i], now.word[3]);
+    }
+}
+
+/* A triangle takes 50 instructions, where it takes 500 alone. */
+SMEAR_AVX2_FUNCTION void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const struct poses_courses *courses,
+                                          const uint16_t vertex[8][4], int count)
+{
+    const struct poses_corner c[3] = { poses_corner_at(s, courses, 0), poses_corner_at(s, courses, 1), poses_corner_at(s, courses, 2) };
     const struct poses_words bounds = { { poses_min(c[0].x, poses_min(c[1].x, c[2].x)), poses_min(c[0].y, poses_min(c[1].y, c[2].y)),
                                           poses_max(c[0].x, poses_max(c[1].x, c[2].x)),
                                           poses_max(c[0].y, poses_max(c[1].y, c[2].y)) } };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* poses.h - eight triangles at an instant, their vertices along their paths: geometry/path.h for eight at once. */
+/* poses.h - eight triangles at instants, their vertices along their paths: geometry/path.h for eight at once. What all instants have
+ * in common is made once. */
 #ifndef SMEAR_KERNELS_POSES_H
 #define SMEAR_KERNELS_POSES_H
 
@@ -8,6 +9,17 @@
 #if SMEAR_AVX2
 
 enum { POSES_RECORD = 8 };      /* words from one vertex to the next */
+
+/* A coordinate of eight vertices on its path: in the middle, and what path.h multiplies by the phase, and by that again. */
+struct poses_course {
+    int32_t middle[8], slope[8], curvature[8];
+};
+
+/* Eight triangles' vertices: x, y and depth. */
+struct poses_courses {
+    struct poses_course of[3][3];
+    int32_t more[3][8];             /* the word behind in their records */
+};
 
 struct poses_setup {
     const int32_t *vertex;          /* records: x, y (q8 px), depth (q11), up to three words more; then, behind `motion` words in
@@ -31,8 +43,13 @@ struct poses {
     int32_t record[8][3][POSES_RECORD];     /* as those given, as many words as are looked at */
 };
 
-/* Places of vertices in words, the fourth of each is not looked at. All eight must be there; `count` of them are looked at. */
-void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const uint16_t vertex[8][4], int count);
+/* Places of vertices in words, the fourth of each is not looked at; all eight must be there. Of the setup, `vertex` and `motion` are
+ * looked at. */
+void smear_poses_courses_avx2(struct poses_courses *out, const struct poses_setup *s, const uint16_t vertex[8][4]);
+
+/* The courses are made of these vertices; `count` triangles are looked at. */
+void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const struct poses_courses *courses, const uint16_t vertex[8][4],
+                      int count);
 
 #endif
 #endif

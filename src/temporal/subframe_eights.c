@@ -22,10 +22,20 @@ static inline void pack_add(struct subframe_pack *pack, const struct smear_trian
     pack->color[pack->count++] = t->color;
 }
 
-static inline void pack_end(struct subframe_pack *pack)
+/* The vertices a segment's triangles are made of. */
+static inline void take_vertices(struct poses_setup *setup, const struct smear_bins *g, const struct smear_segment *segment)
 {
+    setup->vertex = bins_vertex(g, segment, 0);
+    setup->motion = segment->motion;
+}
+
+static inline void pack_end(struct subframe_pack *pack, const struct smear_bins *g)
+{
+    struct poses_setup setup;
     for (int k = pack->count; k < 8; k++)
         __builtin_memcpy(pack->vertex[k], pack->vertex[0], sizeof pack->vertex[0]);
+    take_vertices(&setup, g, pack->segment);
+    smear_poses_courses_avx2(&pack->courses, &setup, pack->vertex);
 }
 
 /* The segment of a triangle that may be drawn with others; or null. */
@@ -52,7 +62,8 @@ void smear_subframe_packs_make(struct subframe_packs *packs, const struct subfra
         pack_add(pack, bins_triangle(g, triangle));
     }
     for (int i = 0; i < packs->count; i++)
-        pack_end(&packs->of[i]);
+        if (packs->of[i].segment != NULL)
+            pack_end(&packs->of[i], g);
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -76,8 +87,7 @@ static void begin_segment(struct subframe_eights *e, const struct smear_segment 
     const struct subframes *f = e->f;
     e->segment = segment;
     e->has_look = smear_raster_look(&e->look, f->t->frame, &f->work, segment);
-    e->setup.vertex = bins_vertex(f->t->frame->bins, segment, 0);
-    e->setup.motion = segment->motion;
+    take_vertices(&e->setup, f->t->frame->bins, segment);
     e->setup.words = segment_gouraud(segment) || segment_textured(segment) ? segment->motion : VERTEX_BASE_WORDS;
     e->setup.tiny = e->has_look ? e->look.most : 0;
 }
@@ -88,7 +98,7 @@ void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe
     const struct subframes *f = e->f;
     if (pack->segment != e->segment)
         begin_segment(e, pack->segment);
-    smear_poses_avx2(&poses, &e->setup, pack->vertex, pack->count);
+    smear_poses_avx2(&poses, &e->setup, &pack->courses, pack->vertex, pack->count);
     if (poses.seen == 0)
         return;
     const struct subframe_box box = { poses.box[0], poses.box[1], poses.box[2], poses.box[3] };
@@ -100,7 +110,7 @@ void smear_subframe_eights_end(struct subframe_eights *e)
 {
     if (e->waiting.count == 0)
         return;
-    pack_end(&e->waiting);
+    pack_end(&e->waiting, e->f->t->frame->bins);
     smear_subframe_eights_draw(e, &e->waiting);
     e->waiting.count = 0;
 }

@@ -16,6 +16,7 @@ struct subframe_pack {
     int count;
     uint16_t vertex[8][4];              /* all eight: the first one's in place of those that are missing */
     uint32_t color[8];
+    struct poses_courses courses;
 };
 
 /* Listed triangles of some tiles from the first one on, in their order: the same ones at all instants. */

@@ -121,7 +121,9 @@ static struct poses poses_one_by_one(const struct take *t)
 static struct poses poses_by_eights(const struct take *t)
 {
     struct poses out;
-    smear_poses_avx2(&out, &t->setup, t->vertex, t->count);
+    struct poses_courses courses;
+    smear_poses_courses_avx2(&courses, &t->setup, t->vertex);
+    smear_poses_avx2(&out, &t->setup, &courses, t->vertex, t->count);
     return out;
 }
 
