@@ -325,8 +325,8 @@ SMEAR_AVX2_INLINE void face_depths(struct flat_eight *e, const struct planes8 *p
 SMEAR_AVX2_FUNCTION void smear_flat_eight_make_avx2(struct flat_eight *e, const struct flat_area *a, const struct poses *poses,
                                                     const struct planes8 *planes, const uint32_t color[8])
 {
-    const struct lanes8_four v0 = corner8(poses, 0, 0), v1 = corner8(poses, 1, 0), v2 = corner8(poses, 2, 0);
-    lanes8i x0 = v0.of[0], y0 = v0.of[1], x1 = v1.of[0], y1 = v1.of[1], x2 = v2.of[0], y2 = v2.of[1];
+    const struct corner8 v0 = corner8_of(poses, 0), v1 = corner8_of(poses, 1), v2 = corner8_of(poses, 2);
+    lanes8i x0 = v0.x, y0 = v0.y, x1 = v1.x, y1 = v1.y, x2 = v2.x, y2 = v2.y;
     face_sort(&x0, &y0, &x1, &y1);
     face_sort(&x1, &y1, &x2, &y2);
     face_sort(&x0, &y0, &x1, &y1);

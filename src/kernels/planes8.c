@@ -12,15 +12,15 @@ enum { STEEP = 1 << 28 };
 /* Thirty instructions a triangle, where one alone takes 300. */
 SMEAR_AVX2_FUNCTION void smear_planes8_avx2(struct planes8 *out, const struct poses *p, int32_t depth_break)
 {
-    const struct lanes8_four v0 = corner8(p, 0, 0), v1 = corner8(p, 1, 0), v2 = corner8(p, 2, 0);
-    const lanes8i x = v0.of[0], y = v0.of[1], q = v0.of[2];
-    const lanes8i x1 = v1.of[0] - x, y1 = v1.of[1] - y, x2 = v2.of[0] - x, y2 = v2.of[1] - y;
+    const struct corner8 v0 = corner8_of(p, 0), v1 = corner8_of(p, 1), v2 = corner8_of(p, 2);
+    const lanes8i x = v0.x, y = v0.y, q = v0.depth;
+    const lanes8i x1 = v1.x - x, y1 = v1.y - y, x2 = v2.x - x, y2 = v2.y - y;
     const struct wide8 twice = wide8_cross(x1, y2, x2, y1);
     const struct halves8 area = halves8_of(twice.even, twice.odd);
     /* The next bit behind those of `top`; numbers without an upper half have none. */
     const lanes8 next = lanes8_right(area.low, 32 - area.zeros) & (lanes8)area.has_high & 1u;
     const lanes8 recip = recip_precise8(area.top << 1 | next);
-    const lanes8i d1 = v1.of[2] - q, d2 = v2.of[2] - q;
+    const lanes8i d1 = v1.depth - q, d2 = v2.depth - q;
     lanes8i dx = gradient8(wide8_cross(d1, y2, d2, y1), (lanes8i)recip, area.zeros);
     lanes8i dy = gradient8(wide8_cross(d2, x1, d1, x2), (lanes8i)recip, area.zeros);
     const lanes8i steep = lanes8i_all(STEEP);
@@ -28,8 +28,8 @@ SMEAR_AVX2_FUNCTION void smear_planes8_avx2(struct planes8 *out, const struct po
     dx &= gentle;
     dy &= gentle;
     const lanes8 here = (lanes8)q + (lanes8)part8(dx, 128 - (x & 255)) + (lanes8)part8(dy, 128 - (y & 255));
-    out->far = lanes8i_signs(lanes8i_max3(q, v1.of[2], v2.of[2]) < depth_break);
-    out->near = lanes8i_signs(lanes8i_min3(q, v1.of[2], v2.of[2]) >= depth_break);
+    out->far = lanes8i_signs(lanes8i_max3(q, v1.depth, v2.depth) < depth_break);
+    out->near = lanes8i_signs(lanes8i_min3(q, v1.depth, v2.depth) >= depth_break);
     lanes8i_store(out->x1, x1);
     lanes8i_store(out->y1, y1);
     lanes8i_store(out->x2, x2);

@@ -11,9 +11,9 @@ struct poses_words {
     __m256i word[4];
 };
 
-/* One vertex of each triangle, at the instant, and the word behind. */
+/* One vertex of each triangle, at the instant. */
 struct poses_corner {
-    __m256i x, y, depth, more;
+    __m256i x, y, depth;
 };
 
 POSES_INLINE __m256i poses_all(int32_t a) { return _mm256_set1_epi32(a); }
@@ -83,8 +83,7 @@ POSES_INLINE struct poses_corner poses_corner_at(const struct poses_setup *s, co
 {
     const __m256i u = poses_all(s->phase);
     return (struct poses_corner){ poses_coordinate(&c->of[i][0], u, s->low[0], s->high[0]),
-                                  poses_coordinate(&c->of[i][1], u, s->low[1], s->high[1]), poses_depth(&c->of[i][2], u, s),
-                                  poses_read(c->more[i]) };
+                                  poses_coordinate(&c->of[i][1], u, s->low[1], s->high[1]), poses_depth(&c->of[i][2], u, s) };
 }
 
 /* Which turn clockwise: x1 y2 > x2 y1, in 64 bits. */
@@ -148,30 +147,47 @@ SMEAR_AVX2_FUNCTION void smear_poses_courses_avx2(struct poses_courses *out, con
         poses_course_of(&out->of[i][0], open.word[0], now.word[0], close.word[1]);
         poses_course_of(&out->of[i][1], open.word[1], now.word[1], close.word[2]);
         poses_course_of_depth(&out->of[i][2], open.word[2], now.word[2], close.word[3]);
-        poses_write(out->more[i], now.word[3]);
+        const struct poses_words more = poses_load(s->vertex + 3, vertex, i);
+        for (int word = 0; word < POSES_WORDS - 3; word++)
+            poses_write(out->more[i][word], more.word[word]);
     }
 }
 
 /* A triangle takes 50 instructions, where it takes 500 alone. */
-SMEAR_AVX2_FUNCTION void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const struct poses_courses *courses,
-                                          const uint16_t vertex[8][4], int count)
+SMEAR_AVX2_FUNCTION void smear_poses_avx2(struct poses *out, const struct poses_setup *s, const struct poses_courses *courses, int count)
 {
     const struct poses_corner c[3] = { poses_corner_at(s, courses, 0), poses_corner_at(s, courses, 1), poses_corner_at(s, courses, 2) };
     const struct poses_words bounds = { { poses_min(c[0].x, poses_min(c[1].x, c[2].x)), poses_min(c[0].y, poses_min(c[1].y, c[2].y)),
                                           poses_max(c[0].x, poses_max(c[1].x, c[2].x)),
                                           poses_max(c[0].y, poses_max(c[1].y, c[2].y)) } };
     poses_find_boxes(out, s, &bounds, poses_facing(c), count);
+    out->has_records = false;
     if (out->seen == 0)
         return;
-    poses_store(out->bounds[0], 4, &bounds);
+    for (int i = 0; i < 4; i++)
+        poses_write(out->bounds[i], bounds.word[i]);
     for (int i = 0; i < 3; i++) {
-        const struct poses_words place = { { c[i].x, c[i].y, c[i].depth, c[i].more } };
-        poses_store(out->record[0][i], 3 * POSES_RECORD, &place);
+        poses_write(out->word[i][0], c[i].x);
+        poses_write(out->word[i][1], c[i].y);
+        poses_write(out->word[i][2], c[i].depth);
     }
-    if (s->words <= 4)
+    if (s->words <= 3)
         return;
-    for (int k = 0; k < 8; k++)
-        for (int i = 0; i < 3; i++)
-            __builtin_memcpy(out->record[k][i] + 4, s->vertex + vertex[k][i] + 4, 2 * sizeof(int32_t));
+    for (int i = 0; i < 3; i++)
+        for (int word = 3; word < POSES_WORDS; word++)
+            poses_write(out->word[i][word], poses_read(courses->more[i][word - 3]));
+}
+
+SMEAR_AVX2_FUNCTION void smear_poses_records_avx2(struct poses *p)
+{
+    for (int i = 0; i < 3; i++) {
+        const struct poses_words first = { { poses_read(p->word[i][0]), poses_read(p->word[i][1]), poses_read(p->word[i][2]),
+                                             poses_read(p->word[i][3]) } };
+        const __m256i fourth = poses_read(p->word[i][4]), fifth = poses_read(p->word[i][5]);
+        const struct poses_words more = { { fourth, fifth, fourth, fifth } };
+        poses_store(p->record[0][i], 3 * POSES_RECORD, &first);
+        poses_store(p->record[0][i] + 4, 3 * POSES_RECORD, &more);
+    }
+    p->has_records = true;
 }
 #endif

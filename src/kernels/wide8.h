@@ -95,12 +95,14 @@ SMEAR_AVX2_INLINE lanes8i part8(lanes8i slope, lanes8i part)
     return (slope >> 8) * part + ((slope & 255) * part >> 8);
 }
 
-/* Words from `first` on, four of them, of vertex j of all triangles. */
-SMEAR_AVX2_INLINE struct lanes8_four corner8(const struct poses *p, int j, int first)
+/* Vertex i of all triangles. */
+struct corner8 {
+    lanes8i x, y, depth;
+};
+
+SMEAR_AVX2_INLINE struct corner8 corner8_of(const struct poses *p, int i)
 {
-    const int32_t (*const r)[3][POSES_RECORD] = p->record;
-    return lanes8_turned(lanes8i_load_two(r[0][j] + first, r[4][j] + first), lanes8i_load_two(r[1][j] + first, r[5][j] + first),
-                         lanes8i_load_two(r[2][j] + first, r[6][j] + first), lanes8i_load_two(r[3][j] + first, r[7][j] + first));
+    return (struct corner8){ lanes8i_load(p->word[i][0]), lanes8i_load(p->word[i][1]), lanes8i_load(p->word[i][2]) };
 }
 
 #endif

@@ -21,17 +21,18 @@ struct faces8 {
 
 static inline SMEAR_AVX2_FUNCTION void faces8_make(struct faces8 *f, const struct poses *p, const struct planes8 *planes)
 {
-    const struct lanes8_four first = corner8(p, 0, 0);
+    const struct corner8 first = corner8_of(p, 0);
     for (int j = 0; j < 3; j++) {
-        f->word[j] = corner8(p, j, VERTEX_DEPTH);
+        for (int word = 0; word < 4; word++)
+            f->word[j].of[word] = lanes8i_load(p->word[j][VERTEX_DEPTH + word]);
         f->q[j] = f->word[j].of[0];
     }
     f->low_q = lanes8i_min3(f->q[0], f->q[1], f->q[2]);
     f->high_q = lanes8i_max3(f->q[0], f->q[1], f->q[2]);
-    f->x = first.of[VERTEX_X] >> 8;
-    f->y = first.of[VERTEX_Y] >> 8;
-    f->fx = 128 - (first.of[VERTEX_X] & 255);
-    f->fy = 128 - (first.of[VERTEX_Y] & 255);
+    f->x = first.x >> 8;
+    f->y = first.y >> 8;
+    f->fx = 128 - (first.x & 255);
+    f->fy = 128 - (first.y & 255);
     f->x1 = lanes8i_load(planes->x1);
     f->y1 = lanes8i_load(planes->y1);
     f->x2 = lanes8i_load(planes->x2);
@@ -40,11 +41,8 @@ static inline SMEAR_AVX2_FUNCTION void faces8_make(struct faces8 *f, const struc
     f->zeros = lanes8i_load(planes->area_zeros);
     f->depth_dx = lanes8i_load(planes->dx);
     f->depth_dy = lanes8i_load(planes->dy);
-    const int32_t (*const b)[4] = p->bounds;
-    const struct lanes8_four bounds = lanes8_turned(lanes8i_load_two(b[0], b[4]), lanes8i_load_two(b[1], b[5]),
-                                                    lanes8i_load_two(b[2], b[6]), lanes8i_load_two(b[3], b[7]));
     for (int i = 0; i < 4; i++)
-        f->bounds[i] = bounds.of[i];
+        f->bounds[i] = lanes8i_load(p->bounds[i]);
 }
 
 /* Those whose boxes are so large that textured ones are made ready here. */

@@ -41,7 +41,7 @@ bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame 
 /* Draws triangles of a segment that are seen, in order, as smear_raster_triangle does. `look`: of the segment, or null. */
 void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                         const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
-                        const struct poses *poses);
+                        struct poses *poses);
 #endif
 
 #endif

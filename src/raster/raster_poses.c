@@ -66,9 +66,22 @@ bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame 
     return !frame_has_fog(frame) && tiny8_suit(target) && find_look(look, frame, target, segment);
 }
 
+/* Vertex i of triangle k. */
+static inline const int32_t *record_of(struct poses *p, int k, int i)
+{
+    if (!p->has_records)
+        smear_poses_records_avx2(p);
+    return p->record[k][i];
+}
+
+static inline struct bounds bounds_of(const struct poses *p, int k)
+{
+    return (struct bounds){ p->bounds[0][k], p->bounds[1][k], p->bounds[2][k], p->bounds[3][k] };
+}
+
 /* Makes the pixels of tiny ones, of which there is one at least, in their order; where they are fewer than eight, the first
  * fills the rest. */
-static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], const struct poses *poses,
+static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look, const uint32_t color[8], struct poses *poses,
                       uint32_t tiny)
 {
     struct tiny8_look l = *look;
@@ -81,7 +94,7 @@ static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look
             vertex[n][i] = (uint16_t)((3 * k + i) * POSES_RECORD);
         colors[n] = color[k];
     }
-    l.vertex = poses->record[0][0];
+    l.vertex = record_of(poses, 0, 0);
     smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
 }
 
@@ -90,7 +103,7 @@ struct eight {
     const struct smear_raster_frame *frame;
     const struct smear_raster_target *target;
     const struct smear_segment *segment;
-    const struct poses *poses;
+    struct poses *poses;
     const uint32_t *color;
     struct planes8 planes;
     struct looks8 looks;
@@ -119,8 +132,8 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     const struct smear_raster_target *const target = e->target;
     const struct planes8 *const planes = &e->planes;
     const struct smear_segment *const segment = e->segment;
-    const int32_t *const b = e->poses->bounds[k];
-    const struct pixel_box whole = { (b[0] + 127) >> 8, (b[2] + 127) >> 8, (b[1] + 127) >> 8, (b[3] + 127) >> 8 };
+    const struct bounds b = bounds_of(e->poses, k);
+    const struct pixel_box whole = { (b.x0 + 127) >> 8, (b.x1 + 127) >> 8, (b.y0 + 127) >> 8, (b.y1 + 127) >> 8 };
     const int32_t width = whole.right - whole.left, height = whole.bottom - whole.top;
     const bool textured = segment_textured(segment);
     const bool small = max_i32(width, height) <= (textured ? SMALL_TEXTURED_PX : SMALL_PX);
@@ -139,8 +152,8 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     s.segment = segment;
     s.draw = &e->frame->draw[segment->draw];
     for (int i = 0; i < 3; i++)
-        s.v[i] = e->poses->record[k][i];
-    s.bounds = (struct bounds){ b[0], b[1], b[2], b[3] };
+        s.v[i] = record_of(e->poses, k, i);
+    s.bounds = b;
     s.x1 = planes->x1[k];
     s.y1 = planes->y1[k];
     s.x2 = planes->x2[k];
@@ -163,7 +176,7 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
 
 /* Makes an eight ready. Flat faces are drawn by a kernel where the target's rows lie one behind the other. */
 static void eight_start(struct eight *e, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const uint32_t color[8], const struct poses *poses)
+                        const struct smear_segment *segment, const uint32_t color[8], struct poses *poses)
 {
     const struct smear_plane_rows *const w = &target->window_rows;
     const int32_t rows = target->y1 - target->y0, at = w->ring_row * w->stride - w->x0;
@@ -191,7 +204,7 @@ static bool suits(const struct smear_raster_frame *frame, const struct smear_ras
 
 void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                         const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
-                        const struct poses *poses)
+                        struct poses *poses)
 {
     struct tiny8_pixels pixels;
     struct eight eight;
@@ -224,8 +237,8 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
         }
         if ((alone >> k & 1u) == 0 && draw_known(&eight, k, poses->seen & ~alone))
             continue;
-        const int32_t *const v[3] = { poses->record[k][0], poses->record[k][1], poses->record[k][2] }, *const b = poses->bounds[k];
-        const struct bounds bounds = { b[0], b[1], b[2], b[3] };
+        const int32_t *const v[3] = { record_of(poses, k, 0), record_of(poses, k, 1), record_of(poses, k, 2) };
+        const struct bounds bounds = bounds_of(poses, k);
         smear_raster_triangle(frame, target, segment, color[k], v, &bounds);
     }
 }

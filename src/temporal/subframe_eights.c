@@ -98,7 +98,7 @@ void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe
     const struct subframes *f = e->f;
     if (pack->segment != e->segment)
         begin_segment(e, pack->segment);
-    smear_poses_avx2(&poses, &e->setup, &pack->courses, pack->vertex, pack->count);
+    smear_poses_avx2(&poses, &e->setup, &pack->courses, pack->count);
     if (poses.seen == 0)
         return;
     const struct subframe_box box = { poses.box[0], poses.box[1], poses.box[2], poses.box[3] };

@@ -61,6 +61,7 @@ static void move_there(struct poses *p, int32_t x, int32_t y, uint32_t *seed)
     p->seen = 0;
     for (int k = 0; k < 8; k++)
         p->seen |= (uint32_t)((int64_t)eight_area(p->record[k]) > 0) << k;
+    eight_take(p);
 }
 
 static void many(struct kernel_call *c, draw_eight *draw)

@@ -37,12 +37,6 @@ static void make_vertices(struct poses *p, uint32_t *seed)
     for (int k = 0; k < 8; k++) {
         const uint32_t reach = (1u << eight_between(seed, 0, 16)) - 1u, kind = eight_next(seed) & 3u;
         const int32_t step = 1 << eight_between(seed, 0, 15), middle = eight_between(seed, -32768, 32767);
-        int32_t *const b = p->bounds[k];
-        for (int axis = 0; axis < 2; axis++) {
-            const int32_t v[3] = { p->record[k][0][axis], p->record[k][1][axis], p->record[k][2][axis] };
-            b[axis] = min_i32(v[0], min_i32(v[1], v[2]));
-            b[axis + 2] = max_i32(v[0], max_i32(v[1], v[2]));
-        }
         for (int i = 0; i < 3; i++) {
             int32_t *const r = p->record[k][i];
             for (int word = COLOR; word < UV; word++) {
@@ -54,6 +48,7 @@ static void make_vertices(struct poses *p, uint32_t *seed)
             r[UV] = (int32_t)(((uint32_t)u & 0xffffu) | (uint32_t)v << 16);
         }
     }
+    eight_take(p);
 }
 
 static void make(struct scene *s, uint32_t *seed)
@@ -73,18 +68,18 @@ static void make(struct scene *s, uint32_t *seed)
 /* Whether textured triangle k is so small that it is drawn otherwise. */
 static bool is_small(const struct scene *s, int k)
 {
-    const int32_t *const b = s->poses.bounds[k];
-    const int32_t width = ((b[2] + 127) >> 8) - ((b[0] + 127) >> 8), height = ((b[3] + 127) >> 8) - ((b[1] + 127) >> 8);
+    const int32_t (*const b)[8] = s->poses.bounds;
+    const int32_t width = ((b[2][k] + 127) >> 8) - ((b[0][k] + 127) >> 8), height = ((b[3][k] + 127) >> 8) - ((b[1][k] + 127) >> 8);
     return segment_textured(&s->segment) && max_i32(width, height) <= SMALL_TEXTURED_PX;
 }
 
 static void setup_start(struct setup *s, const struct scene *scene, int k)
 {
-    const int32_t *const b = scene->poses.bounds[k];
+    const int32_t (*const b)[8] = scene->poses.bounds;
     *s = (struct setup){ .frame = &scene->frame, .segment = &scene->segment, .draw = &scene->draw, .color = 0x123456 };
     for (int i = 0; i < 3; i++)
         s->v[i] = scene->poses.record[k][i];
-    s->bounds = (struct bounds){ b[0], b[1], b[2], b[3] };
+    s->bounds = (struct bounds){ b[0][k], b[1][k], b[2][k], b[3][k] };
 }
 
 /* ------------------------------------------------------------------ the sum */

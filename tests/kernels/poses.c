@@ -101,7 +101,7 @@ static struct poses poses_one_by_one(const struct take *t)
         const int64_t area = (int64_t)(r[1][0] - r[0][0]) * (r[2][1] - r[0][1]) - (int64_t)(r[2][0] - r[0][0]) * (r[1][1] - r[0][1]);
         int32_t pixel[4];
         for (int i = 0; i < 4; i++) {
-            out.bounds[k][i] = bounds[i];
+            out.bounds[i][k] = bounds[i];
             pixel[i] = (bounds[i] + 127) >> 8;
         }
         const int32_t width = pixel[2] - pixel[0], height = pixel[3] - pixel[1];
@@ -123,7 +123,9 @@ static struct poses poses_by_eights(const struct take *t)
     struct poses out;
     struct poses_courses courses;
     smear_poses_courses_avx2(&courses, &t->setup, t->vertex);
-    smear_poses_avx2(&out, &t->setup, &courses, t->vertex, t->count);
+    smear_poses_avx2(&out, &t->setup, &courses, t->count);
+    if (out.seen != 0)
+        smear_poses_records_avx2(&out);
     return out;
 }
 
@@ -136,7 +138,7 @@ static uint32_t sum_up(uint32_t sum, const struct poses *p, const struct take *t
         if ((p->seen >> k & 1u) == 0)
             continue;
         for (int i = 0; i < 4; i++)
-            sum = sum * 31u + (uint32_t)p->bounds[k][i];
+            sum = sum * 31u + (uint32_t)p->bounds[i][k];
         for (int i = 0; i < 3 * t->setup.words; i++)
             sum = sum * 31u + (uint32_t)p->record[k][i % 3][i / 3];
     }
