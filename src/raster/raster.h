@@ -4,7 +4,6 @@
 #define SMEAR_RASTER_H
 
 #include "kernels/tiny8.h"
-#include "kernels/poses.h"
 #include "raster/target.h"
 
 /* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
@@ -37,11 +36,6 @@ uint32_t smear_raster_rejoin(const struct smear_raster_frame *frame, const struc
 /* Tells what triangles of a segment have in common, so that tiny ones are drawn eight at once; false where they are not. */
 bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        const struct smear_segment *segment);
-
-/* Draws triangles of a segment that are seen, in order, as smear_raster_triangle does. `look`: of the segment, or null. */
-void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
-                        struct poses *poses);
 #endif
 
 #endif

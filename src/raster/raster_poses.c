@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* raster_poses.c - eight triangles at an instant: tiny ones together, edges and depth planes of the others together, too. */
-#include "raster/raster.h"
+#include "raster/raster_poses.h"
 
-#include "kernels/flat_face.h"
 #include "raster/cover_tiny8.h"
 #include "raster/looks8.h"
 
@@ -98,18 +97,15 @@ static void make_tiny(struct tiny8_pixels *pixels, const struct tiny8_look *look
     smear_tiny8_avx2(pixels, &l, (const uint16_t(*)[4])vertex, colors);
 }
 
-/* What triangles of an eight have in common. */
+/* Eight triangles. */
 struct eight {
-    const struct smear_raster_frame *frame;
-    const struct smear_raster_target *target;
-    const struct smear_segment *segment;
+    const struct raster_eights *common;
     struct poses *poses;
     const uint32_t *color;
     struct planes8 planes;
     struct looks8 looks;
     struct flat_eight faces;
     bool has_looks, has_faces;      /* they are made */
-    struct flat_area area;          /* where those of one colour are drawn, if they are by flat_face */
 };
 
 static inline enum depth_slope slope_of(const struct planes8 *p, int k)
@@ -121,17 +117,18 @@ static inline enum depth_slope slope_of(const struct planes8 *p, int k)
 static inline void draw_flat(struct eight *e, uint32_t which, const uint32_t color[8])
 {
     if (!e->has_faces)
-        smear_flat_eight_make_avx2(&e->faces, &e->area, e->poses, &e->planes, color);
+        smear_flat_eight_make_avx2(&e->faces, &e->common->area, e->poses, &e->planes, color);
     e->has_faces = true;
-    smear_flat_eight_draw_avx2(&e->faces, &e->area, which);
+    smear_flat_eight_draw_avx2(&e->faces, &e->common->area, which);
 }
 
 /* Draws triangle k of those that are `known`; false where its size has it drawn otherwise. */
 static bool draw_known(struct eight *e, int k, uint32_t known)
 {
-    const struct smear_raster_target *const target = e->target;
+    const struct smear_raster_frame *const frame = e->common->frame;
+    const struct smear_raster_target *const target = e->common->target;
+    const struct smear_segment *const segment = e->common->segment;
     const struct planes8 *const planes = &e->planes;
-    const struct smear_segment *const segment = e->segment;
     const struct bounds b = bounds_of(e->poses, k);
     const struct pixel_box whole = { (b.x0 + 127) >> 8, (b.x1 + 127) >> 8, (b.y0 + 127) >> 8, (b.y1 + 127) >> 8 };
     const int32_t width = whole.right - whole.left, height = whole.bottom - whole.top;
@@ -140,17 +137,17 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     if (small && (textured || width * height <= TINY_PIXELS))
         return false;
     if (!e->has_looks)
-        smear_looks8_avx2(&e->looks, e->frame, segment, e->poses, planes, known);
+        smear_looks8_avx2(&e->looks, frame, segment, e->poses, planes, known);
     e->has_looks = true;
-    if ((e->looks.flat >> k & 1u) != 0 && e->area.pixels != NULL) {
+    if ((e->looks.flat >> k & 1u) != 0 && e->common->area.pixels != NULL) {
         draw_flat(e, 1u << k, segment_gouraud(segment) ? e->looks.color : e->color);
         return true;
     }
     struct setup s;
-    s.frame = e->frame;
+    s.frame = frame;
     s.target = target;
     s.segment = segment;
-    s.draw = &e->frame->draw[segment->draw];
+    s.draw = &frame->draw[segment->draw];
     for (int i = 0; i < 3; i++)
         s.v[i] = record_of(e->poses, k, i);
     s.bounds = b;
@@ -174,25 +171,18 @@ static bool draw_known(struct eight *e, int k, uint32_t known)
     return true;
 }
 
-/* Makes an eight ready. Flat faces are drawn by a kernel where the target's rows lie one behind the other. */
-static void eight_start(struct eight *e, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const uint32_t color[8], struct poses *poses)
+/* Where flat faces are drawn by a kernel: the target's rows lie one behind the other. */
+static struct flat_area area_of(const struct smear_raster_target *target)
 {
     const struct smear_plane_rows *const w = &target->window_rows;
     const int32_t rows = target->y1 - target->y0, at = w->ring_row * w->stride - w->x0;
-    e->frame = frame;
-    e->target = target;
-    e->segment = segment;
-    e->poses = poses;
-    e->color = color;
-    e->has_looks = e->has_faces = false;
-    e->area = (struct flat_area){ .stride = w->stride, .x0 = target->x0, .x1 = target->x1, .y0 = target->y0, .y1 = target->y1,
-                                  .narrow = target_is_direct(target) };
+    struct flat_area a = { .stride = w->stride, .x0 = target->x0, .x1 = target->x1, .y0 = target->y0, .y1 = target->y1,
+                           .narrow = target_is_direct(target) };
     if (target->x1 - target->x0 >= FLAT_FACE_LEAST && rows <= FLAT_FACE_ROWS && w->ring_row + rows <= w->ring) {
-        e->area.pixels = e->area.narrow ? (void *)(target->direct + at) : target->color + at;
-        e->area.depth = target->depth + at;
+        a.pixels = a.narrow ? (void *)(target->direct + at) : target->color + at;
+        a.depth = target->depth + at;
     }
-    smear_planes8_avx2(&e->planes, poses, SLOPE_BREAK);
+    return a;
 }
 
 /* Whether triangles of a segment may be drawn by draw_known. */
@@ -202,23 +192,44 @@ static bool suits(const struct smear_raster_frame *frame, const struct smear_ras
         && !(SMEAR_WITH_BOUNDS && segment_textured(segment) && frame->draw[segment->draw].sampler.levels != 0);
 }
 
-void smear_raster_poses(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                        const struct smear_segment *segment, const struct tiny8_look *look, const uint32_t color[8],
-                        struct poses *poses)
+void smear_raster_eights_make(struct raster_eights *r, const struct smear_raster_frame *frame,
+                              const struct smear_raster_target *target, const struct smear_segment *segment)
+{
+    r->frame = frame;
+    r->target = target;
+    r->segment = segment;
+    r->area = area_of(target);
+    r->has_look = smear_raster_look(&r->look, frame, target, segment);
+    r->suits = suits(frame, target, segment);
+    r->flat = r->suits && r->has_look && r->look.kind == TINY8_FLAT && r->area.pixels != NULL;
+}
+
+/* Draws all that are seen, of one colour each. */
+static SMEAR_NOINLINE void draw_all_flat(const struct raster_eights *r, const uint32_t color[8], const struct poses *poses)
+{
+    struct planes8 planes;
+    struct flat_eight faces;
+    smear_planes8_avx2(&planes, poses, SLOPE_BREAK);
+    smear_flat_eight_make_avx2(&faces, &r->area, poses, &planes, color);
+    smear_flat_eight_draw_avx2(&faces, &r->area, poses->seen);
+}
+
+/* Draws them by what they are. */
+static SMEAR_NOINLINE void draw_each(const struct raster_eights *r, const uint32_t color[8], struct poses *poses)
 {
     struct tiny8_pixels pixels;
     struct eight eight;
-    const uint32_t tiny = look != NULL && (poses->tiny & (poses->tiny - 1)) != 0 ? poses->tiny : 0;    /* one costs less alone */
-    const uint32_t alone = suits(frame, target, segment) ? poses->tiny : poses->seen;
+    const uint32_t tiny = r->has_look && (poses->tiny & (poses->tiny - 1)) != 0 ? poses->tiny : 0;    /* one costs less alone */
+    const uint32_t alone = r->suits ? poses->tiny : poses->seen, flat = r->flat ? poses->seen & ~alone : 0;
     int32_t start = 0, n = 0;
     if (tiny != 0)
-        make_tiny(&pixels, look, color, poses, tiny);
-    uint32_t flat = 0;
-    if ((poses->seen & ~alone) != 0) {
-        eight_start(&eight, frame, target, segment, color, poses);
-        if (look != NULL && look->kind == TINY8_FLAT && eight.area.pixels != NULL)
-            flat = poses->seen & ~alone;
-    }
+        make_tiny(&pixels, &r->look, color, poses, tiny);
+    eight.common = r;
+    eight.poses = poses;
+    eight.color = color;
+    eight.has_looks = eight.has_faces = false;
+    if ((poses->seen & ~alone) != 0)
+        smear_planes8_avx2(&eight.planes, poses, SLOPE_BREAK);
     for (uint32_t rest = poses->seen; rest != 0; rest &= rest - 1) {
         const uint32_t others = rest & ~flat, first = others & (0u - others);
         if ((rest & (first - 1u)) != 0)         /* flat ones that come before */
@@ -231,7 +242,7 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
             const int32_t from = start, i = n++;
             start = pixels.end[i];
             if ((pixels.taken >> i & 1u) != 0) {
-                tiny8_put(target, look, &pixels, from, start);
+                tiny8_put(r->target, &r->look, &pixels, from, start);
                 continue;
             }
         }
@@ -239,8 +250,16 @@ void smear_raster_poses(const struct smear_raster_frame *frame, const struct sme
             continue;
         const int32_t *const v[3] = { record_of(poses, k, 0), record_of(poses, k, 1), record_of(poses, k, 2) };
         const struct bounds bounds = bounds_of(poses, k);
-        smear_raster_triangle(frame, target, segment, color[k], v, &bounds);
+        smear_raster_triangle(r->frame, r->target, r->segment, color[k], v, &bounds);
     }
+}
+
+void smear_raster_poses(const struct raster_eights *r, const uint32_t color[8], struct poses *poses)
+{
+    if (r->flat && poses->tiny == 0)
+        draw_all_flat(r, color, poses);
+    else
+        draw_each(r, color, poses);
 }
 
 #endif

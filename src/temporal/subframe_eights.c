@@ -86,16 +86,15 @@ static void begin_segment(struct subframe_eights *e, const struct smear_segment 
 {
     const struct subframes *f = e->f;
     e->segment = segment;
-    e->has_look = smear_raster_look(&e->look, f->t->frame, &f->work, segment);
+    smear_raster_eights_make(&e->raster, f->t->frame, &f->work, segment);
     take_vertices(&e->setup, f->t->frame->bins, segment);
     e->setup.words = segment_gouraud(segment) || segment_textured(segment) ? segment->motion : VERTEX_BASE_WORDS;
-    e->setup.tiny = e->has_look ? e->look.most : 0;
+    e->setup.tiny = e->raster.has_look ? e->raster.look.most : 0;
 }
 
 void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe_pack *pack)
 {
     struct poses poses;
-    const struct subframes *f = e->f;
     if (pack->segment != e->segment)
         begin_segment(e, pack->segment);
     smear_poses_avx2(&poses, &e->setup, &pack->courses, pack->count);
@@ -103,7 +102,7 @@ void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe
         return;
     const struct subframe_box box = { poses.box[0], poses.box[1], poses.box[2], poses.box[3] };
     box_add(e->all, &box);
-    smear_raster_poses(f->t->frame, &f->work, e->segment, e->has_look ? &e->look : NULL, pack->color, &poses);
+    smear_raster_poses(&e->raster, pack->color, &poses);
 }
 
 void smear_subframe_eights_end(struct subframe_eights *e)

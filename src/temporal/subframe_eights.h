@@ -4,7 +4,7 @@
 #define SMEAR_SUBFRAME_EIGHTS_H
 
 #include "kernels/poses.h"
-#include "raster/raster.h"
+#include "raster/raster_poses.h"
 #include "temporal/subframe_tile.h"
 
 #if SMEAR_AVX2
@@ -33,8 +33,7 @@ struct subframe_eights {
     struct subframe_box *all;           /* where anything was drawn */
     const struct smear_segment *segment;        /* of which there are: */
     struct poses_setup setup;
-    struct tiny8_look look;
-    bool has_look;
+    struct raster_eights raster;
     struct subframe_pack waiting;       /* not drawn yet */
 };
 
