@@ -44,22 +44,34 @@ static inline const struct smear_segment *segment_of(const struct smear_bins *g,
     return bins_bounds(g, triangle)->interval != 0 ? NULL : &g->segment[bins_triangle(g, triangle)->segment];
 }
 
+/* Adds the next triangle; false where there is no room for it. */
+static bool packs_add(struct subframe_packs *packs, const struct smear_bins *g, uint32_t triangle)
+{
+    const struct smear_segment *const segment = segment_of(g, triangle);
+    struct subframe_pack *pack = packs->count != 0 ? &packs->of[packs->count - 1] : NULL;
+    if (pack == NULL || segment == NULL || pack->segment != segment || pack->count == 8) {
+        if (packs->count == SUBFRAME_PACKS)
+            return false;
+        pack = &packs->of[packs->count++];
+        pack_begin(pack, segment);
+        pack->triangle = triangle;
+    }
+    pack_add(pack, bins_triangle(g, triangle));
+    return true;
+}
+
 void smear_subframe_packs_make(struct subframe_packs *packs, const struct subframes *f)
 {
     const struct smear_bins *g = f->t->frame->bins;
-    struct subframe_pack *pack = NULL;
+    bool room = true;
     packs->count = 0;
-    for (packs->listed = 0; packs->listed < f->moving_listed; packs->listed++) {
-        const uint32_t triangle = f->listed[packs->listed];
-        const struct smear_segment *const segment = segment_of(g, triangle);
-        if (pack == NULL || segment == NULL || pack->segment != segment || pack->count == 8) {
-            if (packs->count == SUBFRAME_PACKS)
-                break;
-            pack = &packs->of[packs->count++];
-            pack_begin(pack, segment);
-            pack->triangle = triangle;
-        }
-        pack_add(pack, bins_triangle(g, triangle));
+    for (packs->listed = 0; packs->listed < f->moving_listed; packs->listed++)
+        if (!(room = packs_add(packs, g, f->listed[packs->listed])))
+            break;
+    for (packs->rest = f->moving_rest; room && packs->rest < f->t->moving_count; packs->rest++) {
+        const struct smear_moving_triangle *const m = &f->t->moving[packs->rest];
+        if (subframes_see(f, m) && !packs_add(packs, g, m->triangle))
+            break;
     }
     for (int i = 0; i < packs->count; i++)
         if (packs->of[i].segment != NULL)

@@ -19,10 +19,11 @@ struct subframe_pack {
     struct poses_courses courses;
 };
 
-/* Listed triangles of some tiles from the first one on, in their order: the same ones at all instants. */
-enum { SUBFRAME_PACKS = 20 };
+/* Moving triangles of some tiles that may be seen, in their order: the same ones at all instants. Those listed come first. */
+enum { SUBFRAME_PACKS = 32 };
 struct subframe_packs {
-    uint32_t listed;                    /* so many */
+    uint32_t listed;                    /* so many of those listed */
+    uint32_t rest;                      /* and, of those that are not, those before this one of the run's */
     int count;
     struct subframe_pack of[SUBFRAME_PACKS];
 };

@@ -48,6 +48,12 @@ struct subframes {
     struct subframe_box area;      /* and nothing of it is seen elsewhere */
 };
 
+/* Whether a moving triangle may be seen. */
+static inline bool subframes_see(const struct subframes *f, const struct smear_moving_triangle *m)
+{
+    return moving_is_in(m, f->t) && m->nearest > f->lowest;
+}
+
 /* Index of the first of the box's pixels in row y of the work planes. */
 static inline int32_t work_row(const struct subframes *f, const struct subframe_box *b, int32_t y)
 {

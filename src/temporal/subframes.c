@@ -35,11 +35,6 @@ size_t smear_subframes_work(int32_t width, int32_t height)
 
 /* ------------------------------------------------------------------ lists of the tile */
 
-static inline bool is_seen(const struct subframes *f, const struct smear_moving_triangle *m)
-{
-    return moving_is_in(m, f->t) && m->nearest > f->lowest;
-}
-
 /* The triangle may touch the tile at some time. */
 static bool touches(const struct subframes *f, uint32_t triangle)
 {
@@ -96,13 +91,13 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     begin_list(f, &whole);
     for (f->moving_rest = 0; f->moving_rest < t->moving_count && n < LISTED; f->moving_rest++) {
         const struct smear_moving_triangle *m = &t->moving[f->moving_rest];
-        if (is_seen(f, m)) {
+        if (subframes_see(f, m)) {
             f->listed[n++] = m->triangle;
             note(f, m);
         }
     }
     for (uint32_t i = f->moving_rest; i < t->moving_count; i++)
-        if (is_seen(f, &t->moving[i]))
+        if (subframes_see(f, &t->moving[i]))
             note(f, &t->moving[i]);
     bool moves = n != 0;
     f->moving_listed = n;
@@ -146,7 +141,7 @@ static SMEAR_RARE bool list_refilled(struct subframes *f)
     begin_list(f, &whole);
     for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
         for (uint32_t i = 0; i < t->moving_count; i++)
-            if (is_seen(f, &t->moving[i]))
+            if (subframes_see(f, &t->moving[i]))
                 note(f, &t->moving[i]);
     for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
         for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next)
@@ -186,9 +181,9 @@ static void draw_listed_by_eights(const struct subframes *f, int32_t time, struc
     for (uint32_t i = packs != NULL ? packs->listed : 0; i < f->moving_listed; i++)
         if (!smear_subframe_eights_add(&eights, f->listed[i]))
             draw_moving_triangle(f, f->listed[i], time, all);
-    for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++) {
+    for (uint32_t i = packs != NULL ? packs->rest : f->moving_rest; i < f->t->moving_count; i++) {
         const uint32_t triangle = f->t->moving[i].triangle;
-        if (is_seen(f, &f->t->moving[i]) && !smear_subframe_eights_add(&eights, triangle))
+        if (subframes_see(f, &f->t->moving[i]) && !smear_subframe_eights_add(&eights, triangle))
             draw_moving_triangle(f, triangle, time, all);
     }
     smear_subframe_eights_end(&eights);
@@ -206,7 +201,7 @@ static void draw_listed(const struct subframes *f, int32_t time, struct subframe
     for (uint32_t i = 0; i < f->moving_listed; i++)
         draw_moving_triangle(f, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)
-        if (is_seen(f, &f->t->moving[i]))
+        if (subframes_see(f, &f->t->moving[i]))
             draw_moving_triangle(f, f->t->moving[i].triangle, time, all);
 }
 
