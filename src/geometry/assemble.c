@@ -296,9 +296,13 @@ static void scan_fronts(struct triangle_scan *s, const struct batch *b, struct f
 {
     s->front = b->partial ? NULL : front;
     s->color = !b->points_even && !segment_colored(b->segment) ? b->face_color : NULL;
+    bool colored = s->color != NULL;
+#if SCAN_MIXES
     s->vertex_color = b->vertex_color;
     s->even = b->points_even;
-    s->rings = b->points && (s->color != NULL || s->vertex_color != NULL) ? &b->rings : NULL;
+    colored = colored || s->vertex_color != NULL;
+#endif
+    s->rings = b->points && colored ? &b->rings : NULL;
     s->first = b->d->mesh->index;
 }
 #endif
@@ -328,6 +332,9 @@ static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
                                .vertex_count = b->ready ? d->mesh->vertex_count : 0u, .width = (uint32_t)a->viewport.width << 8,
                                .height = (uint32_t)a->viewport.height << 8, .index = index + 3 * first, .end = index + 3 * end,
                                .behind = b->double_sided ? INT32_MIN : 0 };
+#if !SMEAR_HAS_MUL64
+    s.side = scan_side(s.height);
+#endif
 #if FRONT_COVERS
     struct front_cover front;
     scan_fronts(&s, b, &front);

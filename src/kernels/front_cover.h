@@ -8,7 +8,7 @@
 #include "kernels/tiny_cover.h"
 
 /* Boxes are looked at so where that pays. */
-#define FRONT_COVERS TINY_COVER_ARMV7EM
+#define FRONT_COVERS TINY_COVER_KEEPS
 
 #if FRONT_COVERS
 struct front_cover {
@@ -46,6 +46,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct front_cover, low) == 72 && offsetof(struct t
                         && offsetof(struct tiny_cover, covered) == 8 && sizeof(struct covered) == 16,
                     "the assembly knows struct front_cover");
 
+#if TINY_COVER_ARMV7EM
 /* The first pixel whose centre lies at or beyond (X, Y) as a pair into OUT. */
 #define FRONT_COVER_FIRST(OUT, TEMP, X, Y) \
     "add " OUT ", " X ", #127\n\t"         \
@@ -151,6 +152,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct front_cover, low) == 72 && offsetof(struct t
     "b 6f\n" \
     "9: movs r0, #5\n" \
     "6: "
+#endif
 #endif
 
 #endif

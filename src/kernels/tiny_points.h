@@ -96,29 +96,28 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
     "muls " W ", r1\n\t"                \
     "adds " W ", " W ", r7\n\t"
 
-/* What all pixels share. */
+/* What all pixels share, by depth units of corners in r2, r3 and r4. */
 #define TINY_POINTS_START \
     "mov r8, r0\n\t" \
     "mov r9, r5\n\t" \
-    "ldr r0, [r2]\n\t" \
-    "ldr r3, [r3]\n\t" \
-    "ldr r5, [r4]\n\t" \
-    "mov r10, r0\n\t" \
-    "subs r3, r3, r0\n\t" \
-    "subs r5, r5, r0\n\t" \
+    "mov r10, r2\n\t" \
+    "subs r3, r3, r2\n\t" \
+    "subs r5, r4, r2\n\t" \
     "uxth r2, r3\n\t" \
     "asrs r3, r3, #16\n\t" \
     "uxth r4, r5\n\t" \
     "asrs r5, r5, #16\n\t" \
     "push {r2, r3, r4, r5}\n\t" \
+    "ldr r6, 8f\n\t" \
+    "mov lr, r6\n\t" \
     "movs r4, r1\n\t" \
     "ldm r4!, {r1, r6}\n\t" \
     "lsls r6, r6, #4\n\t" \
     "adds r6, r6, r4\n\t" \
     "mov r11, r6\n\t" TINY_POINTS_SCALE
 
-/* The next pixel: its place into r0, its depth and kind into r5, its ring into r12. */
-#define TINY_POINTS_PIXEL \
+/* The next pixel: its place into r0, its depth and kind into r5, its ring into r12. KEEP is what keeps weights. */
+#define TINY_POINTS_PIXEL(KEEP) \
     "1: ldm r4!, {r0, r1, r5, r6}\n\t" \
     "mov r7, r8\n\t" \
     "ldr r7, [r7, #8]\n\t" \
@@ -127,27 +126,17 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
     "lsls r7, r7, #2\n\t" \
     "mov r12, r7\n\t" \
     "lsls r1, r1, #16\n\t" \
-    "orrs r0, r1\n\t" TINY_POINTS_WEIGHT("r5") TINY_POINTS_WEIGHT("r6") \
-    "subs r4, #8\n\t" \
-    "stm r4!, {r5, r6}\n\t" TINY_POINTS_TIMES("r5", "0", "4") \
+    "orrs r0, r1\n\t" TINY_POINTS_WEIGHT("r5") TINY_POINTS_WEIGHT("r6") KEEP TINY_POINTS_TIMES("r5", "0", "4") \
     "add r5, r10\n\t" TINY_POINTS_TIMES("r6", "8", "12") \
     "adds r5, r5, r6\n\t" \
     "lsrs r1, r5, #26\n\t" \
-    "bne 2f\n\t" \
-    "lsrs r5, r5, #10\n\t" \
-    "adds r5, #1\n\t" \
-    "lsrs r5, r5, #1\n\t" \
-    "b 3f\n" \
-    "2: lsrs r5, r5, #14\n\t" \
-    "adds r5, #1\n\t" \
-    "lsrs r5, r5, #1\n\t" \
-    "movs r1, #120\n\t" \
-    "lsls r1, r1, #8\n\t" \
-    "adds r5, r5, r1\n" \
-    "3: movs r6, #0\n\t" \
-    "mvns r6, r6\n\t" \
-    "lsls r6, r6, #16\n\t" \
-    "orrs r5, r6\n\t"
+    "beq 2f\n\t" \
+    "add r5, lr\n\t" \
+    "asrs r5, r5, #15\n" \
+    "3: "
+#define TINY_POINTS_KEEP \
+    "subs r4, #8\n\t" \
+    "stm r4!, {r5, r6}\n\t"
 
 /* Links its entry. */
 #define TINY_POINTS_LINK \
@@ -173,24 +162,42 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
     "stm r1!, {r0, r5, r6, r7}\n\t" \
     "pop {r2, r3}\n\t"
 
-/* The rings in r8, the colour in r9, depth units of corner 0 in r10, the end of pixels in r11; r2 and r3 scale weights, r4 is the next
- * pixel, how the others' depth differs lies on the stack. Half of the instructions that compilers take. */
+/* Far depths, and what makes codes of near ones: with what rounds those, and bit 31, of which the shift makes the kind. */
+#define TINY_POINTS_FAR \
+    "2: movs r1, #31\n\t" \
+    "lsls r1, r1, #27\n\t" \
+    "adds r5, r5, r1\n\t" \
+    "movs r1, #1\n\t" \
+    "lsls r1, r1, #10\n\t" \
+    "adds r5, r5, r1\n\t" \
+    "asrs r5, r5, #11\n\t" \
+    "b 3b\n\t" \
+    ".balign 4\n" \
+    "8: .word 0xbc004000\n"
+
+/* The rings in r0, pixels in r1, depth units in r2, r3 and r4, the colour in r5. Then the rings in r8, the colour in r9, depth units of
+ * corner 0 in r10, the end of pixels in r11; r2 and r3 scale weights, r4 is the next pixel, how the others' depth differs lies on the
+ * stack. Less than half of the instructions that compilers take. */
+#define TINY_POINTS_ARMV6M(KEEP) TINY_POINTS_START TINY_POINTS_PIXEL(KEEP) TINY_POINTS_LINK \
+    "cmp r4, r11\n\t" \
+    "bne 1b\n\t" \
+    "add sp, #16\n\t" \
+    "b 5f\n" TINY_POINTS_FAR \
+    "5: "
+
 SMEAR_INLINE void tiny_points_armv6m(const struct points_rings *r, struct tiny_cover *t, const int32_t *depth0,
                                      const int32_t *depth1, const int32_t *depth2, uint32_t color)
 {
     register const struct points_rings *r0 __asm__("r0") = r;
     register struct tiny_cover *r1 __asm__("r1") = t;
-    register const int32_t *r2 __asm__("r2") = depth0;
-    register const int32_t *r3 __asm__("r3") = depth1;
-    register const int32_t *r4 __asm__("r4") = depth2;
+    register int32_t r2 __asm__("r2") = *depth0;
+    register int32_t r3 __asm__("r3") = *depth1;
+    register int32_t r4 __asm__("r4") = *depth2;
     register uint32_t r5 __asm__("r5") = color;
-    __asm__ volatile(".syntax unified\n\t" TINY_POINTS_START TINY_POINTS_PIXEL TINY_POINTS_LINK
-                     "cmp r4, r11\n\t"
-                     "bne 1b\n\t"
-                     "add sp, #16"
+    __asm__ volatile(".syntax unified\n\t" TINY_POINTS_ARMV6M(TINY_POINTS_KEEP)
                      : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3), "+r"(r4), "+r"(r5)
                      :
-                     : "r6", "r7", "r8", "r9", "r10", "r11", "r12", "cc", "memory");
+                     : "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 #endif
 

@@ -3,10 +3,13 @@
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_H
 
-#include "kernels/front_cover.h"
+#include "kernels/front_cover_armv6m.h"
 #include "kernels/tiny_corners.h"
 #include "kernels/tiny_points.h"
 #include "kernels/vertices.h"
+
+/* Scans mix the colours of points, too, where triangles have none. */
+#define SCAN_MIXES TINY_COVER_ARMV7EM
 
 /* A vertex of the cache. */
 struct scan_vertex {
@@ -49,12 +52,28 @@ struct triangle_scan {
     const uint8_t *color;           /* of triangles then: red, green, blue and alpha of each; or null */
     const uint16_t *first;          /* their indices begin here */
     int32_t room;                   /* triangles; goes down by those that became points */
-    const uint8_t *vertex_color;    /* of vertices, where triangles have none: points mix them */
+#endif
+#if SCAN_MIXES
+    const uint8_t *vertex_color;    /* of vertices, where `color` is null: points mix them */
     bool even;                      /* but only where depths are nearly even (tiny_is_even) */
+#endif
+#if !SMEAR_HAS_MUL64
+    uint32_t side;                  /* a power of two: where x differs by less, areas have 32 bits (scan_side) */
 #endif
 };
 
 enum { SCAN_POINTS = 2 };
+
+#if !SMEAR_HAS_MUL64
+/* Twice an area is at most a triangle's width, less than two such sides, times the frame's height, q8 px. */
+static inline uint32_t scan_side(uint32_t height)
+{
+    uint32_t side = 1u << 15;
+    while (height != 0 && side > (1u << 30) / height)
+        side >>= 1;
+    return side;
+}
+#endif
 
 /* Finds a vertex that the cache lacks. */
 static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_vertex *v, uint32_t tag)
@@ -73,7 +92,7 @@ static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_verte
     return (uint32_t)v->screen.x > s->width || (uint32_t)v->screen.y > s->height ? SCAN_OUTSIDE : SCAN_DONE;
 }
 
-#if FRONT_COVERS
+#if SCAN_MIXES
 /* Points from `first` on, whose weights are known, take their colour from vertices. */
 static inline void scan_mix_reference(const struct triangle_scan *s, uint32_t first)
 {
@@ -91,22 +110,35 @@ static inline void scan_mix_reference(const struct triangle_scan *s, uint32_t fi
         points_entry(s->rings, first + (uint32_t)k)->color = pixel_make(0, code[0], code[1], code[2]);
     }
 }
+#endif
 
+#if FRONT_COVERS
 /* Takes a triangle that covers so many pixels. Returns whether it became points. */
 static inline bool scan_points(struct triangle_scan *s, int32_t covered)
 {
     const int32_t *const depth[3] = { &s->v[0]->screen.depth, &s->v[2]->screen.depth, &s->v[1]->screen.depth };
-    const bool uneven = s->color == NULL && s->even && !tiny_is_even(*depth[0], *depth[1], *depth[2]);
-    if (covered > SCAN_POINTS || s->rings == NULL || s->room == 0 || uneven) {
+    bool points = covered <= SCAN_POINTS && s->rings != NULL && s->room != 0;
+#if SCAN_MIXES
+    points = points && (s->color != NULL || !s->even || tiny_is_even(*depth[0], *depth[1], *depth[2]));
+#endif
+    if (!points) {
         s->covered = covered;
         return false;
     }
     s->room--;
+    uint32_t color = 0;
+    if (s->color != NULL) {
+        const uint8_t *const c = s->color + (s->index - s->first) / 3 * 4;
+        color = pixel_make(c[3], c[0], c[1], c[2]);
+    }
+#if SCAN_MIXES
     const uint32_t first = *s->rings->count;
-    const uint8_t *const c = s->color != NULL ? s->color + (s->index - s->first) / 3 * 4 : s->vertex_color;
-    tiny_points_reference(s->rings, &s->front->tiny, depth[0], depth[1], depth[2], pixel_make(c[3], c[0], c[1], c[2]));
+#endif
+    tiny_points_reference(s->rings, &s->front->tiny, depth[0], depth[1], depth[2], color);
+#if SCAN_MIXES
     if (s->color == NULL)
         scan_mix_reference(s, first);
+#endif
     return true;
 }
 #endif
@@ -122,17 +154,16 @@ static inline enum scan_end scan_one(struct triangle_scan *s)
 #if SMEAR_HAS_MUL64
     const int64_t product = (int64_t)x1 * y2 - (int64_t)x2 * y1;
     const int32_t area = product > 0 ? 1 : product < 0 ? -1 : 0;
+#else
+    if ((((uint32_t)x1 + s->side) | ((uint32_t)x2 + s->side)) >= 2 * s->side)
+        return SCAN_ANY;            /* products need more than 32 bits */
+    const int32_t area = x1 * y2 - x2 * y1;
+#endif
 #if FRONT_COVERS
     if (area > 0 && s->front != NULL) {
         const int32_t covered = front_cover_reference(s->front, &v0->screen.x, &v1->screen.x, &v2->screen.x);
         return covered == 0 || scan_points(s, covered) ? SCAN_DONE : SCAN_FRONT;
     }
-#endif
-#else
-    const uint32_t small = 1 << 15;
-    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) >= 2 * small)
-        return SCAN_ANY;            /* products need more than 32 bits */
-    const int32_t area = x1 * y2 - x2 * y1;
 #endif
     return area > 0 ? SCAN_FRONT : (area & s->behind) != 0 ? SCAN_ANY : SCAN_DONE;
 }
@@ -165,7 +196,7 @@ static inline enum scan_end triangle_scan_reference(struct triangle_scan *s)
     return SCAN_DONE;
 }
 
-#if SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM
+#if TINY_COVER_KEEPS
 SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
                         && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
                         && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
@@ -174,18 +205,25 @@ SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_ver
                         && offsetof(struct triangle_scan, end) == 44 && offsetof(struct triangle_scan, behind) == 48
                         && offsetof(struct triangle_scan, v) == 52 && offsetof(struct triangle_scan, missing) == 64,
                     "the assembly knows struct triangle_scan");
+SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
+                        && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
+                        && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88,
+                    "the assembly knows struct triangle_scan");
 #endif
 
-#if SMEAR_ASM_ARMV6M
-/* What does not change: the end into r8, 2^15 into r9, `behind` into r12, from the scan in r0. */
+#if TINY_COVER_ARMV6M
+SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly knows struct triangle_scan");
+
+/* What does not change: the end into r8, `behind` into r12, `side` into r9 and twice that into lr, from the scan in r0. */
 #define TRIANGLE_SCAN_LOAD  \
     "ldr r1, [r0, #44]\n\t" \
     "mov r8, r1\n\t"        \
-    "movs r1, #1\n\t"       \
-    "lsls r1, r1, #15\n\t"  \
-    "mov r9, r1\n\t"        \
     "ldr r1, [r0, #48]\n\t" \
-    "mov r12, r1\n\t"
+    "mov r12, r1\n\t"       \
+    "ldr r1, [r0, #92]\n\t" \
+    "mov r9, r1\n\t"        \
+    "adds r1, r1, r1\n\t"   \
+    "mov lr, r1\n\t"
 
 /* Tags of the triangle whose first index r0 points to into r1, r2 and r3, its entries into r4, r7 and r5. */
 #define TRIANGLE_SCAN_ENTRIES \
@@ -218,26 +256,17 @@ SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_ver
     "ldr r2, [r5, #8]\n\t"  \
     "subs r1, r1, r0\n\t"   \
     "subs r2, r2, r0\n\t"   \
+    "mov r3, r9\n\t"        \
+    "adds r0, r1, r3\n\t"   \
+    "adds r3, r3, r2\n\t"   \
+    "orrs r0, r3\n\t"       \
+    "cmp r0, lr\n\t"        \
+    "bhs 24f\n\t"           \
     "ldr r0, [r4, #12]\n\t" \
     "ldr r3, [r7, #12]\n\t" \
     "ldr r6, [r5, #12]\n\t" \
     "subs r3, r3, r0\n\t"   \
     "subs r6, r6, r0\n\t"   \
-    "mov lr, r5\n\t"        \
-    "mov r0, r9\n\t"        \
-    "adds r0, r0, r1\n\t"   \
-    "mov r5, r9\n\t"        \
-    "adds r5, r5, r2\n\t"   \
-    "orrs r0, r5\n\t"       \
-    "mov r5, r9\n\t"        \
-    "adds r5, r5, r3\n\t"   \
-    "orrs r0, r5\n\t"       \
-    "mov r5, r9\n\t"        \
-    "adds r5, r5, r6\n\t"   \
-    "orrs r0, r5\n\t"       \
-    "mov r5, lr\n\t"        \
-    "lsrs r0, r0, #16\n\t"  \
-    "bne 24f\n\t"           \
     "muls r1, r6\n\t"       \
     "muls r2, r3\n\t"       \
     "subs r1, r1, r2\n\t"
@@ -281,7 +310,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_ver
     "pop {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"                 \
     "b 12b\n"
 
-/* What becomes of triangles that are not wholly within the frame; 24, 21: those that may be seen. */
+/* What becomes of triangles that are not wholly within the frame; 24: those that may be seen. */
 #define TRIANGLE_SCAN_SEEN \
     "17: ands r0, r1\n\t" \
     "ands r0, r2\n\t" \
@@ -289,21 +318,96 @@ SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_ver
     "tst r0, r1\n\t" \
     "bne 18b\n" \
     "24: movs r0, #2\n\t" \
-    "b 22f\n" \
-    "21: movs r0, #1\n" \
-    "22: mov r1, r11\n\t" \
+    "mov r1, r11\n\t" \
     "adds r1, #52\n\t" \
-    "stm r1!, {r4, r5, r7}\n\t" \
-    "mov r1, r10\n\t" \
+    "stm r1!, {r4, r5, r7}\n" \
+    "22: mov r1, r10\n\t" \
     "adds r1, #6\n\t" \
     "mov r10, r1\n\t" \
+    "b 29f\n" \
+    "25: movs r0, #5\n\t" \
     "b 29f\n"
+
+/* What becomes of those that face the viewer, of the area in r1. */
+#define TRIANGLE_SCAN_FRONT                                            \
+    "20: movs r0, #1\n\t"                                              \
+    "b 22b\n"                                                          \
+    "35: b 31f\n"                                                      \
+    "36: movs r6, #5\n\t"                                              \
+    "b 32f\n"                                                          \
+    "21: mov r0, r11\n\t"                                              \
+    "adds r0, #52\n\t"                                                 \
+    "stm r0!, {r4, r5, r7}\n\t"                                        \
+    "ldr r6, [r0, #4]\n\t"                                             \
+    "cmp r6, #0\n\t"                                                   \
+    "beq 20b\n\t"                                                      \
+    "str r1, [r6]\n\t"                                                 \
+    "mov lr, r6\n\t"                                                   \
+    "mov r8, r1\n\t" ARMV6M_FRONT_BOX("35b", "36b") ARMV6M_FRONT_EDGES \
+    ARMV6M_FRONT_BIASES ARMV6M_FRONT_START ARMV6M_FRONT_PIXELS          \
+    "bne 34f\n\t"                                                      \
+    "add sp, #16\n\t"                                                  \
+    "b 31f\n"                                                          \
+    "34: str r6, [r0, #4]\n\t"                                         \
+    "cmp r6, #2\n\t"                                                   \
+    "bls 37f\n"                                                        \
+    "33: pop {r0, r1, r2, r3}\n"                                       \
+    "32: " ARMV6M_FRONT_KEEP                                            \
+    "mov r1, r11\n\t"                                                  \
+    "str r6, [r1, #72]\n\t"                                            \
+    "b 20b\n"
+
+/* Its pixels become points, by the rings while there is room. A triangle's colour lies two thirds as far from the first as its indices
+ * do. Then it goes on from 31. */
+#define TRIANGLE_SCAN_POINTS         \
+    "37: mov r2, r11\n\t"               \
+    "ldr r1, [r2, #76]\n\t"         \
+    "cmp r1, #0\n\t"                \
+    "beq 33b\n\t"                   \
+    "ldr r4, [r2, #88]\n\t"         \
+    "subs r4, #1\n\t"               \
+    "bmi 33b\n\t"                   \
+    "str r4, [r2, #88]\n\t"         \
+    "add sp, #16\n\t"               \
+    "mov r3, r10\n\t"               \
+    "push {r2, r3}\n\t"             \
+    "ldr r4, [r2, #84]\n\t"         \
+    "subs r3, r3, r4\n\t"           \
+    "ldr r4, 9f\n\t"                \
+    "muls r3, r4\n\t"               \
+    "lsls r3, r3, #1\n\t"           \
+    "ldr r4, [r2, #80]\n\t"         \
+    "adds r4, r4, r3\n\t"           \
+    "ldrb r5, [r4, #3]\n\t"         \
+    "lsls r5, r5, #8\n\t"           \
+    "ldrb r3, [r4]\n\t"             \
+    "orrs r5, r3\n\t"               \
+    "lsls r5, r5, #8\n\t"           \
+    "ldrb r3, [r4, #1]\n\t"         \
+    "orrs r5, r3\n\t"               \
+    "lsls r5, r5, #8\n\t"           \
+    "ldrb r3, [r4, #2]\n\t"         \
+    "orrs r5, r3\n\t"               \
+    "adds r2, #52\n\t"              \
+    "ldm r2, {r2, r4, r6}\n\t"      \
+    "ldr r2, [r2, #16]\n\t"         \
+    "ldr r3, [r6, #16]\n\t"         \
+    "ldr r4, [r4, #16]\n\t"         \
+    "movs r6, r0\n\t"               \
+    "movs r0, r1\n\t"               \
+    "movs r1, r6\n\t" TINY_POINTS_ARMV6M("") \
+    "pop {r0, r2}\n\t"              \
+    "mov r11, r0\n\t"               \
+    "mov r10, r2\n"                 \
+    "31: mov r0, r11\n\t" TRIANGLE_SCAN_LOAD \
+    "b 18b\n\t"                     \
+    ".balign 4\n"                   \
+    "9: .word 0xaaaaaaab\n"
 
 /* Other reasons to stop. From 29 on it ends. */
 #define TRIANGLE_SCAN_STOP \
-    "26: add sp, #32\n" \
-    "25: movs r0, #5\n\t" \
-    "b 29f\n" TRIANGLE_SCAN_FIND \
+    "26: add sp, #32\n\t" \
+    "b 25b\n" TRIANGLE_SCAN_FIND \
     "1: movs r0, #4\n\t" \
     "b 28f\n" \
     "27: movs r0, #3\n" \
@@ -371,7 +475,8 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
                      "cmp r0, r8\n\t"
                      "bne 11b\n\t"
                      "movs r0, #0\n\t"
-                     "b 29f\n" TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
+                     "b 29f\n" TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_FRONT
+                         TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_STOP
                      : "+r"(r0)
                      :
                      : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
@@ -379,15 +484,15 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 }
 #endif
 
-#if SMEAR_ASM_ARMV7EM
+#if TINY_COVER_ARMV7EM
 #include "kernels/triangle_scan_armv7em.h"
 #endif
 
 static inline enum scan_end triangle_scan(struct triangle_scan *s)
 {
-#if SMEAR_ASM_ARMV6M
+#if TINY_COVER_ARMV6M
     return triangle_scan_armv6m(s);
-#elif SMEAR_ASM_ARMV7EM
+#elif TINY_COVER_ARMV7EM
     return triangle_scan_armv7em(s);
 #else
     return triangle_scan_reference(s);

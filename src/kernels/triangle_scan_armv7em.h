@@ -3,11 +3,7 @@
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 
-SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(struct triangle_scan, covered) == 72
-                        && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
-                        && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88
-                        && offsetof(struct triangle_scan, vertex_color) == 92 && offsetof(struct triangle_scan, even) == 96,
-                    "the assembly knows struct triangle_scan");
+SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, vertex_color) == 92 && offsetof(struct triangle_scan, even) == 96, "the assembly knows struct triangle_scan");
 
 /* Tags of the triangle whose first index r0 points to into r2, r3 and r4, its entries into r5, r7 and r6. */
 #define TRIANGLE_SCAN_ENTRIES            \

@@ -93,6 +93,9 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
                                .position = c->plane[1], .vertex_count = (uint32_t)min_i32(c->n, VERTICES), .width = 160 << 8,
                                .height = 120 << 8, .index = index, .end = index + 3 * c->n,
                                .behind = (c->word[LOOK] & 2u) != 0 ? INT32_MIN : 0 };
+#if !SMEAR_HAS_MUL64
+    s.side = scan_side(s.height);
+#endif
 #if FRONT_COVERS
     struct front_cover front = { .low = 0 };
     struct points points;
@@ -100,10 +103,14 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
     s.front = (c->word[LOOK] & 12u) != 0 ? &front : NULL;
     s.rings = (c->word[LOOK] & 48u) != 0 ? &points.rings : NULL;
     s.color = (c->word[LOOK] & 64u) != 0 ? points.color : NULL;
-    s.vertex_color = points.color + 1;
-    s.even = (c->word[LOOK] & 128u) != 0;
     s.first = index;
     s.room = ROOM;
+#if SCAN_MIXES
+    s.vertex_color = points.color + 1;
+    s.even = (c->word[LOOK] & 128u) != 0;
+#else
+    s.rings = s.color != NULL ? s.rings : NULL;
+#endif
 #endif
     for (enum scan_end at = form(&s); at != SCAN_DONE; at = form(&s)) {
         sum = sum * 31u + (uint32_t)at + (uint32_t)(s.index - index) * 8u;
