@@ -214,12 +214,10 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(stru
 #if TINY_COVER_ARMV6M
 SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly knows struct triangle_scan");
 
-/* What does not change: the end into r8, `behind` into r12, `side` into r9 and twice that into lr, from the scan in r0. */
+/* What does not change: the end into r8, `side` into r9 and twice that into lr, from the scan in r0. */
 #define TRIANGLE_SCAN_LOAD  \
     "ldr r1, [r0, #44]\n\t" \
     "mov r8, r1\n\t"        \
-    "ldr r1, [r0, #48]\n\t" \
-    "mov r12, r1\n\t"       \
     "ldr r1, [r0, #92]\n\t" \
     "mov r9, r1\n\t"        \
     "adds r1, r1, r1\n\t"   \
@@ -271,44 +269,40 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly kn
     "muls r2, r3\n\t"       \
     "subs r1, r1, r2\n\t"
 
-/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 12. All low registers are kept. */
+/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 30, as entries for v[0] are found first. All low
+ * registers are kept. */
 #define TRIANGLE_SCAN_FIND                                     \
     "16: push {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"            \
+    "mov r12, r0\n\t"                                          \
     "mov r1, r11\n\t"                                          \
     "ldr r2, [r1, #28]\n\t"                                    \
     "uxth r0, r0\n\t"                                          \
     "cmp r0, r2\n\t"                                           \
     "bhs 26b\n\t"                                              \
-    "movs r4, #0\n\t"                                          \
-    "str r4, [r6]\n\t"                                         \
     "ldr r2, [r1, #24]\n\t"                                    \
     "lsls r3, r0, #1\n\t"                                      \
     "adds r0, r0, r3\n\t"                                      \
     "lsls r0, r0, #1\n\t"                                      \
     "adds r0, r0, r2\n\t"                                      \
-    "ldr r1, [r1, #20]\n\t"                                    \
-    "movs r2, r6\n\t"                                          \
-    "adds r2, #8\n\t"                                          \
-    "movs r3, r6\n\t"                                          \
-    "adds r3, #24\n\t" ARMV6M_VERTEX                           \
-    "4: mov r4, r8\n\t"                                        \
-    "mov r5, r9\n\t"                                           \
-    "mov r7, r12\n\t"                                          \
-    "stm r7!, {r4, r5, r6}\n\t"                                \
-    "movs r2, #0\n\t"                                          \
-    "str r2, [r7]\n\t"                                         \
-    "subs r7, #20\n\t"                                         \
-    "ldr r1, [sp]\n\t"                                         \
-    "stm r7!, {r1, r2}\n\t"                                    \
+    "ldr r1, [r1, #20]\n\t" ARMV6M_VERTEX_ROWS                 \
+    "ldr r3, [sp, #24]\n\t"                                    \
+    "adds r3, #24\n\t" ARMV6M_VERTEX_NOW ARMV6M_VERTEX_FIND    \
+    "ldr r7, [sp, #24]\n\t"                                    \
+    "mov r2, r12\n\t"                                          \
+    "movs r3, #0\n\t"                                          \
+    "stm r7!, {r2, r3, r4, r5, r6}\n\t"                        \
+    "str r3, [r7]\n\t"                                         \
     "mov r0, r11\n\t"                                          \
     "ldr r1, [r0, #32]\n\t"                                    \
     "cmp r4, r1\n\t"                                           \
     "bhi 27f\n\t"                                              \
     "ldr r1, [r0, #36]\n\t"                                    \
     "cmp r5, r1\n\t"                                           \
-    "bhi 27f\n\t" TRIANGLE_SCAN_LOAD                           \
+    "bhi 27f\n\t"                                              \
+    "ldr r1, [r0, #44]\n\t"                                    \
+    "mov r8, r1\n\t"                                           \
     "pop {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"                 \
-    "b 12b\n"
+    "b 30b\n" ARMV6M_VERTEX_LIMIT
 
 /* What becomes of triangles that are not wholly within the frame; 24: those that may be seen. */
 #define TRIANGLE_SCAN_SEEN \
@@ -408,11 +402,14 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly kn
 #define TRIANGLE_SCAN_STOP \
     "26: add sp, #32\n\t" \
     "b 25b\n" TRIANGLE_SCAN_FIND \
-    "1: movs r0, #4\n\t" \
+    "1: ldr r3, [sp, #24]\n\t" \
+    "movs r0, #0\n\t" \
+    "str r0, [r3]\n\t" \
+    "movs r0, #4\n\t" \
     "b 28f\n" \
     "27: movs r0, #3\n" \
     "28: mov r1, r11\n\t" \
-    "ldr r2, [sp]\n\t" \
+    "mov r2, r12\n\t" \
     "ldr r3, [sp, #24]\n\t" \
     "str r2, [r1, #64]\n\t" \
     "str r3, [r1, #52]\n\t" \
@@ -439,7 +436,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly kn
     "movs r6, r5\n\t" \
     "b 16f\n"
 
-/* The next index in r10, the scan in r11, what TRIANGLE_SCAN_LOAD loads in r8, r9 and r12. Two thirds of the instructions that
+/* The next index in r10, the scan in r11, what TRIANGLE_SCAN_LOAD loads in r8, r9 and lr. Two thirds of the instructions that
  * compilers take for a triangle that faces away. */
 static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 {
@@ -449,10 +446,10 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
                      "ldr r0, [r0, #40]\n\t"
                      "b 19f\n"
                      "11: " TRIANGLE_SCAN_ENTRIES
-                     "12: ldr r6, [r4]\n\t"
+                     "ldr r6, [r4]\n\t"
                      "cmp r6, r1\n\t"
-                     "bne 13f\n\t"
-                     "ldr r6, [r7]\n\t"
+                     "bne 13f\n"
+                     "30: ldr r6, [r7]\n\t"
                      "cmp r6, r2\n\t"
                      "bne 14f\n\t"
                      "ldr r6, [r5]\n\t"
@@ -466,7 +463,8 @@ static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
                      "orrs r3, r2\n\t"
                      "bne 17f\n\t" TRIANGLE_SCAN_AREA
                      "bgt 21f\n\t"
-                     "mov r0, r12\n\t"
+                     "mov r0, r11\n\t"
+                     "ldr r0, [r0, #48]\n\t"
                      "tst r0, r1\n\t"
                      "bne 24f\n"
                      "18: mov r0, r10\n\t"

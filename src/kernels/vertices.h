@@ -15,8 +15,9 @@ struct smear_homogeneous {
 
 /* A row of a projection (struct place_setup): its factors are high 2^16 + 4 low. */
 struct vertex_row {
-    int32_t high[3], low[3];
+    int32_t high[3];
     int32_t offset;
+    int32_t low[3];
 };
 
 #if SMEAR_ASM_ARMV7EM
@@ -43,15 +44,25 @@ struct vertex_setup {
     struct vertex_words words;
 #endif
     struct vertex_row row[3];           /* x, y, w; |row| < 2^30 */
-    int32_t near_distance, far_distance;
-    int32_t zeros, top;                 /* leading zeros of w; 31 - zeros, or 31: no w yet */
+#if SMEAR_ASM_ARMV6M
+    int32_t w_least;                    /* for assembly: ready for this w and w_span more */
+    uint32_t w_span;
+#endif
+    int32_t zeros;                      /* leading zeros of w */
     const uint16_t *seed;               /* smear_recip_seed */
     int32_t half, down;                 /* from a high product to q8 px: 1 to 20 bits down, rounded */
     int32_t x, y;                       /* the frame's centre, q8 px */
     int32_t depth_low, depth_high;      /* halves of the mantissa, which is in [2^29, 2^30] */
-    int32_t depth_limit, depth_half, depth_down, depth_up;      /* from a high product to q11: at most the limit, rounded */
+    int32_t depth_half, depth_down;     /* from a high product, at most the limit, to q11, rounded */
+#if SMEAR_ASM_ARMV6M
+    int32_t plain_least;                /* for assembly: depths that need no limit, after their shift down */
+    uint32_t plain_span;
+#endif
+    int32_t depth_limit, depth_up;
     int32_t depth_least, depth_most;
     int32_t depth_shift;
+    int32_t near_distance, far_distance;
+    int32_t top;                        /* 31 - zeros, or 31: no w yet */
 };
 
 #if SMEAR_ASM_ARMV7EM
@@ -95,6 +106,25 @@ static inline void vertex_words_for(struct vertex_setup *v)
 }
 #endif
 
+#if SMEAR_ASM_ARMV6M
+/* The setup is ready for no w. */
+static inline void vertex_spans_make(struct vertex_setup *v)
+{
+    v->w_least = INT32_MIN;
+    v->w_span = 0;
+}
+
+static inline void vertex_spans_for(struct vertex_setup *v)
+{
+    const int32_t first = max_i32(v->near_distance, 1 << v->top), last = min_i32(v->far_distance, INT32_MAX >> (30 - v->top));
+    const bool plain = v->depth_up == 0;
+    v->w_least = first <= last ? first : INT32_MIN;
+    v->w_span = first <= last ? (uint32_t)(last - first) : 0u;
+    v->plain_least = plain ? v->depth_least : INT32_MIN;
+    v->plain_span = plain ? (uint32_t)(v->depth_most - v->depth_least) : 0u;
+}
+#endif
+
 static inline void vertex_setup_make(struct vertex_setup *v, const struct place_setup *s)
 {
     for (int r = 0; r < 3; r++) {
@@ -116,6 +146,9 @@ static inline void vertex_setup_make(struct vertex_setup *v, const struct place_
     v->depth_least = s->depth_least;
     v->depth_most = s->depth_most;
     v->depth_shift = s->depth_shift;
+#if SMEAR_ASM_ARMV6M
+    vertex_spans_make(v);
+#endif
 #if SMEAR_ASM_ARMV7EM
     vertex_words_make(v);
 #endif
@@ -127,6 +160,9 @@ static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
 {
     const int zeros = count_leading_zeros((uint32_t)w), up = v->depth_shift + zeros;
     v->top = 31;
+#if SMEAR_ASM_ARMV6M
+    vertex_spans_make(v);
+#endif
 #if SMEAR_ASM_ARMV7EM
     v->words.w_least = INT32_MIN;
     v->words.w_span = 0;
@@ -141,6 +177,9 @@ static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
     v->depth_limit = INT32_MAX >> v->depth_up;
     v->depth_down = min_i32(max_i32(-up, 0), 31);
     v->depth_half = v->depth_down == 0 ? 0 : 1 << (v->depth_down - 1);
+#if SMEAR_ASM_ARMV6M
+    vertex_spans_for(v);
+#endif
 #if SMEAR_ASM_ARMV7EM
     vertex_words_for(v);
 #endif
@@ -174,30 +213,29 @@ static inline bool vertex_find_reference(struct smear_screen *screen, struct sme
 }
 
 #if SMEAR_ASM_ARMV6M
-SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offsetof(struct vertex_setup, zeros) == 92
-                        && offsetof(struct vertex_setup, half) == 104 && offsetof(struct vertex_setup, x) == 112
-                        && offsetof(struct vertex_setup, depth_low) == 120
-                        && offsetof(struct vertex_setup, depth_limit) == 128
-                        && offsetof(struct vertex_setup, depth_least) == 144,
+SMEAR_STATIC_ASSERT(sizeof(struct vertex_row) == 28 && offsetof(struct vertex_setup, w_least) == 84
+                        && offsetof(struct vertex_setup, zeros) == 92 && offsetof(struct vertex_setup, half) == 100
+                        && offsetof(struct vertex_setup, x) == 108 && offsetof(struct vertex_setup, depth_low) == 116
+                        && offsetof(struct vertex_setup, depth_half) == 124 && offsetof(struct vertex_setup, plain_least) == 132
+                        && offsetof(struct vertex_setup, depth_limit) == 140 && offsetof(struct vertex_setup, depth_least) == 148,
                     "the assembly takes struct vertex_setup word by word");
 
 /* A row at r1 times the vertex in r2, r3, r4: into r0. */
 #define ARMV6M_VERTEX_ROW \
+        "ldm r1!, {r0, r5, r6, r7}\n\t" \
+        "muls r0, r2\n\t" \
+        "muls r5, r3\n\t" \
+        "muls r6, r4\n\t" \
+        "adds r0, r7\n\t" \
+        "adds r5, r6\n\t" \
+        "adds r0, r5\n\t" \
         "ldm r1!, {r5, r6, r7}\n\t" \
         "muls r5, r2\n\t" \
         "muls r6, r3\n\t" \
         "muls r7, r4\n\t" \
         "adds r5, r6\n\t" \
         "adds r5, r7\n\t" \
-        "ldm r1!, {r0, r6, r7}\n\t" \
-        "muls r0, r2\n\t" \
-        "muls r6, r3\n\t" \
-        "muls r7, r4\n\t" \
-        "adds r0, r6\n\t" \
-        "adds r0, r7\n\t" \
-        "asrs r0, #14\n\t" \
-        "adds r0, r5\n\t" \
-        "ldm r1!, {r5}\n\t" \
+        "asrs r5, #14\n\t" \
         "adds r0, r5\n\t"
 
 /* The high product of r6 2^16 + r5 and r4 2^16 + r3, which are below 2^30: products that cross have a sum of 32 bits.
@@ -215,10 +253,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offset
         "asrs r7, #16\n\t" \
         "adds r6, r7\n\t"
 
-/* All rows: x into r8, y into r9, w into r0; r12 and lr point to what is found, of which the rows are stored. */
+/* All rows of the vertex that r0 points to: x onto the stack at sp, y into r8, w into r0. */
 #define ARMV6M_VERTEX_ROWS \
-        "mov r12, r2\n\t" \
-        "mov lr, r3\n\t" \
         "movs r2, #0\n\t" \
         "ldrsh r2, [r0, r2]\n\t" \
         "movs r3, #2\n\t" \
@@ -226,35 +262,30 @@ SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offset
         "movs r4, #4\n\t" \
         "ldrsh r4, [r0, r4]\n\t" \
         ARMV6M_VERTEX_ROW \
+        "str r0, [sp]\n\t" \
+        ARMV6M_VERTEX_ROW \
         "mov r8, r0\n\t" \
-        ARMV6M_VERTEX_ROW \
-        "mov r9, r0\n\t" \
-        ARMV6M_VERTEX_ROW \
-        "mov r3, lr\n\t" \
-        "mov r4, r8\n\t" \
-        "mov r5, r9\n\t" \
+        ARMV6M_VERTEX_ROW
+
+/* Stores them at r3. */
+#define ARMV6M_VERTEX_NOW \
+        "ldr r4, [sp]\n\t" \
+        "mov r5, r8\n\t" \
         "movs r6, r0\n\t" \
         "movs r7, r0\n\t" \
         "stm r3!, {r4, r5, r6, r7}\n\t"
 
-/* Goes to 1 where w in r0 is before the near or behind the far plane, or has another number of bits. Else recip_norm of it:
- * the halves into r4 and r3. */
+/* Goes to 1 where the setup is not ready for w in r0. Else recip_norm of it: the halves into r4 and r3. */
 #define ARMV6M_VERTEX_RECIP \
-        "ldm r1!, {r2, r3}\n\t" \
-        "cmp r0, r2\n\t" \
-        "blt 1f\n\t" \
-        "cmp r0, r3\n\t" \
-        "bgt 1f\n\t" \
-        "ldm r1!, {r2, r3, r4}\n\t" \
-        "movs r7, r0\n\t" \
-        "asrs r7, r3\n\t" \
-        "cmp r7, #1\n\t" \
-        "bne 1f\n\t" \
-        "lsls r0, r2\n\t" \
+        "ldm r1!, {r2, r3, r4, r5}\n\t" \
+        "subs r2, r0, r2\n\t" \
+        "cmp r2, r3\n\t" \
+        "bhi 1f\n\t" \
+        "lsls r0, r4\n\t" \
         "lsls r3, r0, #1\n\t" \
         "lsrs r3, #23\n\t" \
         "lsls r3, #1\n\t" \
-        "ldrh r3, [r4, r3]\n\t" \
+        "ldrh r3, [r5, r3]\n\t" \
         "lsrs r0, #11\n\t" \
         "muls r0, r3\n\t" \
         "movs r4, #1\n\t" \
@@ -268,10 +299,10 @@ SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offset
         "asrs r4, r3, #16\n\t" \
         "uxth r3, r3\n\t"
 
-/* Divides x and y, in r8 and r9, into places there. */
+/* Divides x and y into places there. */
 #define ARMV6M_VERTEX_PLACE \
         "ldm r1!, {r0, r2}\n\t" \
-        "mov r5, r8\n\t" \
+        "ldr r5, [sp]\n\t" \
         "asrs r6, r5, #16\n\t" \
         "uxth r5, r5\n\t" \
         ARMV6M_VERTEX_MULH \
@@ -279,8 +310,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offset
         "asrs r6, r2\n\t" \
         "ldm r1!, {r7}\n\t" \
         "adds r6, r7\n\t" \
-        "mov r8, r6\n\t" \
-        "mov r5, r9\n\t" \
+        "str r6, [sp]\n\t" \
+        "mov r5, r8\n\t" \
         "asrs r6, r5, #16\n\t" \
         "uxth r5, r5\n\t" \
         ARMV6M_VERTEX_MULH \
@@ -288,30 +319,42 @@ SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, near_distance) == 84 && offset
         "asrs r6, r2\n\t" \
         "ldm r1!, {r7}\n\t" \
         "adds r7, r6\n\t" \
-        "mov r9, r7\n\t"
+        "mov r8, r7\n\t"
 
-/* The depth from its mantissa, whose lower half comes first, into r6; on to 4. */
+/* The depth from its mantissa, whose lower half comes first, into r6; those that need a limit at 2. */
 #define ARMV6M_VERTEX_DEPTH \
         "ldm r1!, {r5, r6}\n\t" \
         ARMV6M_VERTEX_MULH \
         "ldm r1!, {r0, r2, r3, r4}\n\t" \
+        "adds r6, r0\n\t" \
+        "asrs r6, r2\n\t" \
+        "subs r3, r6, r3\n\t" \
+        "cmp r3, r4\n\t" \
+        "bhi 2f\n" \
+        "3: "
+
+/* Stands beside the way of ARMV6M_VERTEX_DEPTH. */
+#define ARMV6M_VERTEX_LIMIT \
+        "2: ldm r1!, {r0, r2, r3, r4}\n\t" \
         "cmp r6, r0\n\t" \
-        "ble 2f\n\t" \
-        "movs r6, r0\n" \
-        "2: adds r6, r2\n\t" \
-        "asrs r6, r3\n\t" \
-        "lsls r6, r4\n\t" \
-        "ldm r1!, {r2, r3}\n\t" \
-        "cmp r6, r2\n\t" \
-        "bge 3f\n\t" \
-        "movs r6, r2\n" \
-        "3: cmp r6, r3\n\t" \
         "ble 4f\n\t" \
-        "movs r6, r3\n"
+        "movs r6, r0\n" \
+        "4: lsls r6, r2\n\t" \
+        "cmp r6, r3\n\t" \
+        "bge 4f\n\t" \
+        "movs r6, r3\n" \
+        "4: cmp r6, r4\n\t" \
+        "ble 3b\n\t" \
+        "movs r6, r4\n\t" \
+        "b 3b\n"
 
-#define ARMV6M_VERTEX ARMV6M_VERTEX_ROWS ARMV6M_VERTEX_RECIP ARMV6M_VERTEX_PLACE ARMV6M_VERTEX_DEPTH
+/* The place and the depth into r4 to r6. */
+#define ARMV6M_VERTEX_FIND \
+        ARMV6M_VERTEX_RECIP ARMV6M_VERTEX_PLACE ARMV6M_VERTEX_DEPTH \
+        "ldr r4, [sp]\n\t" \
+        "mov r5, r8\n\t"
 
-/* 155 instructions, where compilers take 400. */
+/* 145 instructions, where compilers take 400. */
 SMEAR_INLINE bool vertex_find_armv6m(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
                                      const struct vertex_setup *s)
 {
@@ -321,18 +364,23 @@ SMEAR_INLINE bool vertex_find_armv6m(struct smear_screen *screen, struct smear_h
     register struct smear_homogeneous *r3 __asm__("r3") = now;
     __asm__ volatile(
         ".syntax unified\n\t"
-        ARMV6M_VERTEX
-        "4: mov r4, r8\n\t"
-        "mov r5, r9\n\t"
+        "push {r2, r3}\n\t"
+        "mov r12, r2\n\t"
+        "mov lr, r3\n\t"
+        ARMV6M_VERTEX_ROWS
+        "mov r3, lr\n\t"
+        ARMV6M_VERTEX_NOW
+        ARMV6M_VERTEX_FIND
         "mov r7, r12\n\t"
         "stm r7!, {r4, r5, r6}\n\t"
         "movs r0, #1\n\t"
         "b 5f\n"
+        ARMV6M_VERTEX_LIMIT
         "1: movs r0, #0\n"
-        "5:"
+        "5: add sp, #8"
         : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
         :
-        : "r4", "r5", "r6", "r7", "r8", "r9", "r12", "lr", "cc", "memory");
+        : "r4", "r5", "r6", "r7", "r8", "r12", "lr", "cc", "memory");
     return r0 != NULL;
 }
 #endif
