@@ -8,7 +8,7 @@
 
 #include "geometry/assemble_avx2.h"
 #include "geometry/batch_cover.h"
-#include "geometry/batch_find.h"
+#include "geometry/batch_scan.h"
 #include "geometry/batch_store.h"
 
 static void forget_all(struct smear_assembler *a)
@@ -290,36 +290,7 @@ SMEAR_INLINE bool add_front(struct batch *b, const struct triangle_scan *s, uint
 }
 
 SMEAR_STATIC_ASSERT((int)SCAN_POINTS == (int)POINTS_MAX, "scans know what becomes points");
-
-/* Where all of the frame is filled, scans find out what triangles cover, and make points of them if their colours are known. */
-static void scan_fronts(struct triangle_scan *s, const struct batch *b, struct front_cover *front)
-{
-    s->front = b->partial ? NULL : front;
-    s->color = !b->points_even && !segment_colored(b->segment) ? b->face_color : NULL;
-    bool colored = s->color != NULL;
-#if SCAN_MIXES
-    s->vertex_color = b->vertex_color;
-    s->even = b->points_even;
-    colored = colored || s->vertex_color != NULL;
 #endif
-    s->rings = b->points && colored ? &b->rings : NULL;
-    s->first = b->d->mesh->index;
-}
-#endif
-
-static inline enum scan_end scan_on(struct triangle_scan *s, struct batch *b)
-{
-#if FRONT_COVERS
-    s->room = b->room;
-    const enum scan_end at = triangle_scan(s);
-    b->a->triangles_drawn += (uint32_t)(b->room - s->room);
-    b->room = (uint16_t)s->room;
-    return at;
-#else
-    (void)b;
-    return triangle_scan(s);
-#endif
-}
 
 /* Adds triangles [first, end), of which it looks only at those that may be seen. Returns false where there is no room. */
 static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
@@ -339,8 +310,15 @@ static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
     struct front_cover front;
     scan_fronts(&s, b, &front);
 #endif
+#if SCAN_STORES
+    struct scan_records records;
+    scan_stores(&s, b, &records);
+#endif
     for (;;) {
         bool added = true;
+#if SCAN_STORES
+        scan_segment(&records, b);
+#endif
         const enum scan_end at = scan_on(&s, b);
         if (at == SCAN_DONE)
             return true;

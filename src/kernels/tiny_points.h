@@ -21,6 +21,21 @@ static inline struct point_entry *points_entry(const struct points_rings *r, uin
     return (struct point_entry *)r->top - i;
 }
 
+/* Takes the next entry for a triangle or a point whose first pixel is in row y; `next` becomes known. */
+static inline void points_link(const struct points_rings *r, int32_t y, struct point_entry entry)
+{
+    const uint32_t i = (*r->count)++;
+    uint32_t *const ring = &r->last[(uint32_t)y * r->row_recip >> 22];
+    entry.next = i;
+    if (*ring != UINT32_MAX) {
+        struct point_entry *const before = points_entry(r, *ring);
+        entry.next = before->next;
+        before->next = i;
+    }
+    *points_entry(r, i) = entry;
+    *ring = i;
+}
+
 /* Adds the pixels that `t` kept, of which there is one at least, as points of one colour. Depths of its corners are units of at most
  * 2^27. Edge functions become weights of corners 1 and 2, as tiny_weight has them. */
 static inline void tiny_points_reference(const struct points_rings *r, struct tiny_cover *t, const int32_t *depth0,
@@ -29,17 +44,9 @@ static inline void tiny_points_reference(const struct points_rings *r, struct ti
     const struct tiny_scale scale = tiny_scale_make(t->area);
     for (int32_t k = 0; k < t->count; k++) {
         struct covered *const c = &t->covered[k];
-        const uint32_t i = (*r->count)++, w1 = tiny_weight(scale, c->e1), w2 = tiny_weight(scale, c->e2);
-        uint32_t *const ring = &r->last[(uint32_t)c->y * r->row_recip >> 22];
-        struct point_entry *const e = points_entry(r, i);
-        *e = (struct point_entry){ (uint16_t)c->x, (uint16_t)c->y, (uint16_t)tiny_depth(*depth0, *depth1, *depth2, w1, w2),
-                                   POINT_ENTRY, i, color };
-        if (*ring != UINT32_MAX) {
-            struct point_entry *const before = points_entry(r, *ring);
-            e->next = before->next;
-            before->next = i;
-        }
-        *ring = i;
+        const uint32_t w1 = tiny_weight(scale, c->e1), w2 = tiny_weight(scale, c->e2);
+        points_link(r, c->y, (struct point_entry){ (uint16_t)c->x, (uint16_t)c->y,
+                                                   (uint16_t)tiny_depth(*depth0, *depth1, *depth2, w1, w2), POINT_ENTRY, 0, color });
         c->e1 = (int32_t)w1;
         c->e2 = (int32_t)w2;
     }
@@ -138,9 +145,8 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
     "subs r4, #8\n\t" \
     "stm r4!, {r5, r6}\n\t"
 
-/* Links its entry. */
+/* Links an entry of the words r0, r5 and r9 into the ring in r12, of the rings in r8; r1, r2, r3, r6 and r7 are lost. */
 #define TINY_POINTS_LINK \
-    "push {r2, r3}\n\t" \
     "mov r1, r8\n\t" \
     "ldm r1, {r1, r2, r3, r6}\n\t" \
     "ldr r7, [r6]\n\t" \
@@ -159,8 +165,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
     "4: lsls r7, r7, #4\n\t" \
     "subs r1, r1, r7\n\t" \
     "mov r7, r9\n\t" \
-    "stm r1!, {r0, r5, r6, r7}\n\t" \
-    "pop {r2, r3}\n\t"
+    "stm r1!, {r0, r5, r6, r7}\n\t"
 
 /* Far depths, and what makes codes of near ones: with what rounds those, and bit 31, of which the shift makes the kind. */
 #define TINY_POINTS_FAR \
@@ -178,7 +183,9 @@ SMEAR_STATIC_ASSERT(offsetof(struct points_rings, last) == 4 && offsetof(struct 
 /* The rings in r0, pixels in r1, depth units in r2, r3 and r4, the colour in r5. Then the rings in r8, the colour in r9, depth units of
  * corner 0 in r10, the end of pixels in r11; r2 and r3 scale weights, r4 is the next pixel, how the others' depth differs lies on the
  * stack. Less than half of the instructions that compilers take. */
-#define TINY_POINTS_ARMV6M(KEEP) TINY_POINTS_START TINY_POINTS_PIXEL(KEEP) TINY_POINTS_LINK \
+#define TINY_POINTS_ARMV6M(KEEP) TINY_POINTS_START TINY_POINTS_PIXEL(KEEP) \
+    "push {r2, r3}\n\t" TINY_POINTS_LINK \
+    "pop {r2, r3}\n\t" \
     "cmp r4, r11\n\t" \
     "bne 1b\n\t" \
     "add sp, #16\n\t" \

@@ -3,10 +3,8 @@
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_H
 
-#include "kernels/front_cover_armv6m.h"
 #include "kernels/tiny_corners.h"
-#include "kernels/tiny_points.h"
-#include "kernels/vertices.h"
+#include "kernels/triangle_scan_armv6m.h"
 
 /* Scans mix the colours of points, too, where triangles have none. */
 #define SCAN_MIXES TINY_COVER_ARMV7EM
@@ -32,6 +30,20 @@ enum scan_end {
     SCAN_UNREADY,           /* before a triangle: the setup is not ready for v[0], whose tag is `missing` */
     SCAN_SLOW               /* before a triangle whose vertices have one place in the cache, or an index too many */
 };
+
+/* Triangles that do not become points are stored by the scan, with their vertices, where it pays. */
+#define SCAN_STORES TINY_COVER_ARMV6M
+
+#if SCAN_STORES
+/* Where they go: a vertex has three words, and two of colour if there are `colors`. */
+struct scan_records {
+    const struct points_rings *rings;
+    uint32_t *pool, *words;         /* of vertices; how many words of it are in use */
+    uint32_t first;                 /* vertices whose `stored` is less are new */
+    uint32_t segment;               /* in the upper half */
+    const uint8_t *colors;          /* red, green, blue and alpha of each vertex; or null */
+};
+#endif
 
 struct triangle_scan {
     int32_t second, third;          /* bytes from a triangle's first index to those that follow it clockwise */
@@ -59,6 +71,10 @@ struct triangle_scan {
 #endif
 #if !SMEAR_HAS_MUL64
     uint32_t side;                  /* a power of two: where x differs by less, areas have 32 bits (scan_side) */
+#endif
+#if SCAN_STORES
+    const struct scan_records *records;
+    int32_t least;                  /* triangles that cover so many pixels are stored while there is room */
 #endif
 };
 
@@ -113,6 +129,13 @@ static inline void scan_mix_reference(const struct triangle_scan *s, uint32_t fi
 #endif
 
 #if FRONT_COVERS
+/* The colour of a triangle that faces the viewer, if there are colours. */
+static inline uint32_t scan_color(const struct triangle_scan *s)
+{
+    const uint8_t *const c = s->color + (s->index - s->first) / 3 * 4;
+    return pixel_make(c[3], c[0], c[1], c[2]);
+}
+
 /* Takes a triangle that covers so many pixels. Returns whether it became points. */
 static inline bool scan_points(struct triangle_scan *s, int32_t covered)
 {
@@ -126,11 +149,7 @@ static inline bool scan_points(struct triangle_scan *s, int32_t covered)
         return false;
     }
     s->room--;
-    uint32_t color = 0;
-    if (s->color != NULL) {
-        const uint8_t *const c = s->color + (s->index - s->first) / 3 * 4;
-        color = pixel_make(c[3], c[0], c[1], c[2]);
-    }
+    const uint32_t color = s->color != NULL ? scan_color(s) : 0;
 #if SCAN_MIXES
     const uint32_t first = *s->rings->count;
 #endif
@@ -141,6 +160,48 @@ static inline bool scan_points(struct triangle_scan *s, int32_t covered)
 #endif
     return true;
 }
+
+#if SCAN_STORES
+/* Returns where in the segment a vertex lies, which it stores if it is new. */
+static inline uint32_t scan_stored(const struct scan_records *r, struct scan_vertex *v)
+{
+    if (v->stored < r->first) {
+        uint32_t *record = r->pool + *r->words;
+        v->stored = *r->words + 1;
+        *record++ = (uint32_t)v->screen.x;
+        *record++ = (uint32_t)v->screen.y;
+        *record++ = (uint32_t)v->screen.depth;
+        if (r->colors != NULL) {
+            const uint8_t *const c = r->colors + 4 * (v->tag & 0xffffu);
+            *record++ = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
+            *record++ = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
+        }
+        *r->words = (uint32_t)(record - r->pool);
+    }
+    return v->stored - r->first;
+}
+
+/* Takes a triangle that covers so many pixels. Returns whether it was stored, in the ring of its first row. */
+static inline bool scan_store(struct triangle_scan *s, int32_t covered)
+{
+    const struct scan_records *const r = s->records;
+    if (covered < s->least || s->room == 0)
+        return false;
+    s->room--;
+    const uint32_t v0 = scan_stored(r, s->v[0]), v1 = scan_stored(r, s->v[2]), v2 = scan_stored(r, s->v[1]) | r->segment;
+    const uint32_t color = s->color != NULL ? scan_color(s) : 0xffffffffu;
+    points_link(r->rings, (int32_t)(s->front->low >> 16),
+                (struct point_entry){ (uint16_t)v0, (uint16_t)v1, (uint16_t)v2, (uint16_t)(v2 >> 16), 0, color });
+    return true;
+}
+#else
+static inline bool scan_store(const struct triangle_scan *s, int32_t covered)
+{
+    (void)s;
+    (void)covered;
+    return false;
+}
+#endif
 #endif
 
 /* Takes one triangle, with vertices that are there. SCAN_DONE: it is not seen. */
@@ -162,7 +223,7 @@ static inline enum scan_end scan_one(struct triangle_scan *s)
 #if FRONT_COVERS
     if (area > 0 && s->front != NULL) {
         const int32_t covered = front_cover_reference(s->front, &v0->screen.x, &v1->screen.x, &v2->screen.x);
-        return covered == 0 || scan_points(s, covered) ? SCAN_DONE : SCAN_FRONT;
+        return covered == 0 || scan_points(s, covered) || scan_store(s, covered) ? SCAN_DONE : SCAN_FRONT;
     }
 #endif
     return area > 0 ? SCAN_FRONT : (area & s->behind) != 0 ? SCAN_ANY : SCAN_DONE;
@@ -212,269 +273,16 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(stru
 #endif
 
 #if TINY_COVER_ARMV6M
-SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92, "the assembly knows struct triangle_scan");
-
-/* What does not change: the end into r8, `side` into r9 and twice that into lr, from the scan in r0. */
-#define TRIANGLE_SCAN_LOAD  \
-    "ldr r1, [r0, #44]\n\t" \
-    "mov r8, r1\n\t"        \
-    "ldr r1, [r0, #92]\n\t" \
-    "mov r9, r1\n\t"        \
-    "adds r1, r1, r1\n\t"   \
-    "mov lr, r1\n\t"
-
-/* Tags of the triangle whose first index r0 points to into r1, r2 and r3, its entries into r4, r7 and r5. */
-#define TRIANGLE_SCAN_ENTRIES \
-    "ldrh r1, [r0]\n\t"       \
-    "mov r7, r11\n\t"         \
-    "ldm r7!, {r3, r4}\n\t"   \
-    "ldrh r2, [r0, r3]\n\t"   \
-    "ldrh r3, [r0, r4]\n\t"   \
-    "ldm r7!, {r4, r5, r6}\n\t" \
-    "orrs r1, r4\n\t"         \
-    "orrs r2, r4\n\t"         \
-    "orrs r3, r4\n\t"         \
-    "movs r0, #40\n\t"        \
-    "movs r4, r1\n\t"         \
-    "ands r4, r5\n\t"         \
-    "muls r4, r0\n\t"         \
-    "adds r4, r4, r6\n\t"     \
-    "movs r7, r2\n\t"         \
-    "ands r7, r5\n\t"         \
-    "muls r7, r0\n\t"         \
-    "adds r7, r7, r6\n\t"     \
-    "ands r5, r3\n\t"         \
-    "muls r5, r0\n\t"         \
-    "adds r5, r5, r6\n\t"
-
-/* Twice the area of a triangle within the frame into r1; on to 24 where it needs more than 32 bits. */
-#define TRIANGLE_SCAN_AREA  \
-    "ldr r0, [r4, #8]\n\t"  \
-    "ldr r1, [r7, #8]\n\t"  \
-    "ldr r2, [r5, #8]\n\t"  \
-    "subs r1, r1, r0\n\t"   \
-    "subs r2, r2, r0\n\t"   \
-    "mov r3, r9\n\t"        \
-    "adds r0, r1, r3\n\t"   \
-    "adds r3, r3, r2\n\t"   \
-    "orrs r0, r3\n\t"       \
-    "cmp r0, lr\n\t"        \
-    "bhs 24f\n\t"           \
-    "ldr r0, [r4, #12]\n\t" \
-    "ldr r3, [r7, #12]\n\t" \
-    "ldr r6, [r5, #12]\n\t" \
-    "subs r3, r3, r0\n\t"   \
-    "subs r6, r6, r0\n\t"   \
-    "muls r1, r6\n\t"       \
-    "muls r2, r3\n\t"       \
-    "subs r1, r1, r2\n\t"
-
-/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 30, as entries for v[0] are found first. All low
- * registers are kept. */
-#define TRIANGLE_SCAN_FIND                                     \
-    "16: push {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"            \
-    "mov r12, r0\n\t"                                          \
-    "mov r1, r11\n\t"                                          \
-    "ldr r2, [r1, #28]\n\t"                                    \
-    "uxth r0, r0\n\t"                                          \
-    "cmp r0, r2\n\t"                                           \
-    "bhs 26b\n\t"                                              \
-    "ldr r2, [r1, #24]\n\t"                                    \
-    "lsls r3, r0, #1\n\t"                                      \
-    "adds r0, r0, r3\n\t"                                      \
-    "lsls r0, r0, #1\n\t"                                      \
-    "adds r0, r0, r2\n\t"                                      \
-    "ldr r1, [r1, #20]\n\t" ARMV6M_VERTEX_ROWS                 \
-    "ldr r3, [sp, #24]\n\t"                                    \
-    "adds r3, #24\n\t" ARMV6M_VERTEX_NOW ARMV6M_VERTEX_FIND    \
-    "ldr r7, [sp, #24]\n\t"                                    \
-    "mov r2, r12\n\t"                                          \
-    "movs r3, #0\n\t"                                          \
-    "stm r7!, {r2, r3, r4, r5, r6}\n\t"                        \
-    "str r3, [r7]\n\t"                                         \
-    "mov r0, r11\n\t"                                          \
-    "ldr r1, [r0, #32]\n\t"                                    \
-    "cmp r4, r1\n\t"                                           \
-    "bhi 27f\n\t"                                              \
-    "ldr r1, [r0, #36]\n\t"                                    \
-    "cmp r5, r1\n\t"                                           \
-    "bhi 27f\n\t"                                              \
-    "ldr r1, [r0, #44]\n\t"                                    \
-    "mov r8, r1\n\t"                                           \
-    "pop {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"                 \
-    "b 30b\n" ARMV6M_VERTEX_LIMIT
-
-/* What becomes of triangles that are not wholly within the frame; 24: those that may be seen. */
-#define TRIANGLE_SCAN_SEEN \
-    "17: ands r0, r1\n\t" \
-    "ands r0, r2\n\t" \
-    "movs r1, #63\n\t" \
-    "tst r0, r1\n\t" \
-    "bne 18b\n" \
-    "24: movs r0, #2\n\t" \
-    "mov r1, r11\n\t" \
-    "adds r1, #52\n\t" \
-    "stm r1!, {r4, r5, r7}\n" \
-    "22: mov r1, r10\n\t" \
-    "adds r1, #6\n\t" \
-    "mov r10, r1\n\t" \
-    "b 29f\n" \
-    "25: movs r0, #5\n\t" \
-    "b 29f\n"
-
-/* What becomes of those that face the viewer, of the area in r1. */
-#define TRIANGLE_SCAN_FRONT                                            \
-    "20: movs r0, #1\n\t"                                              \
-    "b 22b\n"                                                          \
-    "35: b 31f\n"                                                      \
-    "36: movs r6, #5\n\t"                                              \
-    "b 32f\n"                                                          \
-    "21: mov r0, r11\n\t"                                              \
-    "adds r0, #52\n\t"                                                 \
-    "stm r0!, {r4, r5, r7}\n\t"                                        \
-    "ldr r6, [r0, #4]\n\t"                                             \
-    "cmp r6, #0\n\t"                                                   \
-    "beq 20b\n\t"                                                      \
-    "str r1, [r6]\n\t"                                                 \
-    "mov lr, r6\n\t"                                                   \
-    "mov r8, r1\n\t" ARMV6M_FRONT_BOX("35b", "36b") ARMV6M_FRONT_EDGES \
-    ARMV6M_FRONT_BIASES ARMV6M_FRONT_START ARMV6M_FRONT_PIXELS          \
-    "bne 34f\n\t"                                                      \
-    "add sp, #16\n\t"                                                  \
-    "b 31f\n"                                                          \
-    "34: str r6, [r0, #4]\n\t"                                         \
-    "cmp r6, #2\n\t"                                                   \
-    "bls 37f\n"                                                        \
-    "33: pop {r0, r1, r2, r3}\n"                                       \
-    "32: " ARMV6M_FRONT_KEEP                                            \
-    "mov r1, r11\n\t"                                                  \
-    "str r6, [r1, #72]\n\t"                                            \
-    "b 20b\n"
-
-/* Its pixels become points, by the rings while there is room. A triangle's colour lies two thirds as far from the first as its indices
- * do. Then it goes on from 31. */
-#define TRIANGLE_SCAN_POINTS         \
-    "37: mov r2, r11\n\t"               \
-    "ldr r1, [r2, #76]\n\t"         \
-    "cmp r1, #0\n\t"                \
-    "beq 33b\n\t"                   \
-    "ldr r4, [r2, #88]\n\t"         \
-    "subs r4, #1\n\t"               \
-    "bmi 33b\n\t"                   \
-    "str r4, [r2, #88]\n\t"         \
-    "add sp, #16\n\t"               \
-    "mov r3, r10\n\t"               \
-    "push {r2, r3}\n\t"             \
-    "ldr r4, [r2, #84]\n\t"         \
-    "subs r3, r3, r4\n\t"           \
-    "ldr r4, 9f\n\t"                \
-    "muls r3, r4\n\t"               \
-    "lsls r3, r3, #1\n\t"           \
-    "ldr r4, [r2, #80]\n\t"         \
-    "adds r4, r4, r3\n\t"           \
-    "ldrb r5, [r4, #3]\n\t"         \
-    "lsls r5, r5, #8\n\t"           \
-    "ldrb r3, [r4]\n\t"             \
-    "orrs r5, r3\n\t"               \
-    "lsls r5, r5, #8\n\t"           \
-    "ldrb r3, [r4, #1]\n\t"         \
-    "orrs r5, r3\n\t"               \
-    "lsls r5, r5, #8\n\t"           \
-    "ldrb r3, [r4, #2]\n\t"         \
-    "orrs r5, r3\n\t"               \
-    "adds r2, #52\n\t"              \
-    "ldm r2, {r2, r4, r6}\n\t"      \
-    "ldr r2, [r2, #16]\n\t"         \
-    "ldr r3, [r6, #16]\n\t"         \
-    "ldr r4, [r4, #16]\n\t"         \
-    "movs r6, r0\n\t"               \
-    "movs r0, r1\n\t"               \
-    "movs r1, r6\n\t" TINY_POINTS_ARMV6M("") \
-    "pop {r0, r2}\n\t"              \
-    "mov r11, r0\n\t"               \
-    "mov r10, r2\n"                 \
-    "31: mov r0, r11\n\t" TRIANGLE_SCAN_LOAD \
-    "b 18b\n\t"                     \
-    ".balign 4\n"                   \
-    "9: .word 0xaaaaaaab\n"
-
-/* Other reasons to stop. From 29 on it ends. */
-#define TRIANGLE_SCAN_STOP \
-    "26: add sp, #32\n\t" \
-    "b 25b\n" TRIANGLE_SCAN_FIND \
-    "1: ldr r3, [sp, #24]\n\t" \
-    "movs r0, #0\n\t" \
-    "str r0, [r3]\n\t" \
-    "movs r0, #4\n\t" \
-    "b 28f\n" \
-    "27: movs r0, #3\n" \
-    "28: mov r1, r11\n\t" \
-    "mov r2, r12\n\t" \
-    "ldr r3, [sp, #24]\n\t" \
-    "str r2, [r1, #64]\n\t" \
-    "str r3, [r1, #52]\n\t" \
-    "add sp, #32\n" \
-    "29: mov r1, r11\n\t" \
-    "mov r2, r10\n\t" \
-    "str r2, [r1, #40]"
-
-/* Tells which vertex is missing, unless its entry is in use. */
-#define TRIANGLE_SCAN_MISSING \
-    "13: movs r0, r1\n\t" \
-    "movs r6, r4\n\t" \
-    "b 16f\n" \
-    "14: cmp r7, r4\n\t" \
-    "beq 25f\n\t" \
-    "movs r0, r2\n\t" \
-    "movs r6, r7\n\t" \
-    "b 16f\n" \
-    "15: cmp r5, r4\n\t" \
-    "beq 25f\n\t" \
-    "cmp r5, r7\n\t" \
-    "beq 25f\n\t" \
-    "movs r0, r3\n\t" \
-    "movs r6, r5\n\t" \
-    "b 16f\n"
+SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92 && offsetof(struct triangle_scan, records) == 96
+                        && offsetof(struct triangle_scan, least) == 100 && offsetof(struct scan_records, colors) == 20,
+                    "the assembly knows struct triangle_scan");
 
 /* The next index in r10, the scan in r11, what TRIANGLE_SCAN_LOAD loads in r8, r9 and lr. Two thirds of the instructions that
  * compilers take for a triangle that faces away. */
 static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
 {
     register struct triangle_scan *r0 __asm__("r0") = s;
-    __asm__ volatile(".syntax unified\n\t"
-                     "mov r11, r0\n\t" TRIANGLE_SCAN_LOAD
-                     "ldr r0, [r0, #40]\n\t"
-                     "b 19f\n"
-                     "11: " TRIANGLE_SCAN_ENTRIES
-                     "ldr r6, [r4]\n\t"
-                     "cmp r6, r1\n\t"
-                     "bne 13f\n"
-                     "30: ldr r6, [r7]\n\t"
-                     "cmp r6, r2\n\t"
-                     "bne 14f\n\t"
-                     "ldr r6, [r5]\n\t"
-                     "cmp r6, r3\n\t"
-                     "bne 15f\n\t"
-                     "ldr r0, [r4, #20]\n\t"
-                     "ldr r1, [r7, #20]\n\t"
-                     "ldr r2, [r5, #20]\n\t"
-                     "movs r3, r0\n\t"
-                     "orrs r3, r1\n\t"
-                     "orrs r3, r2\n\t"
-                     "bne 17f\n\t" TRIANGLE_SCAN_AREA
-                     "bgt 21f\n\t"
-                     "mov r0, r11\n\t"
-                     "ldr r0, [r0, #48]\n\t"
-                     "tst r0, r1\n\t"
-                     "bne 24f\n"
-                     "18: mov r0, r10\n\t"
-                     "adds r0, #6\n"
-                     "19: mov r10, r0\n\t"
-                     "cmp r0, r8\n\t"
-                     "bne 11b\n\t"
-                     "movs r0, #0\n\t"
-                     "b 29f\n" TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_FRONT
-                         TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_STOP
+    __asm__ volatile(".syntax unified\n\t" TRIANGLE_SCAN_ARMV6M
                      : "+r"(r0)
                      :
                      : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");

@@ -366,16 +366,12 @@ SMEAR_INLINE bool vertex_find_armv6m(struct smear_screen *screen, struct smear_h
         ".syntax unified\n\t"
         "push {r2, r3}\n\t"
         "mov r12, r2\n\t"
-        "mov lr, r3\n\t"
-        ARMV6M_VERTEX_ROWS
-        "mov r3, lr\n\t"
-        ARMV6M_VERTEX_NOW
-        ARMV6M_VERTEX_FIND
+        "mov lr, r3\n\t" ARMV6M_VERTEX_ROWS
+        "mov r3, lr\n\t" ARMV6M_VERTEX_NOW ARMV6M_VERTEX_FIND
         "mov r7, r12\n\t"
         "stm r7!, {r4, r5, r6}\n\t"
         "movs r0, #1\n\t"
-        "b 5f\n"
-        ARMV6M_VERTEX_LIMIT
+        "b 5f\n" ARMV6M_VERTEX_LIMIT
         "1: movs r0, #0\n"
         "5: add sp, #8"
         : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)

@@ -16,6 +16,10 @@ struct points {
     uint32_t last[RINGS], count;
     uint8_t color[4 * 40 + 1];
     struct points_rings rings;
+#if SCAN_STORES
+    uint32_t pool[3 * ROOM * 5], words;
+    struct scan_records records;
+#endif
 };
 
 static void points_make(struct points *p)
@@ -26,6 +30,9 @@ static void points_make(struct points *p)
     for (int i = 0; i < 4 * 40 + 1; i++)
         p->color[i] = (uint8_t)(i * 73);
     p->rings = (struct points_rings){ p->entry + (2 * ROOM - 1), p->last, (1u << 22) / 40u, &p->count, smear_recip_seed };
+#if SCAN_STORES
+    p->records = (struct scan_records){ &p->rings, p->pool, &p->words, 1, 5 << 16, NULL };
+#endif
 }
 
 static uint32_t points_sum(const struct points *p, uint32_t sum)
@@ -36,6 +43,11 @@ static uint32_t points_sum(const struct points *p, uint32_t sum)
         const struct point_entry *const e = &p->entry[i];
         sum = ((sum * 31u + (e->x | (uint32_t)e->y << 16)) * 31u + (e->depth ^ (uint32_t)e->kind << 16)) * 31u + (e->color ^ e->next);
     }
+#if SCAN_STORES
+    for (int i = 0; i < 3 * ROOM * 5; i++)
+        sum = sum * 31u + p->pool[i];
+    sum = sum * 31u + p->words;
+#endif
     return sum * 31u + p->count;
 }
 #endif
@@ -111,6 +123,13 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
 #else
     s.rings = s.color != NULL ? s.rings : NULL;
 #endif
+#endif
+#if SCAN_STORES
+    s.records = &points.records;
+    s.least = (c->word[LOOK] & 64u) != 0 ? INT32_MAX : (c->word[LOOK] & 128u) != 0 ? SCAN_POINTS + 1 : 1;
+    points.records.colors = (c->word[LOOK] & 256u) != 0 ? points.color : NULL;
+    if ((c->word[LOOK] & 512u) != 0 && s.rings == NULL)
+        s.color = NULL;
 #endif
     for (enum scan_end at = form(&s); at != SCAN_DONE; at = form(&s)) {
         sum = sum * 31u + (uint32_t)at + (uint32_t)(s.index - index) * 8u;
