@@ -322,7 +322,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct tiny_box, stride) == 20 && offsetof(struct t
         :                               \
         : "r0", "r1", "r2", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-static SMEAR_NOINLINE void tiny_box_armv6m(struct tiny_box *b)
+SMEAR_INLINE void tiny_box_armv6m(struct tiny_box *b)
 {
     register struct tiny_box *r3 __asm__("r3") = b;
     b->round = 0x03f603f6u;

@@ -141,11 +141,10 @@ static SMEAR_NOINLINE bool tiny_draw(struct tiny_look *l, const int32_t *const v
     } else {
         b->color = b->narrow ? rgb565_nearest(color) : color & 0xffffffu;
     }
-    if (top < l->wrap && bottom > l->wrap) {
-        tiny_rows(l, left, top, l->wrap);
-        top = l->wrap;
+    for (int32_t end; top != bottom; top = end) {
+        end = top < l->wrap ? min_i32(bottom, l->wrap) : bottom;
+        tiny_rows(l, left, top, end);
     }
-    tiny_rows(l, left, top, bottom);
     return true;
 }
 
