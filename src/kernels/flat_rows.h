@@ -4,7 +4,10 @@
 #define SMEAR_KERNELS_FLAT_ROWS_H
 
 #include "kernels/edge_walk.h"
-#include "kernels/flat_run.h"
+#include "kernels/flat_face.h"
+
+/* Assembly draws rows across the break of depth codes, too, where size does not count. */
+#define FLAT_ROWS_BREAKS (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
 
 /* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
 struct flat_rows {
@@ -14,7 +17,7 @@ struct flat_rows {
     int32_t x0, x1;
     uint32_t z, dz, dz_down;        /* depth codes 16.16 at that pixel, and their steps */
     uint32_t color;
-    bool narrow;
+    bool narrow, breaks;            /* the codes have their break in them: z is what flat_code takes (flat_face.h) */
 };
 
 /* Draws pixels from one edge to before the other, if there are any, like flat_run. The edges go on by so many rows. */
@@ -22,10 +25,9 @@ static inline void flat_rows_reference(const struct flat_rows *r, struct edge_wa
 {
     for (int32_t i = 0; i < r->rows; i++, edge_step(left), edge_step(right)) {
         const int32_t a = max_i32(edge_pixel(left), r->x0), b = min_i32(edge_pixel(right), r->x1);
-        const int32_t at = i * r->stride + a;
-        if (a < b)
-            flat_run_reference(pixel_after(r->pixels, at, r->narrow), r->depth + at, b - a,
-                               r->z + r->dz_down * (uint32_t)i + r->dz * (uint32_t)a, r->dz, r->color, r->narrow);
+        const uint32_t z = r->z + r->dz_down * (uint32_t)i;
+        for (int32_t x = a; x < b; x++)
+            flat_pixel(r->pixels, r->depth, i * r->stride + x, flat_code(z + r->dz * (uint32_t)x, r->breaks), r->color, r->narrow);
     }
 }
 

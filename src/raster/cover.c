@@ -338,6 +338,10 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     }
 }
 
+/* Whether a kernel draws rows that have no depth break. */
+#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
+
+#if !FLAT_ROWS_BREAKS
 /* n pixels from index `at` on, of the colour as the target has it. */
 SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
                               uint32_t dz, uint32_t color)
@@ -427,9 +431,7 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
         d.right = right;
     }
 }
-
-/* Whether a kernel draws rows that have no depth break. */
-#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
+#endif
 
 /* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
 #if FLAT_ROWS_ASM
@@ -449,10 +451,12 @@ static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 }
 #endif
 
+#if !FLAT_ROWS_BREAKS
 static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
     cover_flat(s, true, true);
 }
+#endif
 
 #if SMEAR_AVX2
 /* The same rows by vectors, whatever cuts them off: those of one stretch of the ring after the other. */
@@ -505,10 +509,14 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
     struct sides d;
     if (!sides_start(&d, s))
         return;
+    const bool breaks = FLAT_ROWS_BREAKS && s->slope == SLOPE_BOTH;
+    const int32_t units = plane_at(&s->depth, 0, d.y);
     struct flat_rows rows = {
-        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1, .z = code_from_units(plane_at(&s->depth, 0, d.y), s->slope),
-        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
-        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
+        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1,
+        .z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope),
+        .dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope)),
+        .dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope)),
+        .color = target_pixel(t, s->color), .narrow = target_is_direct(t), .breaks = breaks
     };
     int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
     if (ring_row >= t->window_rows.ring)
@@ -542,10 +550,12 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         return;
     }
 #endif
+#if !FLAT_ROWS_BREAKS
     if (s->slope == SLOPE_BOTH) {
         cover_flat_break(s);
         return;
     }
+#endif
 #if FLAT_ROWS_ASM
     (void)t;
     (void)box;

@@ -48,12 +48,12 @@ static void rows_prepare(struct kernel_call *c)
     }
 }
 
-static void rows_by(struct kernel_call *c, bool narrow, bool best)
+static void rows_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
 {
     const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
     const int32_t x0 = c->n % (STRIDE - COLUMNS);
     const struct flat_rows rows = { c->plane[0], c->plane[1], STRIDE, c->n / STRIDE, x0, x0 + COLUMNS, c->word[Z], c->word[DZ],
-                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow };
+                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow, breaks };
     struct edge_walk a, b;
     edge_start(&a, left, left + 2, 0);
     edge_start(&b, right, right + 2, 0);
@@ -73,10 +73,16 @@ static void rows_by(struct kernel_call *c, bool narrow, bool best)
     c->word[RIGHT] = (uint32_t)edge_pixel(&b);
 }
 
-static void wide_rows(struct kernel_call *c) { rows_by(c, false, false); }
-static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, true); }
-static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false); }
-static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, true); }
+static void wide_rows(struct kernel_call *c) { rows_by(c, false, false, false); }
+static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, false, true); }
+static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false, false); }
+static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, false, true); }
+#if FLAT_ROWS_BREAKS
+static void wide_across(struct kernel_call *c) { rows_by(c, false, true, false); }
+static void wide_across_best(struct kernel_call *c) { rows_by(c, false, true, true); }
+static void narrow_across(struct kernel_call *c) { rows_by(c, true, true, false); }
+static void narrow_across_best(struct kernel_call *c) { rows_by(c, true, true, true); }
+#endif
 
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
@@ -89,5 +95,11 @@ const struct kernel kernels_flat_run[] = {
       .form = { { "reference", wide_rows }, { "best", wide_rows_best } } },
     { .name = "flat_rows (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
       .form = { { "reference", narrow_rows }, { "best", narrow_rows_best } } },
+#if FLAT_ROWS_BREAKS
+    { .name = "flat_rows (across)", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", wide_across }, { "best", wide_across_best } } },
+    { .name = "flat_rows (across, narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", narrow_across }, { "best", narrow_across_best } } },
+#endif
     { .name = NULL }
 };
