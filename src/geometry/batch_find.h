@@ -39,13 +39,28 @@ static SMEAR_RARE int outcode_beside(const struct smear_screen *s, const struct 
     return outcode_sides(s, viewport);
 }
 
+/* A vertex that the setup has found. */
+static inline void found_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
+{
+    const struct smear_viewport *const viewport = &b->a->viewport;
+    const bool inside = (uint32_t)v->screen.x <= (uint32_t)viewport->width << 8
+                     && (uint32_t)v->screen.y <= (uint32_t)viewport->height << 8;
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = inside ? 0 : outcode_beside(&v->screen, viewport);
+}
+
 /* Finds a vertex for which the setup is not ready: makes it ready for others like it. */
 static SMEAR_RARE void find_unready(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
 {
     struct vertex_setup *const s = &b->setup;
-    find_vertex(b->a, b->d, v, tag);
-    if (b->ready && v->now.w >= s->near_distance && v->now.w <= s->far_distance)
-        (void)vertex_setup_for(s, v->now.w);
+    const int16_t *const position = b->d->at.position + 3 * (tag & 0xffffu);
+    const int32_t w = b->ready ? vertex_row_of(&s->row[2], position) : INT32_MIN;
+    if (b->ready && w >= s->near_distance && w <= s->far_distance && vertex_setup_for(s, w)
+        && vertex_find(&v->screen, &v->now, position, s))
+        found_vertex(b, v, tag);
+    else
+        find_vertex(b->a, b->d, v, tag);
 }
 #endif
 
@@ -59,12 +74,7 @@ SMEAR_INLINE void find_in_batch(struct batch *b, struct smear_cached_vertex *v, 
         find_unready(b, v, tag);
         return;
     }
-    v->tag = tag;
-    v->stored = 0;
-    const struct smear_viewport *const viewport = &b->a->viewport;
-    const bool inside = (uint32_t)v->screen.x <= (uint32_t)viewport->width << 8
-                     && (uint32_t)v->screen.y <= (uint32_t)viewport->height << 8;
-    v->outcode = inside ? 0 : outcode_beside(&v->screen, viewport);
+    found_vertex(b, v, tag);
 #else
     find_vertex(b->a, b->d, v, tag);
 #endif
