@@ -114,15 +114,14 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
     points_make(&points);
     s.front = (c->word[LOOK] & 12u) != 0 ? &front : NULL;
     s.rings = (c->word[LOOK] & 48u) != 0 ? &points.rings : NULL;
-    s.color = (c->word[LOOK] & 64u) != 0 ? points.color : NULL;
+    s.color = points.color;
     s.first = index;
     s.room = ROOM;
+#endif
 #if SCAN_MIXES
+    s.color = (c->word[LOOK] & 64u) != 0 ? points.color : NULL;
     s.vertex_color = points.color + 1;
     s.even = (c->word[LOOK] & 128u) != 0;
-#else
-    s.rings = s.color != NULL ? s.rings : NULL;
-#endif
 #endif
 #if SCAN_STORES
     s.records = &points.records;
