@@ -65,7 +65,7 @@ static inline size_t kept_bytes(const struct smear_segment *s)
 #if SMEAR_KEPT_LISTS
     bytes = ((bytes > sizeof(struct kept_face) ? bytes : sizeof(struct kept_face)) + 7) & ~(size_t)7;
 #if SMEAR_LANE_ROWS
-    if (segment_textured(s) && bytes < sizeof(struct kept_texels))
+    if (segment_textured(s) && s->shade == SHADE_NONE && bytes < sizeof(struct kept_texels))
         bytes = sizeof(struct kept_texels);
 #endif
 #endif
