@@ -6,8 +6,8 @@
 #include "kernels/edge_walk.h"
 #include "kernels/flat_face.h"
 
-/* Assembly draws rows across the break of depth codes, too, where size does not count. */
-#define FLAT_ROWS_BREAKS (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+/* Assembly draws rows across the break of depth codes, too; on Cortex-M0+ where size does not count. */
+#define FLAT_ROWS_BREAKS ((SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE) || SMEAR_ASM_ARMV7EM)
 
 /* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
 struct flat_rows {

@@ -6,6 +6,7 @@
 
 #include "kernels/edge_sides.h"
 #include "kernels/flat_rows.h"
+#include "kernels/flat_run_armv7em.h"
 
 #if SMEAR_ASM_ARMV7EM
 
@@ -25,110 +26,109 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_rows_lines, pixels) == 32 && offsetof(s
                     "the assembly knows struct flat_rows_lines");
 SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_walk, rest) == 4, "the assembly knows struct edge_walk");
 
-/* A pixel whose colour has SIZE bytes. */
-#define FLAT_LINES_PIXEL(STORE, SIZE)  \
-    "lsrs r4, r2, #16\n\t"             \
-    "ldrh r5, [r1], #2\n\t"            \
-    "add r2, r2, r3\n\t"               \
-    "cmp r5, r4\n\t"                   \
-    "bhs 9f\n\t"                       \
-    "strh r4, [r1, #-2]\n\t"           \
-    STORE " r7, [r0]\n"                \
-    "9: adds r0, #" SIZE "\n\t"
+/* The last instructions of a row: the next, or on to 2. */
+#define FLAT_LINES_NEXT         \
+    "ldr r8, [r9, #24]\n\t"     \
+    "adds r8, r8, #1\n\t"       \
+    "str r8, [r9, #24]\n\t"     \
+    "bne 1b\n\t"
 
-/* Two pixels, if both are seen; else at SLOW. Halves of r5 are 0 where the old depth is not less, and so is their product where one
- * of them is. */
-#define FLAT_LINES_PAIR(STORE_TWO, SLOW) \
-    "adds r4, r2, r3\n\t"                \
-    "pkhtb r4, r4, r2, asr #16\n\t"      \
-    "ldr r5, [r1], #4\n\t"               \
-    "uqsub16 r5, r4, r5\n\t"             \
-    "add r2, r2, r3, lsl #1\n\t"         \
-    "smulbt r6, r5, r5\n\t"              \
-    "cbz r6, " SLOW "f\n\t"              \
-    "str r4, [r1, #-4]\n\t" STORE_TWO
+/* Where depth may have its break in a row it is in units from the break on. r7 pixels that lie on one side have their z and dz
+ * at 20; at 21 those are asked for that may not. */
+#define FLAT_LINES_BREAK              \
+    "21: sub r4, r7, #1\n\t"          \
+    "mla r4, r3, r4, r2\n\t"          \
+    "eors r4, r4, r2\n\t"             \
+    "bmi 22f\n"                       \
+    "20: cmp r2, #0\n\t"              \
+    "ittee lt\n\t"                    \
+    "lsllt r3, r3, #5\n\t"            \
+    "lsllt r2, r2, #5\n\t"            \
+    "lslge r3, r3, #1\n\t"            \
+    "lslge r2, r2, #1\n\t"            \
+    "add r2, r2, #0x80008000\n\t"
 
-/* Two pixels of which one at most is seen. */
-#define FLAT_LINES_SLOW_NARROW   \
-    "cbz r5, 9f\n\t"             \
-    "ldr r5, [r1, #-4]\n\t"      \
-    "usub16 r6, r5, r4\n\t"      \
-    "sel r4, r5, r4\n\t"         \
-    "str r4, [r1, #-4]\n\t"      \
-    "ldr r5, [r0]\n\t"           \
-    "sel r5, r5, r7\n\t"         \
-    "str r5, [r0]\n"             \
-    "9: adds r0, #4\n\t"
+/* Pixels behind the break come before the next row. Of them lie on the stack: their number, 0 where there are none, depth, and
+ * places. */
+#define FLAT_LINES_NEXT_BREAK         \
+    "ldr r7, [sp]\n\t"                \
+    "cmp r7, #0\n\t"                  \
+    "bne 23f\n\t"                     \
+    FLAT_LINES_NEXT
 
-#define FLAT_LINES_SLOW_WIDE     \
-    "cbz r5, 9f\n\t"             \
-    "lsls r6, r5, #16\n\t"       \
-    "itt ne\n\t"                 \
-    "strne r7, [r0]\n\t"         \
-    "strhne r4, [r1, #-4]\n\t"   \
-    "lsrs r4, r4, #16\n\t"       \
-    "lsrs r6, r5, #16\n\t"       \
-    "itt ne\n\t"                 \
-    "strne r7, [r0, #4]\n\t"     \
-    "strhne r4, [r1, #-2]\n"     \
-    "9: adds r0, #8\n\t"
+/* Puts them there; at 20 are those before it. */
+#define FLAT_LINES_BREAK_APART(LOG2)  \
+    "22: cmp r3, #0\n\t"              \
+    "ble 24f\n\t"                     \
+    "subs r4, r3, r2\n\t"             \
+    "subs r4, r4, #1\n\t"             \
+    "sdiv r4, r4, r3\n\t"             \
+    "b 25f\n"                         \
+    "24: negs r4, r3\n\t"             \
+    "sdiv r4, r2, r4\n\t"             \
+    "adds r4, r4, #1\n"               \
+    "25: cmp r4, #1\n\t"              \
+    "it lt\n\t"                       \
+    "movlt r4, #1\n\t"                \
+    "subs r6, r7, #1\n\t"             \
+    "cmp r4, r6\n\t"                  \
+    "it gt\n\t"                       \
+    "movgt r4, r6\n\t"                \
+    "subs r6, r7, r4\n\t"             \
+    "mla r8, r3, r4, r2\n\t"          \
+    "strd r6, r8, [sp]\n\t"           \
+    "add r6, r0, r4, lsl #" LOG2 "\n\t" \
+    "add r8, r1, r4, lsl #1\n\t"      \
+    "strd r6, r8, [sp, #8]\n\t"       \
+    "mov r7, r4\n\t"                  \
+    "b 20b\n"                         \
+    "23: ldr r2, [sp, #4]\n\t"        \
+    "ldrd r0, r1, [sp, #8]\n\t"       \
+    "movs r4, #0\n\t"                 \
+    "str r4, [sp]\n\t"                \
+    "ldr r3, [r9, #12]\n\t"           \
+    "b 21b\n"
 
 /* r9 points into struct flat_rows_lines; the left edge's place and rest lie in r10 and r11, the right one's in r12 and lr. Then, in a
- * row: pixels r0, depth r1, z r2, dz r3, the colour r7, rounds of four pixels r8. LOG2 is of the bytes of a pixel. */
-#define FLAT_LINES(STORE, STORE_TWO, SLOW, LOG2, SIZE)                                      \
-    __asm__ volatile(".syntax unified\n\t"                                                  \
-                     "push {r1, r2}\n\t"                                                    \
-                     "add r9, r0, #32\n\t"                                                  \
-                     "ldrd r10, r11, [r1]\n\t"                                              \
-                     "ldrd r12, lr, [r2]\n"                                                 \
-                     "1: ldmdb r9, {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"                    \
-                     "cmp r6, r10, asr #8\n\t"                                              \
-                     "it lt\n\t"                                                            \
-                     "asrlt r6, r10, #8\n\t"                                                \
-                     "cmp r7, r12, asr #8\n\t"                                              \
-                     "it gt\n\t"                                                            \
-                     "asrgt r7, r12, #8\n\t"                                                \
-                     EDGE_SIDES_STEP("r10", "r11", "r0", "r1", "r2")                        \
-                     EDGE_SIDES_STEP("r12", "lr", "r3", "r4", "r5")                         \
-                     "subs r7, r7, r6\n\t"                                                  \
-                     "ble 5f\n\t"                                                           \
-                     "ldm r9, {r0, r1, r2, r3, r4, r5, r8}\n\t"                             \
-                     "mla r4, r4, r8, r2\n\t"                                               \
-                     "mla r2, r3, r6, r4\n\t"                                               \
-                     "mla r5, r5, r8, r6\n\t"                                               \
-                     "add r0, r0, r5, lsl #" LOG2 "\n\t"                                    \
-                     "add r1, r1, r5, lsl #1\n\t"                                           \
-                     "lsrs r6, r7, #1\n\t"                                                  \
-                     "ldr r7, [r9, #28]\n\t"                                                \
-                     "bcc 2f\n\t"                                                           \
-                     "mov r8, r6\n\t"                                                       \
-                     FLAT_LINES_PIXEL(STORE, SIZE)                                          \
-                     "mov r6, r8\n"                                                         \
-                     "2: lsrs r6, r6, #1\n\t"                                               \
-                     "mov r8, r6\n\t"                                                       \
-                     "bcs 4f\n\t"                                                           \
-                     "subs r8, r8, #1\n\t"                                                  \
-                     "blt 5f\n"                                                             \
-                     "3: " FLAT_LINES_PAIR(STORE_TWO, "6")                                  \
-                     "4: " FLAT_LINES_PAIR(STORE_TWO, "7")                                  \
-                     "subs r8, r8, #1\n\t"                                                  \
-                     "bge 3b\n"                                                             \
-                     "5: ldr r8, [r9, #24]\n\t"                                             \
-                     "adds r8, r8, #1\n\t"                                                  \
-                     "str r8, [r9, #24]\n\t"                                                \
-                     "bne 1b\n\t"                                                           \
-                     "b 8f\n"                                                               \
-                     "6: " SLOW "b 4b\n"                                                    \
-                     "7: " SLOW                                                             \
-                     "subs r8, r8, #1\n\t"                                                  \
-                     "bge 3b\n\t"                                                           \
-                     "b 5b\n"                                                               \
-                     "8: pop {r1, r2}\n\t"                                                  \
-                     "strd r10, r11, [r1]\n\t"                                              \
-                     "strd r12, lr, [r2]"                                                   \
-                     : "+r"(r0), "+r"(r1), "+r"(r2)                                         \
-                     :                                                                      \
+ * row: pixels r0, depth r1, z r2, dz r3, the colour r7, rounds of four pixels r8. LOG2 is of the bytes of a pixel; BREAK, NEXT and ELSE
+ * are those above. */
+#define FLAT_LINES(BREAK, NEXT, ELSE, LOG2, STORE, STORE_TWO, SLOW) \
+    __asm__ volatile(".syntax unified\n\t" \
+                     "push {r1, r2}\n\t" \
+                     "sub sp, #16\n\t" \
+                     "add r9, r0, #32\n\t" \
+                     "ldrd r10, r11, [r1]\n\t" \
+                     "ldrd r12, lr, [r2]\n\t" \
+                     "movs r0, #0\n\t" \
+                     "str r0, [sp]\n" \
+                     "1: ldmdb r9, {r0, r1, r2, r3, r4, r5, r6, r7}\n\t" \
+                     "cmp r6, r10, asr #8\n\t" \
+                     "it lt\n\t" \
+                     "asrlt r6, r10, #8\n\t" \
+                     "cmp r7, r12, asr #8\n\t" \
+                     "it gt\n\t" \
+                     "asrgt r7, r12, #8\n\t" \
+                     EDGE_SIDES_STEP("r10", "r11", "r0", "r1", "r2") \
+                     EDGE_SIDES_STEP("r12", "lr", "r3", "r4", "r5") \
+                     "subs r7, r7, r6\n\t" \
+                     "ble 8f\n\t" \
+                     "ldm r9, {r0, r1, r2, r3, r4, r5, r8}\n\t" \
+                     "mla r4, r4, r8, r2\n\t" \
+                     "mla r2, r3, r6, r4\n\t" \
+                     "mla r5, r5, r8, r6\n\t" \
+                     "add r0, r0, r5, lsl #" LOG2 "\n\t" \
+                     "add r1, r1, r5, lsl #1\n\t" \
+                     BREAK FLAT_ARMV7EM_PIXELS("r7", "ldr r7, [r9, #28]\n\t", NEXT, ELSE, STORE, STORE_TWO, SLOW) \
+                     "add sp, #16\n\t" \
+                     "pop {r1, r2}\n\t" \
+                     "strd r10, r11, [r1]\n\t" \
+                     "strd r12, lr, [r2]" \
+                     : "+r"(r0), "+r"(r1), "+r"(r2) \
+                     : \
                      : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+#define FLAT_LINES_NARROW(BREAK, NEXT, ELSE) FLAT_LINES(BREAK, NEXT, ELSE, "1", "strh", "str r7, [r0], #4\n\t", FLAT_ARMV7EM_SLOW_NARROW)
+#define FLAT_LINES_WIDE(BREAK, NEXT, ELSE) FLAT_LINES(BREAK, NEXT, ELSE, "2", "str", "strd r7, r7, [r0], #8\n\t", FLAT_ARMV7EM_SLOW_WIDE)
 
 /* Rows are one at least. */
 static inline void flat_rows_armv7em(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
@@ -141,10 +141,14 @@ static inline void flat_rows_armv7em(const struct flat_rows *r, struct edge_walk
     register struct flat_rows_lines *r0 __asm__("r0") = &lines;
     register struct edge_walk *r1 __asm__("r1") = left;
     register struct edge_walk *r2 __asm__("r2") = right;
-    if (r->narrow)
-        FLAT_LINES("strh", "str r7, [r0], #4\n\t", FLAT_LINES_SLOW_NARROW, "1", "2");
+    if (r->narrow && r->breaks)
+        FLAT_LINES_NARROW(FLAT_LINES_BREAK, FLAT_LINES_NEXT_BREAK, FLAT_LINES_BREAK_APART("1"));
+    else if (r->narrow)
+        FLAT_LINES_NARROW("", FLAT_LINES_NEXT, "");
+    else if (r->breaks)
+        FLAT_LINES_WIDE(FLAT_LINES_BREAK, FLAT_LINES_NEXT_BREAK, FLAT_LINES_BREAK_APART("2"));
     else
-        FLAT_LINES("str", "strd r7, r7, [r0], #8\n\t", FLAT_LINES_SLOW_WIDE, "2", "4");
+        FLAT_LINES_WIDE("", FLAT_LINES_NEXT, "");
 }
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "base/pixel.h"
 #include "kernels/avx2.h"
+#include "kernels/flat_run_armv7em.h"
 #include "kernels/kernels.h"
 
 /* Pixel i: where its depth code is greater, that is nearer. */
@@ -144,7 +145,9 @@ SMEAR_INLINE void flat_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z,
         return;
     }
 #endif
-#if SMEAR_VECTORS
+#if SMEAR_ASM_ARMV7EM
+    flat_run_armv7em(pixels, depth, n, z, dz, color, narrow);
+#elif SMEAR_VECTORS
     flat_run_vector(pixels, depth, n, z, dz, color, narrow);
 #else
     flat_run_unrolled(pixels, depth, n, z, dz, color, narrow);
