@@ -9,6 +9,7 @@
  * y up, z to its right. */
 #include "platform/demo_bake.h"
 #include "platform/demo_scene.h"
+#include "platform/demo_weld.h"
 
 #include "tools/scenes/build.h"
 #include "tools/scenes/present.h"
@@ -432,11 +433,12 @@ static void place_props(const struct stage *stage, double time, struct scene_ins
     out->camera.zfar = 0;
 }
 
-/* Adds a frame, what stands still as it looks in its light. */
+/* Adds a frame, what stands still as it looks in its light, vertices that are alike as one. */
 static bool add_baked(struct tape_writer *writer, const struct presented *frame, struct failure *f)
 {
     static const uint8_t still[] = { PROP_GRASS, PROP_ROAD, PROP_KERBS, PROP_TREES, PROP_BOARDS };
     static struct demo_baked baked[sizeof still];
+    static struct demo_welded welded[PROP_COUNT];
     struct presented with = *frame;
     smear_draw draw[PROP_COUNT];
     memcpy(draw, frame->draw, sizeof draw);
@@ -444,6 +446,9 @@ static bool add_baked(struct tape_writer *writer, const struct presented *frame,
     for (size_t i = 0; i < sizeof still; i++)
         if (!demo_bake(&baked[i], &draw[still[i]]))
             return fail(f, "prop %d cannot be lit in advance", still[i]);
+    for (int i = 0; i < PROP_COUNT; i++)
+        if (!demo_weld(&welded[i], &draw[i]))
+            return fail(f, "prop %d is too large", i);
     return tape_add(writer, &with, NULL, f);
 }
 

@@ -114,7 +114,7 @@ DEMO_SCREEN ?= pico
 DEMO_LOOPS  ?= oled:6 gba:6
 
 PROPS     := build/demo
-PROPS_SRC := platform/demo_props.c platform/demo_bake.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
+PROPS_SRC := platform/demo_props.c platform/demo_bake.c platform/demo_weld.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
              $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
 
 FIRMWARE_OBJ := $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) $(BUILD)/platform/demo.o \
