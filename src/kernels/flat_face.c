@@ -68,10 +68,14 @@ SMEAR_AVX2_INLINE struct face_area face_area_of(const struct flat_area *a)
                                stride * lanes8_numbers(), stride << 3, a->stride, a->x1 - 16, a->narrow };
 }
 
-/* What is made of eight rows at once reaches beyond the last. Bit i of a mask is that of row i, which has pixels within the
- * area's columns: one, or up to sixteen, of which the first lies among the last sixteen columns or before them; or more. */
-struct face_rows {
+/* Bit i is that of row i, which has pixels within the area's columns: one, or up to sixteen, of which the first lies among the last
+ * sixteen columns or before them; or more. */
+struct face_kinds {
     uint64_t one, few, last, many;
+};
+
+/* What is made of eight rows at once reaches beyond the last. */
+struct face_rows {
     int32_t at[FLAT_FACE_ROWS];         /* places of the pixel from which on sixteen are drawn: the first one, or that of the last
                                          * sixteen columns */
     uint32_t z[FLAT_FACE_ROWS];         /* its depth */
@@ -79,44 +83,63 @@ struct face_rows {
     int32_t end[FLAT_FACE_ROWS];        /* and up to the last one: less than none, too */
 };
 
-/* Between the top and the bottom no side crosses the other, so the lesser one is the left one. */
-SMEAR_AVX2_INLINE void face_rows_find(struct face_rows *r, const struct face_sides *s, const struct face_area *a,
-                                      const struct face_look *look, bool bent)
+/* Eight rows on their way down: sides, places of column 0, and depths there; how far the middle corner lies below. */
+struct face_eight_rows {
+    struct edge_lanes whole, above, below;
+    lanes8 at, z;
+    lanes8i rest;
+};
+
+/* Finds eight rows from row i on, whose bits are the lowest; `few` are all that have pixels. Between the top and the bottom no side
+ * crosses the other, so the lesser one is the left one. */
+SMEAR_AVX2_INLINE struct face_kinds face_eight_find(struct face_rows *r, int32_t i, const struct face_eight_rows *e,
+                                                    const struct face_area *a, lanes8 dz, bool bent)
 {
-    struct edge_lanes whole = face_walk_start(s, FACE_LONG), above = face_walk_start(s, FACE_ABOVE), below = above;
-    const lanes8 dz = lanes8_all(look->dz), z_down = lanes8_all(8 * look->dz_down);
-    lanes8 z = lanes8_ramp(look->z, look->dz_down, lanes8_numbers());
-    lanes8 at = lanes8_all((uint32_t)(s->row * a->stride)) + a->rows;
-    lanes8i rest = lanes8i_all(s->knee) - lanes8i_numbers();
-    uint64_t some = 0, one = 0, last = 0, many = 0;
+    const lanes8i side = edge_lanes_pixels(&e->whole), up = edge_lanes_pixels(&e->above);
+    const lanes8i part = bent ? lanes8i_choose(e->rest > 0, up, edge_lanes_pixels(&e->below)) : up;
+    const lanes8i left = lanes8i_max(lanes8i_min(side, part), a->x0), right = lanes8i_min(lanes8i_max(side, part), a->x1);
+    const lanes8i from = lanes8i_min(left, a->x_most), pixels = (lanes8i)((lanes8)right - (lanes8)from);
+    lanes8_store(r->at + i, e->at + (lanes8)from);
+    lanes8_store(r->z + i, e->z + dz * (lanes8)from);
+    lanes8i_store(r->before + i, from - left);
+    lanes8i_store(r->end + i, -pixels);
+    return (struct face_kinds){ .one = lanes8i_signs(pixels == lanes8i_word(LANES8_1)), .few = lanes8i_signs(right > left),
+                                .last = lanes8i_signs(left > a->x_most), .many = lanes8i_signs(pixels > lanes8i_word(LANES8_16)) };
+}
+
+SMEAR_AVX2_INLINE void face_eight_down(struct face_eight_rows *e, const struct face_area *a, uint32_t dz_down, bool bent)
+{
+    edge_lanes_next(&e->whole);
+    edge_lanes_next(&e->above);
     if (bent)
-        below = face_walk_start(s, FACE_BELOW);
-    for (int32_t i = 0;; z += z_down, at += a->rows_down, rest -= lanes8i_word(LANES8_8)) {
-        const lanes8i side = edge_lanes_pixels(&whole), up = edge_lanes_pixels(&above);
-        const lanes8i part = bent ? lanes8i_choose(rest > 0, up, edge_lanes_pixels(&below)) : up;
-        const lanes8i left = lanes8i_max(lanes8i_min(side, part), a->x0), right = lanes8i_min(lanes8i_max(side, part), a->x1);
-        const lanes8i from = lanes8i_min(left, a->x_most), pixels = (lanes8i)((lanes8)right - (lanes8)from);
-        some |= (uint64_t)lanes8i_signs(right > left) << i;
-        one |= (uint64_t)lanes8i_signs(pixels == lanes8i_word(LANES8_1)) << i;
-        last |= (uint64_t)lanes8i_signs(left > a->x_most) << i;
-        many |= (uint64_t)lanes8i_signs(pixels > lanes8i_word(LANES8_16)) << i;
-        lanes8_store(r->at + i, at + (lanes8)from);
-        lanes8_store(r->z + i, z + dz * (lanes8)from);
-        lanes8i_store(r->before + i, from - left);
-        lanes8i_store(r->end + i, -pixels);
-        i += 8;
-        if (i >= s->n)
-            break;
-        edge_lanes_next(&whole);
-        edge_lanes_next(&above);
-        if (bent)
-            edge_lanes_next(&below);
+        edge_lanes_next(&e->below);
+    e->at += a->rows_down;
+    e->z += lanes8_all(8 * dz_down);
+    e->rest -= lanes8i_word(LANES8_8);
+}
+
+SMEAR_AVX2_INLINE struct face_kinds face_rows_find(struct face_rows *r, const struct face_sides *s, const struct face_area *a,
+                                                   const struct face_look *look, bool bent)
+{
+    struct face_eight_rows e = { .whole = face_walk_start(s, FACE_LONG), .above = face_walk_start(s, FACE_ABOVE) };
+    const lanes8 dz = lanes8_all(look->dz);
+    e.z = lanes8_ramp(look->z, look->dz_down, lanes8_numbers());
+    e.at = lanes8_all((uint32_t)(s->row * a->stride)) + a->rows;
+    e.rest = lanes8i_all(s->knee) - lanes8i_numbers();
+    e.below = bent ? face_walk_start(s, FACE_BELOW) : e.above;
+    /* Few have more rows than eight, and the first ones need no shifts. */
+    struct face_kinds all = face_eight_find(r, 0, &e, a, dz, bent);
+    for (int32_t i = 8; i < s->n; i += 8) {
+        face_eight_down(&e, a, look->dz_down, bent);
+        const struct face_kinds m = face_eight_find(r, i, &e, a, dz, bent);
+        all.one |= m.one << i;
+        all.few |= m.few << i;
+        all.last |= m.last << i;
+        all.many |= m.many << i;
     }
-    some &= UINT64_MAX >> (FLAT_FACE_ROWS - s->n);
-    r->many = some & many;
-    r->last = some & last;
-    r->one = some & one & ~last;
-    r->few = some & ~(one | last | many);
+    const uint64_t some = _bzhi_u64(all.few, (uint32_t)s->n);
+    return (struct face_kinds){ .one = some & all.one & ~all.last, .few = some & ~(all.one | all.last | all.many),
+                                .last = some & all.last, .many = some & all.many };
 }
 
 /* ------------------------------------------------------------------ pixels */
@@ -182,7 +205,7 @@ SMEAR_AVX2_INLINE void face_row(const struct face_lanes *k, const struct face_ro
     face_draw_16(k, pixel_after(a->pixels, at, k->narrow), a->depth + at, z, mask);
 }
 
-SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_sides *s, const struct face_area *a,
+SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_kinds *kinds, int32_t row, const struct face_area *a,
                                  const struct face_look *look, bool narrow, bool breaks)
 {
     const lanes8 evens = lanes8_numbers() * 2;
@@ -191,44 +214,45 @@ SMEAR_AVX2_INLINE void face_fill(const struct face_rows *r, const struct face_si
                                   narrow, breaks };
     void *const pixels = a->pixels;
     uint16_t *const depth = a->depth;
-    for (uint64_t one = r->one; one != 0; one &= one - 1) {
+    for (uint64_t one = kinds->one; one != 0; one &= one - 1) {
         const int i = __builtin_ctzll(one);
         flat_pixel(pixels, depth, r->at[i], flat_code(r->z[i], breaks), look->color, narrow);
     }
-    for (uint64_t few = r->few; few != 0; few &= few - 1) {
+    for (uint64_t few = kinds->few; few != 0; few &= few - 1) {
         const int i = __builtin_ctzll(few);
         const int32_t at = r->at[i];
         const __m256i z = _mm256_set1_epi32((int32_t)r->z[i]);
         face_draw_16(&k, pixel_after(pixels, at, narrow), depth + at, z, face_load(face_first + r->end[i]));
     }
-    for (uint64_t last = r->last; last != 0; last &= last - 1) {
+    for (uint64_t last = kinds->last; last != 0; last &= last - 1) {
         const int i = __builtin_ctzll(last);
         const int32_t at = r->at[i];
         const __m256i z = _mm256_set1_epi32((int32_t)r->z[i]);
         const __m256i mask = _mm256_and_si256(face_load(face_first + r->end[i]), face_load(face_last + r->before[i]));
         face_draw_16(&k, pixel_after(pixels, at, narrow), depth + at, z, mask);
     }
-    for (uint64_t many = r->many; many != 0; many &= many - 1) {
+    for (uint64_t many = kinds->many; many != 0; many &= many - 1) {
         const int i = __builtin_ctzll(many);
-        face_row(&k, r, i, a, look->dz, a->beyond + (s->row + i) * a->stride - r->at[i]);
+        face_row(&k, r, i, a, look->dz, a->beyond + (row + i) * a->stride - r->at[i]);
     }
 }
 
 SMEAR_AVX2_INLINE void face_draw(const struct face_sides *s, const struct face_area *a, const struct face_look *look, bool breaks)
 {
     struct face_rows r;
+    struct face_kinds m;
     if (face_is_bent(s))
-        face_rows_find(&r, s, a, look, true);
+        m = face_rows_find(&r, s, a, look, true);
     else
-        face_rows_find(&r, s, a, look, false);
+        m = face_rows_find(&r, s, a, look, false);
     if (a->narrow && breaks)
-        face_fill(&r, s, a, look, true, true);
+        face_fill(&r, &m, s->row, a, look, true, true);
     else if (a->narrow)
-        face_fill(&r, s, a, look, true, false);
+        face_fill(&r, &m, s->row, a, look, true, false);
     else if (breaks)
-        face_fill(&r, s, a, look, false, true);
+        face_fill(&r, &m, s->row, a, look, false, true);
     else
-        face_fill(&r, s, a, look, false, false);
+        face_fill(&r, &m, s->row, a, look, false, false);
 }
 
 /* ------------------------------------------------------------------ one face */
@@ -356,7 +380,10 @@ SMEAR_AVX2_FUNCTION void smear_flat_eight_draw_avx2(const struct flat_eight *e, 
     const struct face_area area = face_area_of(a);
     for (; which != 0; which &= which - 1) {
         const int k = __builtin_ctz(which);
-        struct face_sides s = { .row = e->row[k], .n = e->n[k], .knee = e->knee[k] };
+        struct face_sides s;
+        s.row = e->row[k];
+        s.n = e->n[k];
+        s.knee = e->knee[k];
         if (s.n <= 0)
             continue;
         face_side(&s, FACE_LONG, e->x[0][k], e->dx[FACE_LONG][k], e->dy[FACE_LONG][k], e->down[0][k], e->rows[k]);
