@@ -302,12 +302,11 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
 
 /* ------------------------------------------------------------------ blocks */
 
-static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t depth)
+static inline uint16_t nearness(int32_t depth) { return (uint16_t)clamp_i32(depth, 1, UINT16_MAX); }
+
+static void put_block(struct smear_block *b, int32_t x, int32_t y, uint16_t near)
 {
-    const uint16_t near = (uint16_t)clamp_i32(depth, 1, UINT16_MAX);
-    if (near > b->depth)
-        *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX),
-                                   near, 0 };
+    *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX), near, 0 };
 }
 
 /* Twice the areas between a place and a triangle's sides, and how they change from block to block. */
@@ -340,12 +339,21 @@ static void put_covering(struct smear_block *b, const struct corners *c, const s
     }
     if (sum == 0)
         return;
+    const uint16_t near = nearness(depth / sum << 1);
+    if (near <= b->depth)       /* before a displacement is found, which takes long */
+        return;
     if (w->large) {
         const struct displacement d = displacement_at(w, x, y);
-        put_block(b, d.x, d.y, depth / sum << 1);
+        put_block(b, d.x, d.y, near);
     } else {
-        put_block(b, dx / sum, dy / sum, depth / sum << 1);
+        put_block(b, dx / sum, dy / sum, near);
     }
+}
+
+static inline void put_small(struct smear_block *b, const struct displacements *w, uint16_t near)
+{
+    if (near > b->depth)
+        put_block(b, (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, near);
 }
 
 /* Puts a triangle that faces the eye into the wanted blocks whose middle it covers in the middle of the exposure; a small one
@@ -361,7 +369,7 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct corners
     if (x1 - x0 < BLOCK_PX && y1 - y0 < BLOCK_PX) {
         const int32_t x = (x0 + x1) >> (1 + BLOCK_SHIFT), y = (((y0 + y1) >> 1) - top) >> BLOCK_SHIFT;
         if (range_has(wanted, x) && y >= 0 && y < rows)
-            put_block(block_at(&r->blocks, x, y), (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, c->depth[0]);
+            put_small(block_at(&r->blocks, x, y), w, nearness(c->depth[0]));
         return;
     }
     const int32_t left = max_i32(x0 >> BLOCK_SHIFT, wanted.low), right = min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1);

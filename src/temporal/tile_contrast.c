@@ -5,8 +5,9 @@
 #include "kernels/differences.h"
 #include "temporal/tile_method.h"
 
-/* A block [x, x1) x [y, y1) of pixels, its displacement, and the same to the next pixels that are looked at: 2 px. */
+/* A block [x, x1) x [y, y1) of pixels of a tile, its displacement, and the same to the next pixels that are looked at: 2 px. */
 struct look {
+    const struct smear_tile_travel *tile;
     int32_t x, y, x1, y1;
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
@@ -92,10 +93,11 @@ static struct look_sums sums_of_look(const struct subframes *f, const struct loo
     return d;
 }
 
-/* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`. */
+/* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`: 2.5 way / longest to
+ * nearest, at most 2. */
 static int32_t next_on_path(int32_t way, int32_t longest)
 {
-    const int32_t next = min_i32((5 * abs_i32(way) + longest) / (2 * longest), 2);
+    const int32_t length = 5 * abs_i32(way), next = (length >= longest) + (length >= 3 * longest);
     return way < 0 ? -next : next;
 }
 
@@ -139,7 +141,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
                           struct look *l, bool drawn)
 {
     const struct smear_tile_run *t = f->t;
-    const struct smear_tile_travel *tile = &plan->travel[(l->x - t->x0) / t->tile];
+    const struct smear_tile_travel *tile = l->tile;
     const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
                   column = l->x >> BLOCK_SHIFT, row = (l->y - y0) >> BLOCK_SHIFT;
     struct smear_block *b = block_at(plan->blocks, column, row);
@@ -166,12 +168,18 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
+    struct look look;
     __builtin_memset(c, 0, sizeof *c);
-    for (int32_t y = y0; y < y1; y += BLOCK_PX)
-        for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX) {
-            struct look look = { .x = x, .y = y, .x1 = min_i32(x + BLOCK_PX, t->x1), .y1 = min_i32(y + BLOCK_PX, y1) };
-            look.at_border = y == y0 || look.y1 == y1;
+    for (look.y = y0; look.y < y1; look.y = look.y1) {
+        look.y1 = min_i32(look.y + BLOCK_PX, y1);
+        look.at_border = look.y == y0 || look.y1 == y1;
+        look.tile = plan->travel;
+        for (look.x = t->x0; look.x < t->x1; look.x = look.x1) {
+            look.x1 = min_i32(look.x + BLOCK_PX, t->x1);
             c->blocks++;
-            look_at_block(c, f, plan, &look, x < box->x1 && look.x1 > box->x0 && y < box->y1 && look.y1 > box->y0);
+            look_at_block(c, f, plan, &look,
+                          look.x < box->x1 && look.x1 > box->x0 && look.y < box->y1 && look.y1 > box->y0);
+            look.tile += ((look.x1 - t->x0) & (t->tile - 1)) == 0;
         }
+    }
 }
