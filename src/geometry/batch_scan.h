@@ -34,10 +34,10 @@ static void scan_stores(struct triangle_scan *s, const struct batch *b, struct s
     const struct smear_bins *g = b->a->bins;
     const uint32_t words = b->vertex_color != NULL ? VERTEX_BASE_WORDS + 2 : VERTEX_BASE_WORDS;
     const bool plain = b->shares && b->segment->stride == words && !is_blend(b->d)
-                    && (b->face_color != NULL || b->segment->shade != SHADE_FLAT);
+                    && s->color == b->face_color && (s->color != NULL || b->segment->shade != SHADE_FLAT);
     *r = (struct scan_records){ &b->rings, g->pool, &b->a->bins->vertex_words, 0, 0, b->vertex_color };
     s->records = r;
-    s->least = !plain ? INT32_MAX : b->points ? SCAN_POINTS + 1 : 1;
+    s->least = !plain ? INT32_MAX : b->points && s->rings == NULL ? SCAN_POINTS + 1 : 1;
 }
 
 /* The segment may be a new one. */

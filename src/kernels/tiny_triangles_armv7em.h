@@ -3,43 +3,9 @@
 #ifndef SMEAR_KERNELS_TINY_TRIANGLES_ARMV7EM_H
 #define SMEAR_KERNELS_TINY_TRIANGLES_ARMV7EM_H
 
-SMEAR_STATIC_ASSERT(offsetof(struct tiny_triangles, row) == 0 && offsetof(struct tiny_triangles, right) == 32
-                        && offsetof(struct tiny_triangles, number) == 40 && offsetof(struct tiny_triangles, next) == 44
-                        && offsetof(struct tiny_triangles, to_pixel) == 48 && offsetof(struct tiny_triangles, one_color) == 52
-                        && offsetof(struct tiny_triangles, weights) == 56 && offsetof(struct tiny_triangles, twice) == 64
-                        && offsetof(struct tiny_triangles, units) == 72 && offsetof(struct tiny_triangles, channel) == 80
-                        && offsetof(struct tiny_triangles, nearest) == 116,
-                    "the assembly knows what it leaves in struct tiny_triangles");
-SMEAR_STATIC_ASSERT(offsetof(struct tiny_triangles, numbered) == 132 && offsetof(struct tiny_triangles, first) == 136
-                        && offsetof(struct tiny_triangles, top) == 140 && offsetof(struct tiny_triangles, kind) == 144
-                        && offsetof(struct tiny_triangles, low) == 148 && offsetof(struct tiny_triangles, end) == 152
-                        && offsetof(struct tiny_triangles, stride) == 156 && offsetof(struct tiny_triangles, origin) == 160
-                        && offsetof(struct tiny_triangles, seed) == 164 && sizeof(struct triangle_entry) == 16,
-                    "the assembly knows what it finds in struct tiny_triangles");
+#include "kernels/kernels.h"
 
-/* Bits of `kind`, of which the first two choose a loop. */
-enum { TINY_KIND_WIDE = 1, TINY_KIND_SHADED = 2, TINY_KIND_EVEN = 4 };
-
-static inline void tiny_triangles_begin_armv7em(struct tiny_triangles *t)
-{
-    const struct points_plane *const p = &t->plane;
-    const uint32_t depth = (uint32_t)(uintptr_t)p->depth, pixels = (uint32_t)(uintptr_t)p->pixels;
-    t->numbered = t->segment << 16;
-    t->first = t->vertex;
-    t->top = p->top;
-    t->kind = (t->narrow ? 0u : TINY_KIND_WIDE) | (t->shaded ? TINY_KIND_SHADED : 0u) | (t->even ? TINY_KIND_EVEN : 0u);
-    t->low = p->x0 | p->y0 << 16;
-    t->end = (p->x0 + p->width) | (p->y0 + p->height) << 16;
-    t->stride = 2u * (uint32_t)p->stride;
-    t->origin = depth - p->y0 * t->stride - 2u * p->x0;
-    t->to_pixel = pixels - depth * (t->narrow ? 1u : 2u);
-    t->seed = smear_recip_seed;
-    t->nearest[0] = 249u;
-    t->nearest[1] = 0x03f603f6u;
-    t->nearest[2] = 253u;
-    t->nearest[3] = 505u;
-}
-
+#if SMEAR_ASM_ARMV7EM
 /* Entry r1: where its vertices are into r1, r2 and r3, its colour into r7, `kind` into r11. At 9 it is of another segment. */
 #define TINY_TRIANGLES_ENTRY           \
     "1: ldrd r8, r9, [r0, #132]\n\t"   \
@@ -364,32 +330,6 @@ static inline void tiny_triangles_begin_armv7em(struct tiny_triangles *t)
     "cmn r1, #1\n\t"           \
     "bne 1b\n\t"               \
     "b 9f\n"
-
-/* Little more than half of the instructions that compilers take for triangles of two or three pixels. */
-static SMEAR_NOINLINE uint32_t tiny_triangles_armv7em(struct tiny_triangles *t, uint32_t head)
-{
-    register struct tiny_triangles *r0 __asm__("r0") = t;
-    register uint32_t r1 __asm__("r1") = head;
-    if (head == UINT32_MAX)
-        return head;
-    __asm__ volatile(".syntax unified\n" TINY_TRIANGLES_ENTRY TINY_TRIANGLES_COLOR TINY_TRIANGLES_SPAN TINY_TRIANGLES_UNITS
-                         TINY_TRIANGLES_CUT TINY_TRIANGLES_EDGES TINY_TRIANGLES_BIASES TINY_TRIANGLES_ROWS TINY_TRIANGLES_SCALE
-                             TINY_TRIANGLES_CHOOSE
-                     "21: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_FLAT TINY_TRIANGLES_NARROW)
-                         TINY_TRIANGLES_NEXT TINY_TRIANGLES_FAR
-                     "22: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_FLAT TINY_TRIANGLES_WIDE)
-                     "23: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_SHADE_NARROW TINY_TRIANGLES_NARROW)
-                     "24: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_SHADE_WIDE TINY_TRIANGLES_WIDE)
-                     "8: ldr r1, [r0, #44]\n\t"
-                     "cmn r1, #1\n\t"
-                     "bne 1b\n\t"
-                     "b 9f\n"
-                     "7: ldr r1, [r0, #40]\n"
-                     "9:"
-                     : "+r"(r0), "+r"(r1)
-                     :
-                     : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
-    return r1;
-}
+#endif
 
 #endif

@@ -3,8 +3,11 @@
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 
-SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, vertex_color) == 92 && offsetof(struct triangle_scan, even) == 96, "the assembly knows struct triangle_scan");
+#include "kernels/front_cover.h"
+#include "kernels/tiny_points.h"
+#include "kernels/vertices.h"
 
+#if TINY_COVER_ARMV7EM
 /* Tags of the triangle whose first index r0 points to into r2, r3 and r4, its entries into r5, r7 and r6. */
 #define TRIANGLE_SCAN_ENTRIES            \
     "ldm r1, {r3, r4, r8, r9, r10}\n\t" \
@@ -135,7 +138,13 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, vertex_color) == 92 && offset
     "cbz r3, 23f\n\t"              \
     "ldr r4, [r1, #88]\n\t"        \
     "cbnz r4, 30f\n"               \
-    "23: str r2, [r1, #72]\n\t"    \
+    "23: ldr r3, [r1, #104]\n\t"   \
+    "cmp r2, r3\n\t"               \
+    "blt 37f\n\t"                  \
+    "ldr r4, [r1, #88]\n\t"        \
+    "cmp r4, #0\n\t"               \
+    "bne 38f\n"                    \
+    "37: str r2, [r1, #72]\n\t"    \
     "movs r2, #1\n\t"              \
     "adds r0, #6\n\t"              \
     "b 29f\n"
@@ -256,6 +265,99 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, vertex_color) == 92 && offset
     "mov r12, #40\n\t"                 \
     "b 18b\n"
 
+/* The vertex in V becomes how far its record lies from the segment's first. */
+#define TRIANGLE_SCAN_OFFSET(V, LABEL) \
+    "ldr r4, [" V ", #4]\n\t"        \
+    "cmp r4, r9\n\t"                 \
+    "bhs " LABEL "f\n\t"             \
+    "mov r0, " V "\n\t"              \
+    "bl 40f\n" LABEL ": sub " V ", r4, r9\n\t"
+
+/* Those that cover enough are stored, while there is the room in r4: vertices into the pool, of the records in r3. */
+#define TRIANGLE_SCAN_STORE            \
+    "38: subs r4, #1\n\t"            \
+    "str r4, [r1, #88]\n\t"          \
+    "push {r0, r1, lr}\n\t"          \
+    "add r5, r1, #52\n\t"            \
+    "ldm r5, {r5, r6, r7}\n\t"       \
+    "ldr r3, [r1, #100]\n\t"         \
+    "ldrd r8, r9, [r3, #8]\n\t"      \
+    "ldr r3, [r3, #4]\n\t"           \
+    "ldr r10, [r8]\n\t" TRIANGLE_SCAN_OFFSET("r5", "1") TRIANGLE_SCAN_OFFSET("r7", "2") TRIANGLE_SCAN_OFFSET("r6", "3") \
+    "str r10, [r8]\n\t"              \
+    "pkhbt r5, r5, r7, lsl #16\n\t"  \
+    "ldr r4, [r1, #100]\n\t"         \
+    "ldr r4, [r4, #16]\n\t"          \
+    "orrs r6, r6, r4\n\t"            \
+    "ldrd r2, r3, [r1, #80]\n\t"     \
+    "cbz r2, 4f\n\t"                 \
+    "ldr r0, [sp]\n\t"               \
+    "subs r3, r0, r3\n\t"            \
+    "movw r4, #0xaaab\n\t"           \
+    "movt r4, #0xaaaa\n\t"           \
+    "mul r3, r3, r4\n\t"             \
+    "ldr r2, [r2, r3, lsl #1]\n\t"   \
+    "rev r2, r2\n\t"                 \
+    "ror r2, r2, #8\n\t"             \
+    "b 5f\n"                          \
+    "4: subs r2, #1\n"
+
+/* The entry, with offsets and segment in r5 and r6 and the colour in r2, into the ring of its row. */
+#define TRIANGLE_SCAN_ENTRY            \
+    "5: ldr r3, [r1, #100]\n\t"      \
+    "ldr r3, [r3]\n\t"               \
+    "ldr r4, [r1, #68]\n\t"          \
+    "ldrh r4, [r4, #74]\n\t"         \
+    "ldm r3, {r7, r8, r9, r10}\n\t"  \
+    "mul r4, r4, r9\n\t"             \
+    "lsrs r4, r4, #22\n\t"           \
+    "add r8, r8, r4, lsl #2\n\t"     \
+    "ldr r9, [r10]\n\t"              \
+    "add r11, r9, #1\n\t"            \
+    "str r11, [r10]\n\t"             \
+    "ldr r11, [r8]\n\t"              \
+    "str r9, [r8]\n\t"               \
+    "sub r12, r7, r9, lsl #4\n\t"    \
+    "strd r5, r6, [r12]\n\t"         \
+    "mov r3, r9\n\t"                 \
+    "cmn r11, #1\n\t"                \
+    "beq 6f\n\t"                     \
+    "sub r7, r7, r11, lsl #4\n\t"    \
+    "ldr r3, [r7, #8]\n\t"           \
+    "str r9, [r7, #8]\n"              \
+    "6: strd r3, r2, [r12, #8]\n\t"  \
+    "pop {r0, r1, lr}\n\t"           \
+    "mov r12, #40\n\t"               \
+    "b 18b\n"
+
+/* The vertex in r0 into the pool in r3, at the word in r10; r4 is what it has stored. */
+#define TRIANGLE_SCAN_RECORD           \
+    "40: add r4, r3, r10, lsl #2\n\t" \
+    "ldrd r2, r11, [r0, #8]\n\t"     \
+    "ldr r12, [r0, #16]\n\t"         \
+    "stm r4!, {r2, r11, r12}\n\t"    \
+    "ldr r2, [r1, #100]\n\t"         \
+    "ldr r2, [r2, #20]\n\t"          \
+    "cbz r2, 4f\n\t"                 \
+    "ldrh r11, [r0]\n\t"             \
+    "ldr r2, [r2, r11, lsl #2]\n\t"  \
+    "ubfx r12, r2, #8, #8\n\t"       \
+    "uxtb r11, r2\n\t"               \
+    "lsl r11, r11, #8\n\t"           \
+    "orr r11, r11, r12, lsl #24\n\t" \
+    "ubfx r12, r2, #16, #8\n\t"      \
+    "lsrs r2, r2, #24\n\t"           \
+    "add r2, r2, r2, lsl #8\n\t"     \
+    "lsl r12, r12, #8\n\t"           \
+    "orr r12, r12, r2, lsl #16\n\t"  \
+    "stm r4!, {r11, r12}\n"           \
+    "4: add r2, r10, #1\n\t"         \
+    "str r2, [r0, #4]\n\t"           \
+    "subs r4, r4, r3\n\t"            \
+    "lsr r10, r4, #2\n\t"            \
+    "mov r4, r2\n\t"                 \
+    "bx lr\n"
+
 /* Other reasons to stop. From 29 on it ends. */
 #define TRIANGLE_SCAN_STOP      \
     "1: mov r3, r12\n\t"       \
@@ -272,37 +374,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, vertex_color) == 92 && offset
     "b 29f\n"                  \
     "25: movs r2, #5\n"        \
     "29: str r0, [r1, #40]"
-
-/* The next index in r0, the scan in r1, the size of vertices in r12, the end in lr. Three fifths of the instructions that compilers
- * take for a triangle that faces away. */
-static inline enum scan_end triangle_scan_armv7em(struct triangle_scan *s)
-{
-    register struct triangle_scan *r1 __asm__("r1") = s;
-    register uint32_t r2 __asm__("r2");
-    __asm__ volatile(".syntax unified\n\t"
-                     "ldrd r0, lr, [r1, #40]\n\t"
-                     "mov r12, #40\n\t"
-                     "b 19f\n"
-                     "11: " TRIANGLE_SCAN_ENTRIES
-                     "12: " TRIANGLE_SCAN_TEST TRIANGLE_SCAN_AREA
-                     "cmp r3, #0\n\t"
-                     "blt 20f\n\t"
-                     "orrs r2, r2, r3\n\t"
-                     "bne 21f\n\t"
-                     "b 18f\n"
-                     "20: ldr r2, [r1, #48]\n\t"
-                     "cmp r2, #0\n\t"
-                     "bne 24f\n"
-                     "18: adds r0, #6\n"
-                     "19: cmp r0, lr\n\t"
-                     "bne 11b\n\t"
-                     "movs r2, #0\n\t"
-                     "b 29f\n" TRIANGLE_SCAN_FRONT TRIANGLE_SCAN_POINTS TRIANGLE_SCAN_EVEN TRIANGLE_SCAN_CODES
-                         TRIANGLE_SCAN_MIX TRIANGLE_SCAN_MISSING TRIANGLE_SCAN_FIND TRIANGLE_SCAN_SEEN TRIANGLE_SCAN_STOP
-                     : "+r"(r1), "=r"(r2)
-                     :
-                     : "r0", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
-    return (enum scan_end)r2;
-}
+#endif
 
 #endif

@@ -8,7 +8,7 @@
 enum { VERTICES = 24, ENTRIES = 16, TAG = 7 << 16 };
 enum { LOOK, CENTRE, STOPS };      /* words */
 #if FRONT_COVERS
-enum { RINGS = 4, ROOM = 7 };
+enum { RINGS = 4, ROOM = 7, BASE = 6 };
 
 /* Where points go. */
 struct points {
@@ -17,7 +17,7 @@ struct points {
     uint8_t color[4 * 40 + 1];
     struct points_rings rings;
 #if SCAN_STORES
-    uint32_t pool[3 * ROOM * 5], words;
+    uint32_t pool[BASE + 3 * ROOM * 5], words;
     struct scan_records records;
 #endif
 };
@@ -31,7 +31,8 @@ static void points_make(struct points *p)
         p->color[i] = (uint8_t)(i * 73);
     p->rings = (struct points_rings){ p->entry + (2 * ROOM - 1), p->last, (1u << 22) / 40u, &p->count, smear_recip_seed };
 #if SCAN_STORES
-    p->records = (struct scan_records){ &p->rings, p->pool, &p->words, 1, 5 << 16, NULL };
+    p->words = BASE;
+    p->records = (struct scan_records){ &p->rings, p->pool, &p->words, BASE + 1, 5 << 16, NULL };
 #endif
 }
 
@@ -44,7 +45,7 @@ static uint32_t points_sum(const struct points *p, uint32_t sum)
         sum = ((sum * 31u + (e->x | (uint32_t)e->y << 16)) * 31u + (e->depth ^ (uint32_t)e->kind << 16)) * 31u + (e->color ^ e->next);
     }
 #if SCAN_STORES
-    for (int i = 0; i < 3 * ROOM * 5; i++)
+    for (int i = 0; i < BASE + 3 * ROOM * 5; i++)
         sum = sum * 31u + p->pool[i];
     sum = sum * 31u + p->words;
 #endif
@@ -125,9 +126,9 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
 #endif
 #if SCAN_STORES
     s.records = &points.records;
-    s.least = (c->word[LOOK] & 64u) != 0 ? INT32_MAX : (c->word[LOOK] & 128u) != 0 ? SCAN_POINTS + 1 : 1;
-    points.records.colors = (c->word[LOOK] & 256u) != 0 ? points.color : NULL;
-    if ((c->word[LOOK] & 512u) != 0 && s.rings == NULL)
+    s.least = (c->word[LOOK] & 4096u) != 0 ? INT32_MAX : (c->word[LOOK] & 8192u) != 0 ? SCAN_POINTS + 1 : 1;
+    points.records.colors = (c->word[LOOK] & 16384u) != 0 ? points.color : NULL;
+    if ((c->word[LOOK] & 32768u) != 0 && s.rings == NULL)
         s.color = NULL;
 #endif
     for (enum scan_end at = form(&s); at != SCAN_DONE; at = form(&s)) {
@@ -146,7 +147,8 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
             s.index += 3;
     }
     for (int i = 0; i < ENTRIES; i++)
-        sum = (sum * 31u + cache[i].tag) * 31u + (uint32_t)(cache[i].screen.x ^ cache[i].screen.y ^ cache[i].screen.depth ^ cache[i].now.w);
+        sum = ((sum * 31u + cache[i].tag) * 31u + cache[i].stored) * 31u
+            + (uint32_t)(cache[i].screen.x ^ cache[i].screen.y ^ cache[i].screen.depth ^ cache[i].now.w);
 #if FRONT_COVERS
     sum = points_sum(&points, sum * 31u + (uint32_t)s.room);
 #endif
