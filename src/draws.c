@@ -133,8 +133,7 @@ SMEAR_NOINLINE void smear_draws_find_layers(struct smear_context *c, const struc
 
 /* ------------------------------------------------------------------ an assembly */
 
-/* Velocity is measured from the open pose to the close pose, or to now. Where the drawn instant is the later pose
- * itself, one further pose is enough. */
+/* Velocity is measured from the open pose to the close pose, or to now: one further pose is enough where that is drawn. */
 static void add_motion(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p,
                        const struct smear_instant *instant)
 {

@@ -15,7 +15,8 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
-#if !defined(__OPTIMIZE_SIZE__) && UINTPTR_MAX <= 0xffffffffu
+/* Where words have 32 bits. */
+#if !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && UINTPTR_MAX <= 0xffffffffu
 #define LENGTHS_ARE_SHORT 1
 #else
 #define LENGTHS_ARE_SHORT 0
