@@ -603,10 +603,8 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
             loops = suits && at_once && tiny_loop(&triangles, &look, &points, frame->bins, g);
 #endif
         }
-        /* After one that is large, some are not even looked at. */
-        const bool looks = suits && (tiny || (number & 3u) == 0);
 #if TINY_TRIANGLES
-        if (loops && looks) {
+        if (loops && (tiny || (number & 3u) == 0)) {
             const uint32_t reached = tiny_triangles(&triangles, number);
             tiny = reached != number;
             if (tiny) {
@@ -617,8 +615,9 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
 #endif
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
+        /* After one that is large, some are not even looked at. */
         if (!loops)
-            tiny = looks && tiny_draw(&look, v, t->color);
+            tiny = suits && (tiny || (number & 3u) == 0) && tiny_draw(&look, v, t->color);
         if (!tiny)
             draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }
