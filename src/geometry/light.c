@@ -15,14 +15,7 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
-/* Where words have 32 bits. */
-#if !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && UINTPTR_MAX <= 0xffffffffu
-#define LENGTHS_ARE_SHORT 1
-#else
-#define LENGTHS_ARE_SHORT 0
-#endif
-
-#if LENGTHS_ARE_SHORT
+#if SMEAR_LIGHT_IS_DEAR
 /* Returns floor(sqrt(x)), exactly, of 33 to 48 bits: as sqrt_floor_64, in half of the precision. Normals have so many. */
 static inline uint32_t sqrt_floor_48(uint64_t x)
 {
@@ -53,7 +46,7 @@ static SMEAR_RARE uint32_t length_of_any(uint64_t square)
 /* This file has one copy, whose name linker scripts can choose for fast memory. */
 static SMEAR_RARE uint32_t length_from(uint64_t square)
 {
-#if LENGTHS_ARE_SHORT
+#if SMEAR_LIGHT_IS_DEAR
     return square >> 48 == 0 && square >> 32 != 0 ? sqrt_floor_48(square) : length_of_any(square);
 #else
     return sqrt_floor_64(square);
@@ -142,7 +135,9 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *m, bool has_normals, bool linear, const struct smear_sun *sun)
 {
+#if SMEAR_LIGHT_IS_DEAR
     s->last = NULL;
+#endif
     s->sun = sun;
     s->linear = linear;
     s->lit = !m->unlit;
@@ -230,7 +225,7 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
 /* The same of a face, whose normal may be that of the face before. */
 static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32_t n[3])
 {
-#ifndef __OPTIMIZE_SIZE__
+#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit *const last = s->last;
     if (last != NULL && n[0] == last->normal[0] && n[1] == last->normal[1] && n[2] == last->normal[2])
         return last->cosine;

@@ -17,6 +17,13 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
+/* Where words have 32 bits, a face's light takes longer than asking whether the face before has the same. */
+#if !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && UINTPTR_MAX <= 0xffffffffu
+#define SMEAR_LIGHT_IS_DEAR 1
+#else
+#define SMEAR_LIGHT_IS_DEAR 0
+#endif
+
 /* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
 struct smear_lit {
     int32_t normal[3];              /* of any length; INT32_MAX first: none */
@@ -36,7 +43,9 @@ struct smear_shading {
     bool linear;                    /* working values: linear light, else sRGB codes */
     bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
+#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit *last;         /* or null */
+#endif
 };
 
 static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }

@@ -146,7 +146,7 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
         store_color(record + s->color, v->color);
 }
 
-#ifndef __OPTIMIZE_SIZE__
+#if SMEAR_LIGHT_IS_DEAR
 static inline bool same_color(const uint8_t *a, const uint8_t *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
@@ -159,7 +159,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
     struct smear_color color;
-#ifndef __OPTIMIZE_SIZE__
+#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit *const last = d->shading.last;
     const bool is_plain = last != NULL && face->vertex_color == NULL && face->color != NULL;
     if (is_plain && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, face->color))
@@ -167,7 +167,7 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
 #endif
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
     const uint32_t packed = smear_color_pack(&color, shading_is_linear(&d->shading));
-#ifndef __OPTIMIZE_SIZE__
+#if SMEAR_LIGHT_IS_DEAR
     if (is_plain) {
         last->color = face->color;
         last->color_cosine = face->cosine;

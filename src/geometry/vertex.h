@@ -146,13 +146,15 @@ struct smear_assembly {
         struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];   /* shutter open and close */
     } motion;
     struct smear_shading shading;
+#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit lit;               /* of shading.last */
+#endif
 };
 
 /* Faces may take what was found of those before them: once the shading is made. */
 static inline void assembly_remember_light(struct smear_assembly *d)
 {
-#ifndef __OPTIMIZE_SIZE__
+#if SMEAR_LIGHT_IS_DEAR
     d->lit.normal[0] = INT32_MAX;
     d->lit.color = NULL;
     d->shading.last = &d->lit;
