@@ -17,7 +17,8 @@ struct demo_welded {
     uint16_t index[3 * WELD_TRIANGLES];
 };
 
-/* Gives a draw, which does not deform, a mesh that looks the same. False where it is too large. */
+/* Gives a draw, which does not deform and whose indices are all of vertices that it has, a mesh that
+ * looks the same. False where it is too large. */
 bool demo_weld(struct demo_welded *out, smear_draw *draw);
 
 #endif

@@ -309,14 +309,12 @@ static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
 #if FRONT_COVERS
     struct front_cover front;
     scan_fronts(&s, b, &front);
-#endif
-#if SCAN_STORES
     struct scan_records records;
     scan_stores(&s, b, &records);
 #endif
     for (;;) {
         bool added = true;
-#if SCAN_STORES
+#if FRONT_COVERS
         scan_segment(&records, b);
 #endif
         const enum scan_end at = scan_on(&s, b);

@@ -25,9 +25,7 @@ static void scan_fronts(struct triangle_scan *s, const struct batch *b, struct f
 #endif
     s->first = b->d->mesh->index;
 }
-#endif
 
-#if SCAN_STORES
 /* Scans store triangles whose vertices have a record of a place alone, or with a colour that needs no shading. */
 static void scan_stores(struct triangle_scan *s, const struct batch *b, struct scan_records *r)
 {

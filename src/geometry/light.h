@@ -17,13 +17,15 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
-/* Where words have 32 bits, a face's light takes longer than asking whether the face before has the same. */
+/* Where words have 32 bits, a face's light takes longer than asking whether the face before has the same, and roots of 64 bits take
+ * twice as long as those of 48. */
 #if !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && UINTPTR_MAX <= 0xffffffffu
 #define SMEAR_LIGHT_IS_DEAR 1
 #else
 #define SMEAR_LIGHT_IS_DEAR 0
 #endif
 
+#if SMEAR_LIGHT_IS_DEAR
 /* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
 struct smear_lit {
     int32_t normal[3];              /* of any length; INT32_MAX first: none */
@@ -31,6 +33,7 @@ struct smear_lit {
     const uint8_t *color;           /* of the face whose colour is `packed`; null: none */
     uint32_t color_cosine, packed;
 };
+#endif
 
 /* The light seen from a draw's object space. */
 struct smear_shading {

@@ -17,7 +17,7 @@ struct flat_rows {
     int32_t x0, x1;
     uint32_t z, dz, dz_down;        /* depth codes 16.16 at that pixel, and their steps */
     uint32_t color;
-    bool narrow, breaks;            /* the codes have their break in them: z is what flat_code takes (flat_face.h) */
+    bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes (flat_face.h) */
 };
 
 /* Draws pixels from one edge to before the other, if there are any, like flat_run. The edges go on by so many rows. */

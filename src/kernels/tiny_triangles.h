@@ -136,10 +136,7 @@ static SMEAR_NOINLINE uint32_t tiny_triangles_armv7em(struct tiny_triangles *t, 
                      "22: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_FLAT TINY_TRIANGLES_WIDE)
                      "23: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_SHADE_NARROW TINY_TRIANGLES_NARROW)
                      "24: " TINY_TRIANGLES_PIXELS(TINY_TRIANGLES_SHADE_WIDE TINY_TRIANGLES_WIDE)
-                     "8: ldr r1, [r0, #44]\n\t"
-                     "cmn r1, #1\n\t"
-                     "bne 1b\n\t"
-                     "b 9f\n"
+                         TINY_TRIANGLES_NEXT
                      "7: ldr r1, [r0, #40]\n"
                      "9:"
                      : "+r"(r0), "+r"(r1)

@@ -32,11 +32,8 @@ enum scan_end {
     SCAN_SLOW               /* before a triangle whose vertices have one place in the cache, or an index too many */
 };
 
-/* Triangles that do not become points are stored by the scan, with their vertices, where it pays. */
-#define SCAN_STORES TINY_COVER_KEEPS
-
-#if SCAN_STORES
-/* Where they go: a vertex has three words, and two of colour if there are `colors`. */
+#if FRONT_COVERS
+/* Where triangles go that do not become points, with their vertices: a vertex has three words, and two of colour if there are `colors`. */
 struct scan_records {
     const struct points_rings *rings;
     uint32_t *pool, *words;         /* of vertices; how many words of it are in use */
@@ -62,9 +59,9 @@ struct triangle_scan {
     struct front_cover *front;      /* of SCAN_FRONT, of which those that cover nothing pass; null: unknown */
     int32_t covered;                /* and how many pixels of it are covered */
     const struct points_rings *rings;   /* where those of up to SCAN_POINTS pixels go while there is room; null: nowhere */
-    const uint8_t *color;           /* of triangles then: red, green, blue and alpha of each; or null */
+    const uint8_t *color;           /* of triangles: red, green, blue and alpha of each; or null */
     const uint16_t *first;          /* their indices begin here */
-    int32_t room;                   /* triangles; goes down by those that became points */
+    int32_t room;                   /* triangles; goes down by those that became points or were stored */
 #endif
 #if SCAN_MIXES
     const uint8_t *vertex_color;    /* of vertices, where `color` is null: points mix them */
@@ -73,9 +70,9 @@ struct triangle_scan {
 #if !SMEAR_HAS_MUL64
     uint32_t side;                  /* a power of two: where x differs by less, areas have 32 bits (scan_side) */
 #endif
-#if SCAN_STORES
+#if FRONT_COVERS
     const struct scan_records *records;
-    int32_t least;                  /* triangles that cover so many pixels are stored while there is room */
+    int32_t least;                  /* triangles that cover so many pixels or more are stored while there is room */
 #endif
 };
 
@@ -162,7 +159,6 @@ static inline bool scan_points(struct triangle_scan *s, int32_t covered)
     return true;
 }
 
-#if SCAN_STORES
 /* Returns where in the segment a vertex lies, which it stores if it is new. */
 static inline uint32_t scan_stored(const struct scan_records *r, struct scan_vertex *v)
 {
@@ -195,14 +191,6 @@ static inline bool scan_store(struct triangle_scan *s, int32_t covered)
                 (struct point_entry){ (uint16_t)v0, (uint16_t)v1, (uint16_t)v2, (uint16_t)(v2 >> 16), 0, color });
     return true;
 }
-#else
-static inline bool scan_store(const struct triangle_scan *s, int32_t covered)
-{
-    (void)s;
-    (void)covered;
-    return false;
-}
-#endif
 #endif
 
 /* Takes one triangle, with vertices that are there. SCAN_DONE: it is not seen. */

@@ -64,8 +64,8 @@
     "muls r2, r3\n\t"       \
     "subs r1, r1, r2\n\t"
 
-/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 30, as entries for v[0] are found first. All low
- * registers are kept. */
+/* The vertex of the tag in r0, for the entry in r6, into the cache; then on to 30, as entries for v[0] are found first. r1 to r7
+ * are kept. */
 #define TRIANGLE_SCAN_FIND                                     \
     "16: push {r0, r1, r2, r3, r4, r5, r6, r7}\n\t"            \
     "mov r12, r0\n\t"                                          \

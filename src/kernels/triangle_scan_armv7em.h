@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* triangle_scan_armv7em.h - goes over a mesh's triangles on Cortex-M4: what they cover, and points that they become. */
+/* triangle_scan_armv7em.h - goes over a mesh's triangles on Cortex-M4: what they cover, points that they become, and
+ * where others are stored. */
 #ifndef SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 #define SMEAR_KERNELS_TRIANGLE_SCAN_ARMV7EM_H
 

@@ -338,7 +338,7 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     }
 }
 
-/* Whether a kernel draws rows that have no depth break. */
+/* Whether a kernel draws rows that have no depth break; others, too, where FLAT_ROWS_BREAKS. */
 #define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
 
 #if !FLAT_ROWS_BREAKS

@@ -41,7 +41,7 @@ struct kept_face {
 #if SMEAR_LANE_ROWS
 struct kept_texels {
     struct kept kept;
-    uint16_t draw;
+    uint16_t draw;              /* whose texture it is: a number in the frame's raster draws */
     struct texel_carried texels;
 };
 #endif

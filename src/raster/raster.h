@@ -27,8 +27,8 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
 
 #if SMEAR_AVX2
 /* Moves a list on to a tile row like smear_bins_advance(), where targets are rows of the frame's finished pixels, drawn one after
- * the other with this cache: triangles that are kept there may be taken out of the list, and are drawn with it all the same. The
- * other one puts them back, before other targets come. */
+ * the other with this cache (kept_list.c): triangles that are kept there may be taken out of the list, and are drawn with it all
+ * the same. The other one puts them back, before other targets come. */
 uint32_t smear_raster_advance(const struct smear_raster_frame *frame, const struct smear_raster_cache *cache, const uint32_t *last,
                               uint32_t head, int row);
 uint32_t smear_raster_rejoin(const struct smear_raster_frame *frame, const struct smear_raster_cache *cache, uint32_t head);

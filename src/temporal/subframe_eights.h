@@ -48,7 +48,7 @@ void smear_subframe_packs_make(struct subframe_packs *packs, const struct subfra
 
 void smear_subframe_eights_begin(struct subframe_eights *e, const struct subframes *f, int32_t time, struct subframe_box *all);
 
-/* Draws a pack of more than one triangle. */
+/* Draws a pack that has a segment. */
 void smear_subframe_eights_draw(struct subframe_eights *e, const struct subframe_pack *pack);
 
 /* Draws a triangle with a path, or has it wait. False where it has to be drawn alone, those before it have been drawn then. */

@@ -14,9 +14,9 @@ enum { RINGS = 4, ROOM = 7, BASE = 6 };
 struct points {
     struct point_entry entry[2 * ROOM];
     uint32_t last[RINGS], count;
-    uint8_t color[4 * 40 + 1];
+    uint8_t color[4 * 40 + 3];
     struct points_rings rings;
-#if SCAN_STORES
+#if FRONT_COVERS
     uint32_t pool[BASE + 3 * ROOM * 5], words;
     struct scan_records records;
 #endif
@@ -27,10 +27,10 @@ static void points_make(struct points *p)
     *p = (struct points){ .count = 0 };
     for (int i = 0; i < RINGS; i++)
         p->last[i] = UINT32_MAX;
-    for (int i = 0; i < 4 * 40 + 1; i++)
+    for (int i = 0; i < 4 * 40 + 3; i++)
         p->color[i] = (uint8_t)(i * 73);
     p->rings = (struct points_rings){ p->entry + (2 * ROOM - 1), p->last, (1u << 22) / 40u, &p->count, smear_recip_seed };
-#if SCAN_STORES
+#if FRONT_COVERS
     p->words = BASE;
     p->records = (struct scan_records){ &p->rings, p->pool, &p->words, BASE + 1, 5 << 16, NULL };
 #endif
@@ -44,7 +44,7 @@ static uint32_t points_sum(const struct points *p, uint32_t sum)
         const struct point_entry *const e = &p->entry[i];
         sum = ((sum * 31u + (e->x | (uint32_t)e->y << 16)) * 31u + (e->depth ^ (uint32_t)e->kind << 16)) * 31u + (e->color ^ e->next);
     }
-#if SCAN_STORES
+#if FRONT_COVERS
     for (int i = 0; i < BASE + 3 * ROOM * 5; i++)
         sum = sum * 31u + p->pool[i];
     sum = sum * 31u + p->words;
@@ -115,19 +115,19 @@ static void scan_by(struct kernel_call *c, enum scan_end (*form)(struct triangle
     points_make(&points);
     s.front = (c->word[LOOK] & 12u) != 0 ? &front : NULL;
     s.rings = (c->word[LOOK] & 48u) != 0 ? &points.rings : NULL;
-    s.color = points.color;
+    s.color = points.color + 2;
     s.first = index;
     s.room = ROOM;
 #endif
 #if SCAN_MIXES
-    s.color = (c->word[LOOK] & 64u) != 0 ? points.color : NULL;
+    s.color = (c->word[LOOK] & 64u) != 0 ? points.color + 2 : NULL;
     s.vertex_color = points.color + 1;
     s.even = (c->word[LOOK] & 128u) != 0;
 #endif
-#if SCAN_STORES
+#if FRONT_COVERS
     s.records = &points.records;
     s.least = (c->word[LOOK] & 4096u) != 0 ? INT32_MAX : (c->word[LOOK] & 8192u) != 0 ? SCAN_POINTS + 1 : 1;
-    points.records.colors = (c->word[LOOK] & 16384u) != 0 ? points.color : NULL;
+    points.records.colors = (c->word[LOOK] & 16384u) != 0 ? points.color + 3 : NULL;
     if ((c->word[LOOK] & 32768u) != 0 && s.rings == NULL)
         s.color = NULL;
 #endif

@@ -25,7 +25,8 @@ fi
 ${CC:-cc} $flags -c -o "$base/tapes.o" build/tapes/golden.c || exit 1
 
 # draws_alone NAME FLAGS...: for one switch nearly every source is another one, as it changes what structures hold. So all are
-# compiled together, in the one-file form, which also tells of functions that nobody calls. With less optimization calls would be
+# compiled together, in the one-file form, which also tells of functions that nobody calls; that each source is whole by itself is
+# shown by the sets. With less optimization calls would be
 # left of what is not there; inlined by force, all takes twice as long, and some looks uninitialized where it is not.
 quick="-O1 -DSMEAR_INLINE_FORCED=0 -Wall -Wextra -Wconversion -Wno-maybe-uninitialized -Werror"
 draws_alone() {
