@@ -3,8 +3,6 @@
 #ifndef EIGHTS_TEST_H
 #define EIGHTS_TEST_H
 
-#include <string.h>
-
 #include "geometry/transform.h"
 #include "kernels/poses.h"
 #include "raster/setup.h"
@@ -48,7 +46,7 @@ static inline void eight_make(struct poses *p, uint32_t *seed)
 {
     const int32_t guard = SMEAR_GUARD_PX << 8;
     p->seen = 0;
-    memset(p->record, 0, sizeof p->record);
+    __builtin_memset(p->record, 0, sizeof p->record);
     for (int k = 0; k < 8; k++) {
         const int32_t reach = 1 << eight_between(seed, 2, 19), step = 1 << eight_between(seed, 0, 25);
         const int32_t middle = (eight_next(seed) & 1u) != 0 ? SLOPE_BREAK : eight_between(seed, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
