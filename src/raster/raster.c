@@ -6,8 +6,7 @@
 #include "raster/cover_texels.h"
 #include "raster/cover_tiny8.h"
 #include "raster/fog.h"
-#include "raster/kept_list.h"
-#include "raster/kept_table.h"
+#include "raster/kept_found.h"
 #include "raster/span.h"
 #include "raster/tiny_list.h"
 
@@ -54,25 +53,6 @@ static inline bool has_levels(const struct setup *s)
 }
 
 #if SMEAR_KEPT_LISTS
-/* What is kept of a triangle that continues rows above the target's or goes on below them; null for others, and where there is
- * nothing. */
-static inline struct kept *find_kept(const struct smear_raster_target *target, uint32_t triangle, bool continues, bool goes_on,
-                                     bool *known)
-{
-    struct kept *const k = target->cache.entries != 0 && (continues || goes_on) ? kept_find(&target->cache, triangle) : NULL;
-    *known = k != NULL;
-    return k;
-}
-
-/* It has been taken. */
-static inline void leave_kept(const struct smear_raster_target *target, struct kept *k, bool goes_on)
-{
-    if (goes_on)
-        kept_pass(&target->cache, k);
-    else
-        kept_drop(&target->cache);
-}
-
 /* Whether the target's columns may cut a triangle's rows off. */
 static inline bool box_is_cut(const struct setup *s, const struct pixel_box *box)
 {
