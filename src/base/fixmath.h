@@ -126,7 +126,7 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 #elif UINTPTR_MAX > 0xffffffffu && SMEAR_HAS_MUL64
 /* Returns floor(sqrt(x)), exactly.
  *
- * Heron's rule, (r + n / r) / 2, for n in [2^62, 2^64): a table is within 2^-7, then errors of 2^-14 and 2^-29. What is left are
+ * Heron's rule, (r + n / r) / 2, for n in [2^62, 2^64): a table is within 2^-7, then errors of 2^-14 and 2^-28. What is left are
  * a few steps of x's own root. By two divisions, half the instructions of what others do. */
 SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 {
@@ -134,7 +134,7 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
         return 0;
     const int shift = count_leading_zeros_64(x) & ~1;
     const uint64_t n = x << shift;
-    uint32_t r16 = (uint32_t)smear_sqrt_q3[n >> 54] << 8;
+    uint32_t r16 = (uint32_t)smear_sqrt_q3[n >> 54] << 8 | 128;
     r16 = (r16 + (uint32_t)(n >> 32) / r16) >> 1;
     const uint64_t r32 = (uint64_t)r16 << 16;
     uint64_t r = (r32 + n / r32) >> (1 + (shift >> 1));
