@@ -17,9 +17,9 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
-/* Where words have 32 bits, a face's light takes longer than asking whether the face before has the same, and roots of 64 bits take
+/* On Cortex-M0+ and ARM7 a face's light takes longer than asking whether the face before has the same, and roots of 64 bits take
  * twice as long as those of 48. */
-#if !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && UINTPTR_MAX <= 0xffffffffu
+#if !defined(__OPTIMIZE_SIZE__) && (defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_4T__))
 #define SMEAR_LIGHT_IS_DEAR 1
 #else
 #define SMEAR_LIGHT_IS_DEAR 0
