@@ -35,7 +35,7 @@ static inline void pack_end(struct subframe_pack *pack, const struct smear_bins 
     for (int k = pack->count; k < 8; k++)
         __builtin_memcpy(pack->vertex[k], pack->vertex[0], sizeof pack->vertex[0]);
     take_vertices(&setup, g, pack->segment);
-    smear_poses_courses_avx2(&pack->courses, &setup, pack->vertex);
+    smear_poses_courses_avx2(&pack->courses, &setup, (const uint16_t(*)[4])pack->vertex);
 }
 
 /* The segment of a triangle that may be drawn with others; or null. */

@@ -104,7 +104,7 @@ build/fuzz/frames-gcc-O2: $(call host_objects,$(FRAMES_SRC))
 # Assembly for Cortex-M0 and M4 in programs for Linux, which are emulated. (Code for any address leaves it too few registers.)
 FUZZ_THUMB := arm-linux-gnueabihf-gcc -mthumb -static -fno-pic -O2 -DSMEAR_VECTORS=0
 $(eval $(call frames_build,armv6m,$(FUZZ_THUMB),-DSMEAR_ASM_ARMV6M=1 -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0))
-$(eval $(call frames_build,armv7em,$(FUZZ_THUMB),-DSMEAR_ASM_ARMV7EM=1))
+$(eval $(call frames_build,armv7em,$(FUZZ_THUMB) -march=armv7ve+fp,-DSMEAR_ASM_ARMV7EM=1))
 
 ## pictures of CASES=2000 cases from FIRST=1 by eleven builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 scalar")
 fuzz-builds: $(foreach build,$(or $(BUILDS),$(FUZZ_BUILDS)),build/fuzz/frames-$(build))
