@@ -7,22 +7,10 @@
 
 #if TINY_COVER_ARMV6M
 
-/* The least of A, B and C into A, the most into B; TEMP is a register for what changes places. */
+/* The first pixel that lies between A, B and C into A, how many there are into B. */
 #define ARMV6M_FRONT_ORDER(A, B, C, KEEP, FETCH) \
-    "cmp " A ", " B "\n\t"      \
-    "ble 1f\n\t" KEEP           \
-    "movs " A ", " B "\n\t" FETCH \
-    "1: cmp " C ", " A "\n\t"   \
-    "bge 2f\n\t"                \
-    "movs " A ", " C "\n\t"     \
-    "b 3f\n"                    \
-    "2: cmp " C ", " B "\n\t"   \
-    "ble 3f\n\t"                \
-    "movs " B ", " C "\n"       \
-    "3: adds " A ", #127\n\t"   \
-    "adds " B ", #127\n\t"      \
-    "asrs " A ", " A ", #8\n\t" \
-    "asrs " B ", " B ", #8\n\t" \
+    TINY_SPAN_ORDER(A, B, C, KEEP, FETCH)        \
+    TINY_SPAN_PIXELS(A, B)                       \
     "subs " B ", " B ", " A "\n\t"
 
 /* The box of the vertices r4, r7 and r5 point to, whose places lie 8 bytes further: its first pixel into r0 and r1, its size into r2
