@@ -38,7 +38,7 @@ pico() {
 # Other machines and other builds: what they share with this one's suites is built before.
 others() {
     targets
-    generated
+    forms
 }
 
 targets() {
@@ -111,6 +111,7 @@ targets() {
         suite target-s390x $make -s TARGET=s390x target-test
         suite demo-s390x $make -s TARGET=s390x demo-test
     fi
+    unset CALLS
 }
 
 # Files and frames of generators.
@@ -121,6 +122,21 @@ generated() {
     if m32 && needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
         suite fuzz-builds $make -s $jobs fuzz-builds CASES=300
     fi
+}
+
+# What others build the library from: its switches, packages, the one file.
+forms() {
+    suite switches $make -s switches-test
+    needs cmake "cmake" || true            # dist.sh builds packages with it
+    needs pkg-config "pkg-config" || true
+    needs arduino-builder "arduino-builder arduino-ctags" || true
+    needs zip "zip" || true
+    suite dist $make -s dist-test
+    # Compilers of the one file; dist_single.sh goes without those that are not here.
+    needs tcc "tcc" || true
+    needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" || true
+    suite dist-single $make -s dist-single-test
+    suite template $make -s template-test
 }
 
 [ -n "${SMEAR_ASSETS:-}" ] || [ -d ../shared/assets ] ||
@@ -177,17 +193,7 @@ if needs wasm-ld-14 "clang-14 lld-14" && needs llvm-ar-14 "llvm-14" && needs xz 
     suite target-wasm $make -s TARGET=wasm target-test
 fi
 suite golden-host $make -s TARGET=host target-test
-suite switches $make -s switches-test
-needs cmake "cmake" || true            # dist.sh builds packages with it
-needs pkg-config "pkg-config" || true
-needs arduino-builder "arduino-builder arduino-ctags" || true
-needs zip "zip" || true
-suite dist $make -s dist-test
-# Compilers of the one file; dist_single.sh goes without those that are not here.
-needs tcc "tcc" || true
-needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" || true
-suite dist-single $make -s dist-single-test
-suite template $make -s template-test
+generated
 if needs frama-c "frama-c-base"; then
     suite proofs $make -s proofs STEP=7
 fi

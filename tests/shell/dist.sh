@@ -11,8 +11,9 @@ base=$PWD/build/dist-test
 version=$(sh tools/dist/version.sh)
 rm -rf "$base"
 mkdir -p "$base"
-# The library is compiled once for all projects that want it alike. Those of boards do without what boards do not have.
-board_flags=-DSMEAR_AVX2=0
+# The library is compiled once for all projects that want it alike. Those of boards, which have flags in common therefore, do
+# without what boards do not have.
+board_flags="-O1 -Wall -Wextra -Werror -DSMEAR_AVX2=0"
 SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
 CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
 export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
@@ -98,7 +99,8 @@ claim "idf_component.yml" idf_manifest
 mkdir -p "$base/plain"
 cp tests/examples/stand_ins/plain.h "$base/plain/display.h"
 plain_panel() {
-    ${CC:-cc} -std=c11 -O1 $board_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples -o "$base/plain/program" \
+    # shellcheck disable=SC2086
+    ${CC:-cc} -std=c11 $board_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples -o "$base/plain/program" \
         tests/examples/flush.c "$dist/single/smear/smear.c" && "$base/plain/program" >"$base/plain/panel"
 }
 claim "one file, on a panel" plain_panel
@@ -114,7 +116,7 @@ END
 cat >"$board/platform.txt" <<END
 name=This machine
 version=1.0.0
-compiler.flags=-O1 -Wall -Wextra -Werror $board_flags -DARDUINO={runtime.ide.version}
+compiler.flags=$board_flags -DARDUINO={runtime.ide.version}
 recipe.c.o.pattern=sh "$PWD/tests/shell/launch_cached.sh" ${CC:-cc} -std=gnu11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.cpp.o.pattern=${CXX:-c++} -std=gnu++11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.ar.pattern=ar rcs "{archive_file_path}" "{object_file}"
@@ -172,7 +174,7 @@ example() {
     objects=$base/platformio
     mkdir -p "$objects" && find "$dist/platformio/smear/src" -name '*.c' | xargs -P 2 -I{} sh -c '
         object=$1/$(echo "$2" | cksum | tr " " -).o
-        sh tests/shell/launch_cached.sh $3 -std=gnu11 -O1 -Wall -Wextra -Werror $4 -I"$5/include" -I"$5/src" -o "$object" -c "$2"' \
+        sh tests/shell/launch_cached.sh $3 -std=gnu11 $4 -I"$5/include" -I"$5/src" -o "$object" -c "$2"' \
         sh "$objects" {} "${CC:-cc}" "$board_flags" "$dist/platformio/smear" &&
         ${CC:-cc} -std=gnu11 -I"$dist/platformio/smear/include" -o "$base/example" "$dist/platformio/smear/examples/plain/src/main.c" \
             "$objects"/*.o && "$base/example" >"$base/example.ppm"
@@ -202,10 +204,12 @@ fi
 # ---------------------------------------------------------------------- CMake, and what is built on it
 
 if command -v cmake >/dev/null 2>&1; then
-    # project NAME: configures and builds out/NAME, whose program draws the example's picture
+    # project NAME: configures and builds out/NAME, whose program draws the example's picture. That it is a release where nobody
+    # says otherwise is shown by its commands, below: one build with all optimization is fuzz-builds' part.
     project() {
         cp "$dist/platformio/smear/examples/plain/src/main.c" "$base/$1/main.c"
-        cmake -S "$base/$1" -B "$base/$1/build" -DCMAKE_PREFIX_PATH="$base/prefix" && cmake --build "$base/$1/build" -j2 &&
+        cmake -S "$base/$1" -B "$base/$1/build" -DCMAKE_PREFIX_PATH="$base/prefix" -DCMAKE_BUILD_TYPE=Debug &&
+            cmake --build "$base/$1/build" -j2 &&
             "$base/$1/build/program" >"$base/$1/picture.ppm" && cmp "$base/$1/picture.ppm" "$base/example.ppm"
     }
     mkdir -p "$base/subdirectory" "$base/package" "$base/esp-idf" "$base/zephyr" "$base/pico-sdk" "$base/fetch"
@@ -218,8 +222,8 @@ target_link_libraries(program smear::smear)
 END
     claim "cmake: add_subdirectory" project subdirectory
     package() {
-        cmake -S "$dist/cmake/smear" -B "$base/cmake" -DCMAKE_INSTALL_PREFIX="$base/prefix" && cmake --build "$base/cmake" -j2 &&
-            cmake --install "$base/cmake" && project package
+        cmake -S "$dist/cmake/smear" -B "$base/cmake" -DCMAKE_INSTALL_PREFIX="$base/prefix" -DCMAKE_BUILD_TYPE=Debug &&
+            cmake --build "$base/cmake" -j2 && cmake --install "$base/cmake" && project package
     }
     cat >"$base/package/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
@@ -229,6 +233,11 @@ add_executable(program main.c)
 target_link_libraries(program smear::smear)
 END
     claim "cmake: find_package" package
+    release() {
+        cmake -S "$dist/cmake/smear" -B "$base/release" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON &&
+            has "$base/release/compile_commands.json" '-O3 .*/crc32\.c'
+    }
+    claim "cmake: a release, where nobody says otherwise" release
 
     cat >"$base/fetch/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.14)
