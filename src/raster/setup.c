@@ -6,9 +6,17 @@
  * how long blocks are, is decided here, by bounds of their errors. */
 #include "raster/setup.h"
 
+#include "kernels/gradient.h"
 #include "raster/fog.h"
 
 /* ------------------------------------------------------------------ gradients */
+
+#if GRADIENT_ARMV6M
+SMEAR_STATIC_ASSERT(offsetof(struct setup, y1) == offsetof(struct setup, x1) + 4
+                        && offsetof(struct setup, x2) == offsetof(struct setup, x1) + 8
+                        && offsetof(struct setup, y2) == offsetof(struct setup, x1) + 12,
+                    "the assembly knows the edges");
+#endif
 
 /* Products of 64 bits: where the core has none, from two of 32. */
 static inline int64_t product(int32_t a, int32_t b)
@@ -42,10 +50,10 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 #endif
 }
 
-/* (n 256 / area) 2^shift with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of
- * an attribute that changes by a1 and a2 along the two edges; to nearest, clamped.
- * recip: 1 / area, or that times a mantissa. */
-static int32_t gradient(int64_t n, uint32_t recip, int shift)
+#if !GRADIENT_ARMV6M
+/* n 256 / area with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1 and a2 along the two
+ * edges; to nearest, clamped. recip: 2^61 / area, whose highest bit was shifted up by so many zeros. */
+static int32_t gradient(int64_t n, uint32_t recip, int area_zeros)
 {
     if (n == 0)
         return 0;
@@ -67,20 +75,25 @@ static int32_t gradient(int64_t n, uint32_t recip, int shift)
 #endif
     int32_t top = (int32_t)(high >> 1);
     int32_t g = mulh_i32(top, (int32_t)recip);
-    g = scale_sat(g, clamp_i32(shift - zeros - 20, -31, 31));
+    g = scale_sat(g, clamp_i32(area_zeros - zeros - 20, -31, 31));
     return n < 0 ? -g : g;
 }
+#endif
 
-/* Slopes from the differences along the two edges, times 2^shift; none beyond `steep`: a plane so steep has
- * no exact pixels, its triangle is a sliver. */
-static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int32_t d2, uint32_t recip,
-                         int shift, int32_t steep)
+/* Slopes from the differences along the two edges; none beyond `steep`: a plane so steep has no exact pixels, its triangle is a
+ * sliver. */
+static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int32_t d2, int32_t steep)
 {
     p->dx = p->dy = 0;
     if ((d1 | d2) == 0)
         return;
-    int32_t dx = gradient(cross(d1, s->y2, d2, s->y1), recip, s->area_zeros + shift);
-    int32_t dy = gradient(cross(d2, s->x1, d1, s->x2), recip, s->area_zeros + shift);
+#if GRADIENT_ARMV6M
+    const uint64_t both = gradients_armv6m(&s->x1, d1, d2, s->area_recip, s->area_zeros);
+    const int32_t dx = (int32_t)(uint32_t)both, dy = (int32_t)(uint32_t)(both >> 32);
+#else
+    const int32_t dx = gradient(cross(d1, s->y2, d2, s->y1), s->area_recip, s->area_zeros);
+    const int32_t dy = gradient(cross(d2, s->x1, d1, s->x2), s->area_recip, s->area_zeros);
+#endif
     if (dx <= steep && dx >= -steep && dy <= steep && dy >= -steep) {
         p->dx = dx;
         p->dy = dy;
@@ -104,7 +117,7 @@ static void plane_place(const struct setup *s, struct plane *p, int32_t a0)
 
 void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2)
 {
-    plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), s->area_recip, 0, 1 << 28);
+    plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), 1 << 28);
     plane_place(s, p, a0);
 }
 
@@ -290,8 +303,7 @@ static void setup_affine(struct setup *s, const struct corners *k)
             if (!t->turns)
                 a[j] = smear_sampler_texel(&s->draw->sampler, i, a[j]);
         }
-        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), s->area_recip, 0,
-                     INT32_MAX - 1);
+        plane_slopes(s, &t->uv[i], sub_wrap(a[1], a[0]), sub_wrap(a[2], a[0]), INT32_MAX - 1);
         plane_place(s, &t->uv[i], a[0]);
     }
 }
@@ -413,7 +425,7 @@ static void setup_divided(struct setup *s, const struct corners *k)
     int32_t q[3];
     for (int i = 0; i < 3; i++)
         q[i] = k->q[i] << up;
-    plane_slopes(s, &t->q, q[1] - q[0], q[2] - q[0], s->area_recip, 0, INT32_MAX - 1);
+    plane_slopes(s, &t->q, q[1] - q[0], q[2] - q[0], INT32_MAX - 1);
     plane_place(s, &t->q, q[0]);
     t->shift = (int8_t)(20 - s->draw->sampler.uv_shift);
     t->slope = clamp_i32(t->q.dx, -(1 << 24) + 1, (1 << 24) - 1) * 128;

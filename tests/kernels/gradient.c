@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/* gradient.c - how check_kernels calls kernels/gradient.h: differences along the edges of triangles of all sizes, as plane_slopes of
+ * raster/setup.c does. */
+#include "kernels/gradient.h"
+
+#include "tests/kernels/kernels.h"
+
+#include "base/fixmath.h"
+
+enum { X1, Y1, X2, Y2, D1, D2, RECIP, ZEROS, WORDS };
+
+/* A number of up to so many bits, and a sign. */
+static int32_t number(int bits)
+{
+    const int32_t size = (int32_t)(kernel_random() & ((2u << kernel_between(0, bits - 1)) - 1u));
+    return (kernel_random() & 1u) != 0 ? -size : size;
+}
+
+static void prepare(struct kernel_call *c)
+{
+    for (int32_t i = 0; i < c->n; i++) {
+        int32_t *word = (int32_t *)c->plane[0] + WORDS * i;
+        const int bits = (kernel_random() & 3u) == 0 ? 20 : 15;
+        for (int k = X1; k <= Y2; k++)
+            word[k] = number(bits);
+        int64_t area = (int64_t)word[X1] * word[Y2] - (int64_t)word[X2] * word[Y1];
+        if (area == 0) {
+            word[X1] = word[Y2] = 1 << kernel_between(0, bits - 1);
+            word[X2] = 0;
+            area = (int64_t)word[X1] * word[X1];
+        } else if (area < 0) {
+            word[X1] = -word[X1];
+            word[X2] = -word[X2];
+            area = -area;
+        }
+        word[D1] = number(31);
+        word[D2] = (kernel_random() & 7u) == 0 ? word[D1] : number(31);
+        word[ZEROS] = count_leading_zeros_64((uint64_t)area);
+        word[RECIP] = (int32_t)recip_norm_precise((uint32_t)((uint64_t)area << word[ZEROS] >> 32));
+    }
+}
+
+/* n 2^8 / area to nearest, in so many of its bits as 31 hold. */
+static int32_t gradient(int64_t n, uint32_t recip, int area_zeros)
+{
+    if (n == 0)
+        return 0;
+    const uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
+    const int zeros = count_leading_zeros_64(size);
+    const int32_t g = mulh_i32((int32_t)(size << zeros >> 33), (int32_t)recip);
+    const int32_t scaled = scale_sat(g, clamp_i32(area_zeros - zeros - 20, -31, 31));
+    return n < 0 ? -scaled : scaled;
+}
+
+static void reference(struct kernel_call *c)
+{
+    int32_t *out = c->plane[1];
+    for (int32_t i = 0; i < c->n; i++) {
+        const int32_t *w = (const int32_t *)c->plane[0] + WORDS * i;
+        out[2 * i] = gradient((int64_t)w[D1] * w[Y2] - (int64_t)w[D2] * w[Y1], (uint32_t)w[RECIP], w[ZEROS]);
+        out[2 * i + 1] = gradient((int64_t)w[D2] * w[X1] - (int64_t)w[D1] * w[X2], (uint32_t)w[RECIP], w[ZEROS]);
+    }
+}
+
+#if GRADIENT_ARMV6M
+static void armv6m(struct kernel_call *c)
+{
+    int32_t *out = c->plane[1];
+    for (int32_t i = 0; i < c->n; i++) {
+        const int32_t *w = (const int32_t *)c->plane[0] + WORDS * i;
+        const uint64_t both = gradients_armv6m(w, w[D1], w[D2], (uint32_t)w[RECIP], w[ZEROS]);
+        out[2 * i] = (int32_t)(uint32_t)both;
+        out[2 * i + 1] = (int32_t)(uint32_t)(both >> 32);
+    }
+}
+#endif
+
+extern const struct kernel kernels_gradient[];
+const struct kernel kernels_gradient[] = {
+    { .name = "gradient", .most = 28, .size = { 4 * WORDS, 8 }, .align = { 4, 4 }, .prepare = prepare, .timed = 24,
+      .form = { { "reference", reference },
+#if GRADIENT_ARMV6M
+                { "armv6m", armv6m },
+#endif
+      } },
+    { .name = NULL }
+};
