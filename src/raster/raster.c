@@ -5,6 +5,7 @@
 
 #include "raster/cover_texels.h"
 #include "raster/cover_tiny8.h"
+#include "raster/flat_list.h"
 #include "raster/fog.h"
 #include "raster/kept_found.h"
 #include "raster/span.h"
@@ -560,6 +561,9 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
     struct points_plane points;
     const bool at_once = tiny_points(&points, frame, target), narrow = target_is_direct(target);
     bool loops = false;         /* tiny_loop draws */
+#if SMEAR_FLAT_LIST
+    const bool whole = target->x0 <= 0 && target->x1 >= frame->width;
+#endif
 #if TINY_TRIANGLES
     struct tiny_triangles triangles;
 #endif
@@ -598,8 +602,13 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         /* After one that is large, some are not even looked at. */
         if (!loops)
             tiny = suits && (tiny || (number & 3u) == 0) && tiny_draw(&look, v, t->color);
-        if (!tiny)
-            draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
+        if (tiny)
+            continue;
+#if SMEAR_FLAT_LIST
+        if (suits && !look.box.shaded && smear_flat_triangle(target, v, t->color, whole))
+            continue;
+#endif
+        draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }
 }
 #endif

@@ -8,6 +8,7 @@
 
 #include "kernels/gradient.h"
 #include "raster/fog.h"
+#include "raster/gradient.h"
 
 /* ------------------------------------------------------------------ gradients */
 
@@ -17,29 +18,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct setup, y1) == offsetof(struct setup, x1) + 4
                         && offsetof(struct setup, y2) == offsetof(struct setup, x1) + 12,
                     "the assembly knows the edges");
 #endif
-
-/* Products of 64 bits: where the core has none, from two of 32. */
-static inline int64_t product(int32_t a, int32_t b)
-{
-#if SMEAR_HAS_MUL64
-    return (int64_t)a * b;
-#else
-    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
-#endif
-}
-
-/* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
-static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
-{
-#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
-    if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
-        int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
-        int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
-        return ((int64_t)low1 - low2) + (int64_t)((uint64_t)(int64_t)high << 16);
-    }
-#endif
-    return product(a, b) - product(c, d);
-}
 
 static inline uint64_t product_u32(uint32_t a, uint32_t b)
 {
@@ -51,33 +29,7 @@ static inline uint64_t product_u32(uint32_t a, uint32_t b)
 }
 
 #if !GRADIENT_ARMV6M
-/* n 256 / area with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1 and a2 along the two
- * edges; to nearest, clamped. recip: 2^61 / area, whose highest bit was shifted up by so many zeros. */
-static int32_t gradient(int64_t n, uint32_t recip, int area_zeros)
-{
-    if (n == 0)
-        return 0;
-    uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
-    int zeros;                                              /* n = top 2^(33 - zeros) */
-#if UINTPTR_MAX > 0xffffffffu || SMEAR_ONE_COPY
-    zeros = count_leading_zeros_64(size);
-    uint32_t high = (uint32_t)(size << zeros >> 32);
-#else
-    uint32_t high = (uint32_t)(size >> 32), low = (uint32_t)size;
-    if (high != 0) {
-        zeros = count_leading_zeros(high);
-        high = high << zeros | low >> 1 >> (31 - zeros);
-    } else {
-        zeros = count_leading_zeros(low);
-        high = low << zeros;
-        zeros += 32;
-    }
-#endif
-    int32_t top = (int32_t)(high >> 1);
-    int32_t g = mulh_i32(top, (int32_t)recip);
-    g = scale_sat(g, clamp_i32(area_zeros - zeros - 20, -31, 31));
-    return n < 0 ? -g : g;
-}
+static int32_t gradient(int64_t n, uint32_t recip, int area_zeros) { return gradient_of(n, recip, area_zeros); }
 #endif
 
 /* Slopes from the differences along the two edges; none beyond `steep`: a plane so steep has no exact pixels, its triangle is a
@@ -100,24 +52,18 @@ static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int
     }
 }
 
-/* (frac q8) x slope / 256, exact floor without a wide product. */
-static inline int32_t part_of(int32_t slope, int32_t frac)
-{
-    return mul_wrap(slope >> 8, frac) + ((slope & 255) * frac >> 8);
-}
-
 /* Value a0 at v[0]: to the pixel whose centre is nearest to it, then back to the origin, wrapping. */
 static void plane_place(const struct setup *s, struct plane *p, int32_t a0)
 {
     int32_t x = s->v[0][VERTEX_X] >> 8, y = s->v[0][VERTEX_Y] >> 8;
     int32_t fx = 128 - (s->v[0][VERTEX_X] & 255), fy = 128 - (s->v[0][VERTEX_Y] & 255);
-    int32_t here = add_wrap(a0, add_wrap(part_of(p->dx, fx), part_of(p->dy, fy)));
+    int32_t here = add_wrap(a0, add_wrap(slope_part(p->dx, fx), slope_part(p->dy, fy)));
     p->at = sub_wrap(here, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
 void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2)
 {
-    plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), 1 << 28);
+    plane_slopes(s, p, sub_wrap(a1, a0), sub_wrap(a2, a0), PLANE_STEEP);
     plane_place(s, p, a0);
 }
 
@@ -353,7 +299,7 @@ static bool curve_make(struct setup *s, const struct weights *w, const struct de
     const int32_t dx = weighed(w, w->dx, d1, d2), dy = weighed(w, w->dy, d1, d2);
     if ((magnitude_i32(dx) | magnitude_i32(dy)) >> (12 + m->uv_shift) != 0)
         return false;           /* a quarter turn per pixel */
-    const int32_t here = a0 + part_of(dx, e->fx) + part_of(dy, e->fy);
+    const int32_t here = a0 + slope_part(dx, e->fx) + slope_part(dy, e->fy);
     int32_t value[6] = {
         middle * 16384 + here - mulh_i32(here, e->at),
         dx - mulh_i32(dx, e->at) - mulh_i32(here, e->dx), dy - mulh_i32(dy, e->at) - mulh_i32(here, e->dy),
@@ -400,8 +346,8 @@ static bool setup_curved(struct setup *s, const struct corners *k, uint32_t trav
             e.vertex[i] += (mulh_i32(shl_wrap(k->q[i] - (int32_t)middle, up), recip) + 0x2000) >> 14;
         e.dx = mulh_i32(shl_wrap(s->depth.dx, up), recip) * 16;
         e.dy = mulh_i32(shl_wrap(s->depth.dy, up), recip) * 16;
-        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + part_of(e.dx, e.fx)
-             + part_of(e.dy, e.fy);
+        e.at = mulh_i32(shl_wrap(k->q[0] - (int32_t)middle, up), recip) * 16 + slope_part(e.dx, e.fx)
+             + slope_part(e.dy, e.fy);
         e.at -= (int32_t)(square * 3u);
     }
     struct weights w;

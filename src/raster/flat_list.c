@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/* flat_list.c - triangles of one colour, from vertices to rows. */
+#include "raster/flat_list.h"
+
+#include "kernels/flat_rows_armv6m.h"
+#include "kernels/flat_rows_armv7em.h"
+#include "kernels/gradient.h"
+#include "raster/cover_tiny.h"
+#include "raster/gradient.h"
+
+#if SMEAR_FLAT_LIST
+
+/* Vertices from the top down, and the rows that begin there. The long side, from the first to the last, is the left one or not. */
+struct corners_down {
+    const int32_t *top, *middle, *bottom;
+    int32_t first, knee, end;
+    bool long_is_left;
+};
+
+/* The first row whose centres lie below. */
+static inline int32_t row_below(const int32_t *v) { return (v[VERTEX_Y] + 127) >> 8; }
+
+static inline void corners_sort(struct corners_down *c, const int32_t *const v[3])
+{
+    const int32_t *top = v[0], *middle = v[1], *bottom = v[2], *swap;
+    bool long_is_left = true; /* clockwise from the top; each swap turns the triangle over */
+    if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+        swap = top;
+        top = middle;
+        middle = swap;
+        long_is_left = false;
+    }
+    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) {
+        swap = middle;
+        middle = bottom;
+        bottom = swap;
+        long_is_left = !long_is_left;
+        if (middle[VERTEX_Y] < top[VERTEX_Y]) {
+            swap = top;
+            top = middle;
+            middle = swap;
+            long_is_left = !long_is_left;
+        }
+    }
+    *c = (struct corners_down){ top, middle, bottom, row_below(top), row_below(middle), row_below(bottom), long_is_left };
+}
+
+/* Columns of its box. */
+struct columns {
+    int32_t left, right;
+};
+
+static inline struct columns columns_of(const int32_t *const v[3])
+{
+    const int32_t x0 = v[0][VERTEX_X], x1 = v[1][VERTEX_X], x2 = v[2][VERTEX_X];
+    return (struct columns){ (min_i32(x0, min_i32(x1, x2)) + 127) >> 8, (max_i32(x0, max_i32(x1, x2)) + 127) >> 8 };
+}
+
+/* Whether it is drawn by the weights of its vertices. */
+static SMEAR_NOINLINE bool is_tiny(const int32_t *const v[3], int32_t rows)
+{
+    const struct columns c = columns_of(v);
+    return c.right - c.left <= SMALL_PX && (c.right - c.left) * rows <= TINY_PIXELS;
+}
+
+/* Whether no column of its box is one of the target's. */
+static SMEAR_NOINLINE bool is_beside(const struct smear_raster_target *t, const int32_t *const v[3])
+{
+    const struct columns c = columns_of(v);
+    return max_i32(c.left, t->x0) >= min_i32(c.right, t->x1);
+}
+
+/* How depths change, as smear_setup has it. */
+struct depth_slopes {
+    int32_t dx, dy;
+};
+
+static inline struct depth_slopes depth_slopes_of(const int32_t *const v0, const int32_t *const v1, const int32_t *const v2)
+{
+    const int32_t d1 = v1[VERTEX_DEPTH] - v0[VERTEX_DEPTH], d2 = v2[VERTEX_DEPTH] - v0[VERTEX_DEPTH];
+    if ((d1 | d2) == 0)
+        return (struct depth_slopes){ 0, 0 };
+    const int32_t x1 = v1[VERTEX_X] - v0[VERTEX_X], y1 = v1[VERTEX_Y] - v0[VERTEX_Y];
+    const int32_t x2 = v2[VERTEX_X] - v0[VERTEX_X], y2 = v2[VERTEX_Y] - v0[VERTEX_Y];
+    const uint64_t area = edges_area(x1, y1, x2, y2);
+    const int zeros = count_leading_zeros_64(area);
+    const uint32_t recip = recip_norm_precise((uint32_t)(area << zeros >> 32));
+#if GRADIENT_ARMV6M
+    const int32_t edges[] = { x1, y1, x2, y2 };
+    const uint64_t both = gradients_armv6m(edges, d1, d2, recip, zeros);
+    const int32_t dx = (int32_t)(uint32_t)both, dy = (int32_t)(uint32_t)(both >> 32);
+#else
+    const int32_t dx = gradient_of(cross(d1, y2, d2, y1), recip, zeros);
+    const int32_t dy = gradient_of(cross(d2, x1, d1, x2), recip, zeros);
+#endif
+    if ((uint32_t)dx + PLANE_STEEP > 2u * PLANE_STEEP || (uint32_t)dy + PLANE_STEEP > 2u * PLANE_STEEP)
+        return (struct depth_slopes){ 0, 0 };
+    return (struct depth_slopes){ dx, dy };
+}
+
+/* Codes from row y on. */
+static inline void codes_make(struct flat_rows *r, const int32_t *const v[3], int32_t y)
+{
+    const struct depth_slopes d = depth_slopes_of(v[0], v[1], v[2]);
+    const int32_t vx = v[0][VERTEX_X], vy = v[0][VERTEX_Y];
+    const int32_t q0 = v[0][VERTEX_DEPTH], q1 = v[1][VERTEX_DEPTH], q2 = v[2][VERTEX_DEPTH];
+    const int32_t here = add_wrap(q0, add_wrap(slope_part(d.dx, 128 - (vx & 255)), slope_part(d.dy, 128 - (vy & 255))));
+    const int32_t units = add_wrap(here, sub_wrap(mul_wrap(d.dy, y - (vy >> 8)), mul_wrap(d.dx, vx >> 8)));
+    const bool near0 = q0 >= SLOPE_BREAK, near1 = q1 >= SLOPE_BREAK, near2 = q2 >= SLOPE_BREAK;
+    r->breaks = near0 != near1 || near0 != near2;
+    if (r->breaks) {
+        r->z = (uint32_t)units - FLAT_BREAK;
+        r->dz = (uint32_t)d.dx;
+        r->dz_down = (uint32_t)d.dy;
+        return;
+    }
+    const enum depth_slope slope = near0 ? SLOPE_NEAR : SLOPE_FAR;
+    r->z = code_from_units(units, slope);
+    r->dz = (uint32_t)step_from_units(d.dx, slope);
+    r->dz_down = (uint32_t)step_from_units(d.dy, slope);
+}
+
+static SMEAR_NOINLINE void side_begin(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y) { edge_start(e, a, b, y); }
+
+/* Draws rows [y, end), of which those before the knee lie at one short side. */
+static inline void draw_rows(const struct smear_raster_target *t, struct flat_rows *rows, const struct corners_down *c, int32_t y,
+                             int32_t end)
+{
+    const struct smear_plane_rows *const w = &t->window_rows;
+    struct edge_walk side[2];
+    struct edge_walk *const whole = &side[c->long_is_left ? 0 : 1], *const part = &side[c->long_is_left ? 1 : 0];
+    int32_t stop = y, ring_row = w->ring_row + (y - t->y0);
+    if (ring_row >= w->ring)
+        ring_row -= w->ring;
+    side_begin(whole, c->top, c->bottom, y);
+    for (; y < end; y += rows->rows) {
+        if (y == stop) {
+            const bool upper = y < c->knee;
+            side_begin(part, upper ? c->top : c->middle, upper ? c->middle : c->bottom, y);
+            stop = upper ? min_i32(c->knee, end) : end;
+        }
+        const int32_t at = ring_row * w->stride - w->x0;
+        rows->rows = min_i32(stop - y, w->ring - ring_row);
+        rows->pixels = rows->narrow ? (void *)(t->direct + at) : t->color + at;
+        rows->depth = t->depth + at;
+#if SMEAR_ASM_ARMV6M
+        flat_rows_armv6m(rows, &side[0], &side[1]);
+#else
+        flat_rows_armv7em(rows, &side[0], &side[1]);
+#endif
+        rows->z += rows->dz_down * (uint32_t)rows->rows;
+        ring_row += rows->rows;
+        if (ring_row == w->ring)
+            ring_row = 0;
+    }
+}
+
+bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, bool whole)
+{
+    struct corners_down c;
+    corners_sort(&c, v);
+    const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
+    if (c.end - c.first <= SMALL_PX && is_tiny(v, c.end - c.first))
+        return false;
+    if (y >= end || (!whole && is_beside(t, v)))
+        return true;
+    if (t->cache.entries != 0 && (y != c.first || end != c.end))
+        return false;
+    struct flat_rows rows = { .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1,
+                              .color = target_pixel(t, color), .narrow = target_is_direct(t) };
+    codes_make(&rows, v, y);
+    draw_rows(t, &rows, &c, y, end);
+    return true;
+}
+
+#endif
