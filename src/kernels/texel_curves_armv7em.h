@@ -4,57 +4,9 @@
 #ifndef SMEAR_KERNELS_TEXEL_CURVES_ARMV7EM_H
 #define SMEAR_KERNELS_TEXEL_CURVES_ARMV7EM_H
 
-#include "kernels/span_side.h"
-#include "kernels/texels_draw.h"
+#include "kernels/texel_curve_rows.h"
 
 #if SMEAR_ASM_ARMV7EM
-
-/* A polynomial of x and y, modulo 2^32. */
-struct texel_polynomial {
-    uint32_t dxy, dx, dyy, dy, at, dxx;
-};
-
-/* Rows one below the other, and coordinates of their pixels. */
-struct texel_curve_rows {
-    const struct span_side *side;
-    int32_t count;              /* of rows; at least one */
-    int32_t x0, y;              /* polynomials are of x - x0 and of y, y + 1 and so on */
-    uint32_t z, dz_down;        /* depth codes 16.16 at column 0 of the first row; their change from row to row */
-    uint16_t *depth;            /* of that pixel, which may lie outside the memory */
-    int32_t stride;             /* bytes */
-    struct texel_polynomial u, v;
-    uint32_t dz, ddu, ddv;      /* ddu is 2 dxx of u */
-    int32_t to_depth;           /* bytes from a pixel to its depth */
-    const void *texels;
-};
-
-SMEAR_STATIC_ASSERT(offsetof(struct texel_curve_rows, u) == 32 && offsetof(struct texel_curve_rows, dz) == 80
-                        && sizeof(struct texel_polynomial) == 24 && sizeof(struct span_side) == 12
-                        && offsetof(struct span_side, right) == 4,
-                    "the assembly knows struct texel_curve_rows and struct span_side");
-
-static inline uint32_t texel_polynomial_at(const struct texel_polynomial *p, uint32_t x, uint32_t y, uint32_t *step)
-{
-    const uint32_t dx = p->dxy * y + p->dx + p->dxx * x;
-    *step = dx + p->dxx * (x + 1u);
-    return p->at + (p->dyy * y + p->dy) * y + dx * x;
-}
-
-/* Draws rows from left to before right, where there are such pixels, as texels_draw does. Afterwards the rows are anything. */
-static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int log2_width, int log2_height)
-{
-    for (int32_t row = 0; row < r->count; row++) {
-        const int32_t left = r->side[row].left, n = r->side[row].right - left, bytes = row * r->stride + 2 * left;
-        struct texel_run run = { .dz = r->dz, .ddu = r->ddu, .ddv = r->ddv, .texels = r->texels };
-        run.u = texel_polynomial_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &run.du);
-        run.v = texel_polynomial_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &run.dv);
-        run.z = r->z + r->dz_down * (uint32_t)row + r->dz * (uint32_t)left;
-        run.depth = (uint16_t *)((uintptr_t)r->depth + (uintptr_t)bytes);
-        run.color = (void *)((uintptr_t)run.depth - (uintptr_t)r->to_depth);
-        if (n > 0)
-            texels_draw_reference(&run, n, log2_width, log2_height, TEXELS_NARROW);
-    }
-}
 
 /* Of a polynomial dxy, dx, dyy, dy, at and dxx are in registers, x in r3 and y in r4: AT becomes the value, STEP the first change. */
 #define ARMV7EM_POLYNOMIAL(DXY, DX, DYY, DY, AT, DXX, STEP) \

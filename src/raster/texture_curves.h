@@ -3,10 +3,11 @@
 #ifndef SMEAR_TEXTURE_CURVES_H
 #define SMEAR_TEXTURE_CURVES_H
 
+#include "kernels/texel_curves_armv6m.h"
 #include "kernels/texel_curves_armv7em.h"
 #include "raster/texture_rows.h"
 
-#if SMEAR_ASM_ARMV7EM
+#if TEXEL_CURVES_ASM
 static inline struct texel_polynomial polynomial_of(const struct curve *c)
 {
     return (struct texel_polynomial){ (uint32_t)c->dxy, (uint32_t)c->dx, (uint32_t)c->dyy, (uint32_t)c->dy, (uint32_t)c->at,
@@ -27,7 +28,11 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
     };
     rows.ddu = 2 * rows.u.dxx;
     rows.ddv = 2 * rows.v.dxx;
+#if SMEAR_ASM_ARMV6M
+    texel_curve_rows_armv6m(&rows, log2_width, log2_height);
+#else
     texel_curve_rows_armv7em(&rows, log2_width, log2_height);
+#endif
 }
 #endif
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
- * those it doesn't, as of lit ones; and texel_curves_armv7em.h. */
+ * those it doesn't, as of lit ones; and texel_curve_rows.h. */
+#include "kernels/texel_curves_armv6m.h"
 #include "kernels/texel_curves_armv7em.h"
 #include "kernels/texels_draw.h"
 
@@ -133,7 +134,7 @@ CALLS(armv7em)
 #define ARMV7EM(CALL)
 #endif
 
-#if SMEAR_ASM_ARMV7EM
+#if TEXEL_CURVES_ASM
 enum { STRIDE = 35 };
 
 static struct span_side sides[4];
@@ -161,7 +162,11 @@ SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_
 }
 
 static void curves_reference(struct kernel_call *c) { curves_by(c, texel_curve_rows_reference); }
+#if SMEAR_ASM_ARMV6M
+static void curves_armv6m(struct kernel_call *c) { curves_by(c, texel_curve_rows_armv6m); }
+#else
 static void curves_armv7em(struct kernel_call *c) { curves_by(c, texel_curve_rows_armv7em); }
+#endif
 #endif
 
 #define KERNEL(NAME, KIND, SIZE) \
@@ -177,9 +182,9 @@ const struct kernel kernels_texels_draw[] = {
     KERNEL("texels_draw (any size, narrow)", narrow_any, 2),
     KERNEL("texels_draw (lit)", lit, 4),
     KERNEL("texels_draw (lit, narrow)", lit_narrow, 2),
-#if SMEAR_ASM_ARMV7EM
+#if TEXEL_CURVES_ASM
     { .name = "texel_curve_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 4 }, .prepare = curves_prepare,
-      .form = { { "reference", curves_reference }, { "armv7em", curves_armv7em } } },
+      .form = { { "reference", curves_reference } ARMV6M(curves_armv6m) ARMV7EM(curves_armv7em) } },
 #endif
     { .name = NULL }
 };
