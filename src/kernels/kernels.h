@@ -8,8 +8,8 @@
  *   - its contract, the comment above it: shapes, ranges, alignment, what may overlap, rounding;
  *   - NAME_reference, a short scalar loop that defines the result bit for bit;
  *   - its variants, beside the reference: NAME_vector where SMEAR_VECTORS is set, NAME_avx2 where SMEAR_AVX2 is
- *     (avx2.h), NAME_armv6m where SMEAR_ASM_ARMV6M is, NAME_armv7em where SMEAR_ASM_ARMV7EM is, NAME_unrolled where
- *     plain C that compilers turn into better code pays on every core;
+ *     (avx2.h), NAME_armv6m where SMEAR_ASM_ARMV6M is, NAME_armv7em where SMEAR_ASM_ARMV7EM is, NAME_arm where
+ *     SMEAR_ASM_ARM is, NAME_unrolled where plain C that compilers turn into better code pays on every core;
  *   - NAME itself, which the library calls: the best variant of this build and processor, else the reference.
  *
  * How to add one
@@ -46,6 +46,16 @@
 #define SMEAR_ASM_ARMV7EM 1
 #else
 #define SMEAR_ASM_ARMV7EM 0
+#endif
+#endif
+
+/* Assembly in ARM code for ARM7TDMI and what else runs it without vectors. Not for Clang, which knows another syntax. */
+#ifndef SMEAR_ASM_ARM
+#if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && !defined(__thumb__) && defined(__OPTIMIZE__) && !SMEAR_VECTORS \
+    && !SMEAR_BIG_ENDIAN
+#define SMEAR_ASM_ARM 1
+#else
+#define SMEAR_ASM_ARM 0
 #endif
 #endif
 

@@ -6,15 +6,6 @@
 
 #include "kernels/kernels.h"
 
-#ifndef SMEAR_ASM_ARM
-#if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && !defined(__thumb__) && defined(__OPTIMIZE__) && !SMEAR_VECTORS \
-    && !SMEAR_BIG_ENDIAN
-#define SMEAR_ASM_ARM 1
-#else
-#define SMEAR_ASM_ARM 0
-#endif
-#endif
-
 #if SMEAR_ASM_ARM
 
 /* Compares the pixels of r4 to r7 with the colour in r12. */

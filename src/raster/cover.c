@@ -10,6 +10,7 @@
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
+#include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
 #include "kernels/flat_rows_armv7em.h"
 #include "kernels/row_sides.h"
@@ -339,7 +340,7 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
 }
 
 /* Whether a kernel draws rows that have no depth break; others, too, where FLAT_ROWS_BREAKS. */
-#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
+#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM || SMEAR_ASM_ARM)
 
 #if !FLAT_ROWS_BREAKS
 /* n pixels from index `at` on, of the colour as the target has it. */
@@ -530,6 +531,8 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
         rows.depth = t->depth + at;
 #if SMEAR_ASM_ARMV6M
         flat_rows_armv6m(&rows, &d.left, &d.right);
+#elif SMEAR_ASM_ARM
+        flat_rows_arm(&rows, &d.left, &d.right);
 #else
         flat_rows_armv7em(&rows, &d.left, &d.right);
 #endif

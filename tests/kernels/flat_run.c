@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
+#include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
 #include "kernels/flat_rows_armv7em.h"
 
@@ -64,6 +65,10 @@ static void rows_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
 #elif SMEAR_ASM_ARMV7EM
     if (best)
         flat_rows_armv7em(&rows, &a, &b);
+    else
+#elif SMEAR_ASM_ARM
+    if (best)
+        flat_rows_arm(&rows, &a, &b);
     else
 #else
     (void)best;
