@@ -66,6 +66,57 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
     return -shift;
 }
 
+/* Where products of 64 bits are calls, and size does not count, much is found without them. */
+#define PRODUCTS_ARE_DEAR (!SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY)
+
+#if PRODUCTS_ARE_DEAR
+/* Returns a b 2^-down to nearest, down 2 .. 32, where it has 32 bits. */
+static inline int32_t product_down(int32_t a, int32_t b, int down)
+{
+    const int32_t twice = mul_shift(a, b, down - 1);
+    return (twice >> 1) + (twice & 1);
+}
+
+/* Finds the camera's basis, transposed, as normalize_block would that times the object's, where the latter does not turn. Returns
+ * false where it does. */
+static bool take_block(int32_t unit[3][3], int *exponent, const int32_t camera[9], const int32_t object[9])
+{
+    uint32_t all = 0;
+    for (int i = 0; i < 9; i++) {
+        if (object[i] != (i % 4 == 0 ? 1 << 24 : 0))
+            return false;
+        all |= (uint32_t)abs_i32(camera[i]);
+    }
+    const int bits = bit_length(all);
+    if (bits < 8 || bits > 30)
+        return false;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            unit[i][j] = camera[3 * j + i] * (1 << (30 - bits));
+    *exponent = bits - 54;
+    return true;
+}
+
+/* Finds what normalize_block would of a block times `scale`. Returns false where products are short. */
+static bool scale_block(int32_t out[3][3], int *exponent, int32_t unit[3][3], int32_t scale)
+{
+    const int32_t *in = &unit[0][0];
+    int32_t *to = &out[0][0], largest = 0;
+    for (int i = 0; i < 9; i++)
+        largest = max_i32(largest, abs_i32(in[i]));
+    const int down = bit_length((int64_t)largest * scale) - 30;
+    if (down < 2 || down > 32)
+        return false;
+    for (int i = 0; i < 9; i++)
+        to[i] = product_down(in[i], scale, down);
+    *exponent = down;
+    return true;
+}
+#else
+#define take_block(unit, exponent, camera, object) false
+#define scale_block(out, exponent, unit, scale) false
+#endif
+
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
                         const smear_mesh *mesh, const smear_transform *camera)
 {
@@ -73,27 +124,34 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
      * magnitude (smear_begin checks), so a product of them and any 32 bits has 56 bits and three fit. */
     int64_t turned[9], scaled[9];
     int64_t offset[3];
+    int32_t unit[3][3];
+    int exponent = 0, scaled_exponent = 0;
+    const bool is_straight = take_block(unit, &exponent, camera->basis, object->basis);
     for (int j = 0; j < 3; j++)
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
     for (int i = 0; i < 3; i++) {
         const int64_t x = camera->basis[i], y = camera->basis[3 + i], z = camera->basis[6 + i];
-        for (int j = 0; j < 3; j++)     /* q48 */
+        for (int j = 0; j < 3 && !is_straight; j++)     /* q48 */
             turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];
         view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32 */
     }
-    int32_t unit[3][3];
-    int exponent = normalize_block(unit, turned) - 48;
+    if (!is_straight)
+        exponent = normalize_block(unit, turned) - 48;
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
-    view->basis_exp = normalize_block(view->basis, scaled) + exponent - mesh->shift;
+    if (!scale_block(view->basis, &scaled_exponent, unit, scale)) {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
+        scaled_exponent = normalize_block(view->basis, scaled);
+    }
+    view->basis_exp = scaled_exponent + exponent - mesh->shift;
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;
         for (int j = 0; j < 3; j++)
-            sum += (int64_t)view->basis[i][j] * mesh->offset[j];
+            if (!PRODUCTS_ARE_DEAR || mesh->offset[j] != 0)
+                sum += (int64_t)view->basis[i][j] * mesh->offset[j];
         view->origin[i] = scale_to_i52(view->origin[i], 0)
-                        + scale_to_i52(sum, view->basis_exp + 32);
+                        + (PRODUCTS_ARE_DEAR && sum == 0 ? 0 : scale_to_i52(sum, view->basis_exp + 32));
     }
 }
 
@@ -117,14 +175,24 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
     return bits + 1 + 30 + by.exponent;
 }
 
-/* Fills a row of the projection: the view's row times `by`, scaled by 2^scale. */
+/* Returns a b 2^shift to nearest, where it has 31 bits. */
+static inline int32_t product_scaled(int32_t a, int32_t b, int shift)
+{
+#if PRODUCTS_ARE_DEAR
+    if (shift <= -2 && shift >= -32)
+        return product_down(a, b, -shift);
+#endif
+    return scale_inline((int64_t)a * b, shift);
+}
+
+/* Fills a row of the projection: the view's row times `by`, scaled by 2^scale, which keeps factors below 2^30. */
 static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
                      int scale)
 {
     const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
     const int shift = view->basis_exp + by.exponent + scale + 16;
     for (int j = 0; j < 3; j++)
-        m[j] = scale_inline((int64_t)view->basis[row][j] * factor, shift) & ~3;
+        m[j] = product_scaled(view->basis[row][j], factor, shift) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
