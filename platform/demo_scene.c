@@ -67,10 +67,16 @@ static struct angle quarter_after(struct angle a)
     return (struct angle){ a.cosine, -a.sine };
 }
 
-/* a x b, b in q24. */
+/* a x b, b in q24; |a| < 2^30, |b| < 2^25. */
 static int32_t scaled(int32_t a, int32_t b)
 {
+#ifdef __ARM_ARCH_6M__          /* has no product of 64 bits: of halves of 16 */
+    const int32_t a_high = a >> 16, a_low = a & 0xffff, b_high = b >> 16, b_low = b & 0xffff;
+    const int32_t middle = a_high * b_low + a_low * b_high + (int32_t)((uint32_t)a_low * (uint32_t)b_low >> 16);
+    return a_high * b_high * 256 + (middle >> 8);
+#else
     return (int32_t)((int64_t)a * b >> 24);
+#endif
 }
 
 /* ------------------------------------------------------------------ poses */
