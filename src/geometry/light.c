@@ -265,10 +265,9 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
 {
     const int32_t u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] }, v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
 #ifndef __OPTIMIZE_SIZE__
-    const uint32_t half = 1u << 15;
-    const uint32_t size = ((uint32_t)u[0] + half) | ((uint32_t)u[1] + half) | ((uint32_t)u[2] + half)
-                        | ((uint32_t)v[0] + half) | ((uint32_t)v[1] + half) | ((uint32_t)v[2] + half);
-    if (size < 2 * half) {      /* cross products have 31 bits */
+    const int32_t size = (u[0] ^ u[0] >> 31) | (u[1] ^ u[1] >> 31) | (u[2] ^ u[2] >> 31) | (v[0] ^ v[0] >> 31)
+                       | (v[1] ^ v[1] >> 31) | (v[2] ^ v[2] >> 31);
+    if (size < 1 << 15) {       /* cross products have 31 bits */
         int32_t n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
         const uint32_t largest = 1u | (uint32_t)abs_i32(n[0]) | (uint32_t)abs_i32(n[1]) | (uint32_t)abs_i32(n[2]);
         const int shift = 32 - count_leading_zeros(largest) - 14;
@@ -347,3 +346,19 @@ uint32_t smear_color_pack(const struct smear_color *color, bool linear)
     }
     return packed;
 }
+
+#if SMEAR_SHADES_FACES
+uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine)
+{
+    if (!s->lit || shading_is_linear(s) || !s->white || !s->sun->white) {
+        struct smear_color shaded;
+        smear_shade(&shaded, s, NULL, color, cosine);
+        return smear_color_pack(&shaded, shading_is_linear(s));
+    }
+    const uint32_t light = light_of(s, 0, cosine);
+    uint32_t packed = times_lin(65535u, color[3] * 257u) >> 8;
+    for (int i = 0; i < 3; i++)
+        packed = packed << 8 | encode(times_lin(65535u, smear_srgb_decode[color[i]]) * light >> 20);
+    return packed;
+}
+#endif

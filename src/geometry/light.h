@@ -74,6 +74,18 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
 
+/* Cortex-M0+ has a function for faces' colours, without those of vertices. */
+#if SMEAR_LIGHT_IS_DEAR && defined(__ARM_ARCH_6M__)
+#define SMEAR_SHADES_FACES 1
+#else
+#define SMEAR_SHADES_FACES 0
+#endif
+
+#if SMEAR_SHADES_FACES
+/* Shades a face's colour and packs it, as smear_shade and smear_color_pack do. */
+uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine);
+#endif
+
 /* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */
 uint32_t smear_color_pack(const struct smear_color *color, bool linear);
 

@@ -153,20 +153,30 @@ static inline bool same_color(const uint8_t *a, const uint8_t *b)
 }
 #endif
 
+/* Returns the shaded colour of a face, packed. */
+static inline uint32_t shaded_face(const struct smear_assembly *d, const struct smear_face *face)
+{
+#if SMEAR_SHADES_FACES
+    if (face->vertex_color == NULL && face->color != NULL)
+        return smear_shade_face(&d->shading, face->color, face->cosine);
+#endif
+    struct smear_color color;
+    smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
+    return smear_color_pack(&color, shading_is_linear(&d->shading));
+}
+
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
                           const struct smear_face *face)
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
-    struct smear_color color;
 #if SMEAR_LIGHT_IS_DEAR
     struct smear_lit *const last = d->shading.last;
     const bool is_plain = last != NULL && face->vertex_color == NULL && face->color != NULL;
     if (is_plain && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, face->color))
         return last->packed;
 #endif
-    smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
-    const uint32_t packed = smear_color_pack(&color, shading_is_linear(&d->shading));
+    const uint32_t packed = shaded_face(d, face);
 #if SMEAR_LIGHT_IS_DEAR
     if (is_plain) {
         last->color = face->color;
