@@ -6,8 +6,10 @@
 #include "kernels/edge_walk.h"
 #include "kernels/flat_face.h"
 
-/* Assembly draws rows across the break of depth codes, too; on Cortex-M0+ where size does not count. */
-#define FLAT_ROWS_BREAKS ((SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE) || SMEAR_ASM_ARMV7EM || SMEAR_ASM_ARM)
+/* By assembly on Cortex-M0+ where size counts, and on ARM7, which draws rows across the break of depth codes, too; on other cores
+ * flat_lines.h does. */
+#define FLAT_ROWS ((SMEAR_ASM_ARMV6M && SMEAR_SMALL_CODE) || SMEAR_ASM_ARM)
+#define FLAT_ROWS_BREAKS SMEAR_ASM_ARM
 
 /* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
 struct flat_rows {

@@ -6,7 +6,7 @@
 
 #include "kernels/flat_rows.h"
 
-#if SMEAR_ASM_ARMV6M
+#if FLAT_ROWS && SMEAR_ASM_ARMV6M
 
 /* What changes from row to row: z and depth. And what does not. */
 struct flat_rows_walk {
@@ -27,22 +27,13 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
                     "the assembly knows struct edge_walk");
 
 /* The pixel AT bytes of depth and PLACE bytes of colours further on. LABEL is behind it. */
-#define FLAT_ROWS_PUT(STORE, AT, PLACE, LABEL) \
-    "ldrh r5, [r1, #" AT "]\n\t"               \
-    "adds r0, r0, r3\n\t"                      \
-    "cmp r5, r4\n\t"                           \
-    "bhs " LABEL "f\n\t"                       \
-    "strh r4, [r1, #" AT "]\n\t" STORE " r7, [r2, #" PLACE "]\n" LABEL ": "
 #define FLAT_ROWS_PIXEL(STORE, AT, PLACE, LABEL) \
-    "lsrs r4, r0, #16\n\t" FLAT_ROWS_PUT(STORE, AT, PLACE, LABEL)
-
-/* The same where codes break: what flat_code adds is in r12. */
-#define FLAT_ROWS_ACROSS(STORE, AT, PLACE, LABEL) \
-    "lsls r4, r0, #1\n\t"                         \
-    "bcc " LABEL "f\n\t"                          \
-    "lsls r4, r0, #5\n"                           \
-    LABEL ": add r4, r12\n\t"                     \
-    "lsrs r4, r4, #16\n\t" FLAT_ROWS_PUT(STORE, AT, PLACE, LABEL)
+    "lsrs r4, r0, #16\n\t"                       \
+    "ldrh r5, [r1, #" AT "]\n\t"                 \
+    "adds r0, r0, r3\n\t"                        \
+    "cmp r5, r4\n\t"                             \
+    "bhs " LABEL "f\n\t"                         \
+    "strh r4, [r1, #" AT "]\n\t" STORE " r7, [r2, #" PLACE "]\n" LABEL ": "
 
 /* Takes the edge at r7: its pixel into register PIXEL, and goes on by a row. */
 #define FLAT_ROWS_EDGE(PIXEL, LABEL)   \
@@ -57,62 +48,57 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
 
 /* struct flat_rows_walk in r8, rows in r9, edges in r10 and r11. Then, in a row: z r0, depth r1, pixels r2, dz r3, how many r6, the
  * colour r7. DOUBLE is an instruction where pixels are wide; of them SINGLE, TWICE, THRICE and FOUR are bytes. */
-#define FLAT_ROWS_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                             \
-    __asm__ volatile(".syntax unified\n\t"                                                                              \
-                     "mov r8, r0\n\t"                                                                                   \
-                     "mov r9, r1\n\t"                                                                                   \
-                     "mov r10, r2\n\t"                                                                                  \
-                     "mov r11, r3\n\t"                                                                                  \
-                     "movs r4, #128\n\t"                                                                                \
-                     "lsls r4, r4, #8\n\t"                                                                              \
-                     "lsls r5, r4, #16\n\t"                                                                             \
-                     "orrs r4, r5\n\t"                                                                                  \
-                     "mov r12, r4\n"                                                                                    \
-                     "1: mov r7, r10\n\t" FLAT_ROWS_EDGE("r5", "2") "mov r7, r11\n\t" FLAT_ROWS_EDGE("r6", "3")         \
-                     "mov r7, r8\n\t"                                                                                   \
-                     "ldm r7!, {r0, r1, r2, r3}\n\t"                                                                    \
-                     "cmp r5, r0\n\t"                                                                                   \
-                     "bge 4f\n\t"                                                                                       \
-                     "movs r5, r0\n"                                                                                    \
-                     "4: cmp r6, r1\n\t"                                                                                \
-                     "ble 5f\n\t"                                                                                       \
-                     "movs r6, r1\n"                                                                                    \
-                     "5: ldr r0, [r7]\n\t"                                                                              \
-                     "ldr r1, [r7, #4]\n\t"                                                                             \
-                     "adds r2, r2, r0\n\t"                                                                              \
-                     "adds r3, r3, r1\n\t"                                                                              \
-                     "stm r7!, {r2, r3}\n\t"                                                                            \
-                     "subs r6, r6, r5\n\t"                                                                              \
-                     "ble 9f\n\t"                                                                                       \
-                     "ldm r7, {r2, r3, r7}\n\t"                                                                         \
-                     "movs r4, r3\n\t"                                                                                  \
-                     "muls r4, r5\n\t"                                                                                  \
-                     "adds r0, r0, r4\n\t"                                                                              \
-                     "lsls r5, r5, #1\n\t"                                                                              \
-                     "adds r1, r1, r5\n\t" DOUBLE "adds r2, r2, r1\n\t"                                                 \
-                     "subs r6, #4\n\t"                                                                                  \
-                     "blt 7f\n"                                                                                         \
-                     "6: " PIXEL(STORE, "0", "0", "2") PIXEL(STORE, "2", SINGLE, "3")                                   \
-                         PIXEL(STORE, "4", TWICE, "4") PIXEL(STORE, "6", THRICE, "5")                                   \
-                     "adds r2, #" FOUR "\n\t"                                                                           \
-                     "adds r1, #8\n\t"                                                                                  \
-                     "subs r6, #4\n\t"                                                                                  \
-                     "bge 6b\n"                                                                                         \
-                     "7: lsrs r6, r6, #1\n\t"                                                                           \
-                     "bcc 8f\n\t" PIXEL(STORE, "0", "0", "2")                                                           \
-                     "adds r2, #" SINGLE "\n\t"                                                                         \
-                     "adds r1, #2\n"                                                                                    \
-                     "8: lsrs r6, r6, #1\n\t"                                                                           \
-                     "bcc 9f\n\t" PIXEL(STORE, "0", "0", "2") PIXEL(STORE, "2", SINGLE, "3")                            \
-                     "9: mov r4, r9\n\t"                                                                                \
-                     "subs r4, #1\n\t"                                                                                  \
-                     "mov r9, r4\n\t"                                                                                   \
-                     "beq 2f\n\t"                                                                                       \
-                     "b 1b\n"                                                                                           \
-                     "2:"                                                                                               \
-                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)                                                           \
-                     :                                                                                                  \
-                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "cc", "memory")
+#define FLAT_ROWS_ARMV6M(STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                                  \
+    __asm__ volatile(".syntax unified\n\t"                                                                            \
+                     "mov r8, r0\n\t"                                                                                 \
+                     "mov r9, r1\n\t"                                                                                 \
+                     "mov r10, r2\n\t"                                                                                \
+                     "mov r11, r3\n"                                                                                  \
+                     "1: mov r7, r10\n\t" FLAT_ROWS_EDGE("r5", "2") "mov r7, r11\n\t" FLAT_ROWS_EDGE("r6", "3")       \
+                     "mov r7, r8\n\t"                                                                                 \
+                     "ldm r7!, {r0, r1, r2, r3}\n\t"                                                                  \
+                     "cmp r5, r0\n\t"                                                                                 \
+                     "bge 4f\n\t"                                                                                     \
+                     "movs r5, r0\n"                                                                                  \
+                     "4: cmp r6, r1\n\t"                                                                              \
+                     "ble 5f\n\t"                                                                                     \
+                     "movs r6, r1\n"                                                                                  \
+                     "5: ldr r0, [r7]\n\t"                                                                            \
+                     "ldr r1, [r7, #4]\n\t"                                                                           \
+                     "adds r2, r2, r0\n\t"                                                                            \
+                     "adds r3, r3, r1\n\t"                                                                            \
+                     "stm r7!, {r2, r3}\n\t"                                                                          \
+                     "subs r6, r6, r5\n\t"                                                                            \
+                     "ble 9f\n\t"                                                                                     \
+                     "ldm r7, {r2, r3, r7}\n\t"                                                                       \
+                     "movs r4, r3\n\t"                                                                                \
+                     "muls r4, r5\n\t"                                                                                \
+                     "adds r0, r0, r4\n\t"                                                                            \
+                     "lsls r5, r5, #1\n\t"                                                                            \
+                     "adds r1, r1, r5\n\t" DOUBLE "adds r2, r2, r1\n\t"                                               \
+                     "subs r6, #4\n\t"                                                                                \
+                     "blt 7f\n"                                                                                       \
+                     "6: " FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")             \
+                         FLAT_ROWS_PIXEL(STORE, "4", TWICE, "4") FLAT_ROWS_PIXEL(STORE, "6", THRICE, "5")             \
+                     "adds r2, #" FOUR "\n\t"                                                                         \
+                     "adds r1, #8\n\t"                                                                                \
+                     "subs r6, #4\n\t"                                                                                \
+                     "bge 6b\n"                                                                                       \
+                     "7: lsrs r6, r6, #1\n\t"                                                                         \
+                     "bcc 8f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2")                                               \
+                     "adds r2, #" SINGLE "\n\t"                                                                       \
+                     "adds r1, #2\n"                                                                                  \
+                     "8: lsrs r6, r6, #1\n\t"                                                                         \
+                     "bcc 9f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")      \
+                     "9: mov r4, r9\n\t"                                                                              \
+                     "subs r4, #1\n\t"                                                                                \
+                     "mov r9, r4\n\t"                                                                                 \
+                     "beq 2f\n\t"                                                                                     \
+                     "b 1b\n"                                                                                         \
+                     "2:"                                                                                             \
+                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)                                                         \
+                     :                                                                                                \
+                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "cc", "memory")
 
 static inline void flat_rows_armv6m(const struct flat_rows *r, struct edge_walk *left, struct edge_walk *right)
 {
@@ -123,19 +109,10 @@ static inline void flat_rows_armv6m(const struct flat_rows *r, struct edge_walk 
     register int32_t r1 __asm__("r1") = r->rows;
     register struct edge_walk *r2 __asm__("r2") = left;
     register struct edge_walk *r3 __asm__("r3") = right;
-#if FLAT_ROWS_BREAKS
-    if (r->breaks) {
-        if (r->narrow)
-            FLAT_ROWS_ARMV6M(FLAT_ROWS_ACROSS, "strh", "", "2", "4", "6", "8");
-        else
-            FLAT_ROWS_ARMV6M(FLAT_ROWS_ACROSS, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
-        return;
-    }
-#endif
     if (r->narrow)
-        FLAT_ROWS_ARMV6M(FLAT_ROWS_PIXEL, "strh", "", "2", "4", "6", "8");
+        FLAT_ROWS_ARMV6M("strh", "", "2", "4", "6", "8");
     else
-        FLAT_ROWS_ARMV6M(FLAT_ROWS_PIXEL, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
+        FLAT_ROWS_ARMV6M("str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
 }
 
 #endif

@@ -12,10 +12,10 @@
 #include "kernels/flat_face.h"
 #include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
-#include "kernels/flat_rows_armv7em.h"
 #include "kernels/row_sides.h"
 #include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
+#include "raster/flat_list.h"
 #include "raster/span.h"
 #include "raster/texture_rows.h"
 
@@ -339,10 +339,7 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     }
 }
 
-/* Whether a kernel draws rows that have no depth break; others, too, where FLAT_ROWS_BREAKS. */
-#define FLAT_ROWS_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM || SMEAR_ASM_ARM)
-
-#if !FLAT_ROWS_BREAKS
+#if !FLAT_ROWS_BREAKS && !SMEAR_FLAT_LINES
 /* n pixels from index `at` on, of the colour as the target has it. */
 SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
                               uint32_t dz, uint32_t color)
@@ -435,7 +432,7 @@ SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool b
 #endif
 
 /* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
-#if FLAT_ROWS_ASM
+#if SMEAR_FLAT_LINES || FLAT_ROWS
 #elif defined(__ARM_ARCH_6M__)
 #define cover_flat_whole cover_flat_cut
 #else
@@ -445,14 +442,14 @@ static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
 }
 #endif
 
-#if !FLAT_ROWS_ASM
+#if !SMEAR_FLAT_LINES && !FLAT_ROWS
 static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 {
     cover_flat(s, true, false);
 }
 #endif
 
-#if !FLAT_ROWS_BREAKS
+#if !FLAT_ROWS_BREAKS && !SMEAR_FLAT_LINES
 static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
     cover_flat(s, true, true);
@@ -502,7 +499,7 @@ void smear_cover_carry(const struct setup *s, struct flat_carried *f, int32_t y)
 
 #endif
 
-#if FLAT_ROWS_ASM
+#if FLAT_ROWS
 /* The same rows by a kernel, whatever cuts them off. */
 static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
 {
@@ -531,10 +528,8 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
         rows.depth = t->depth + at;
 #if SMEAR_ASM_ARMV6M
         flat_rows_armv6m(&rows, &d.left, &d.right);
-#elif SMEAR_ASM_ARM
-        flat_rows_arm(&rows, &d.left, &d.right);
 #else
-        flat_rows_armv7em(&rows, &d.left, &d.right);
+        flat_rows_arm(&rows, &d.left, &d.right);
 #endif
         rows.z += rows.dz_down * (uint32_t)rows.rows;
         ring_row += rows.rows;
@@ -546,6 +541,10 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
 
 static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
 {
+#if SMEAR_FLAT_LINES
+    (void)box;
+    smear_flat_cover(s);
+#else
     const struct smear_raster_target *t = s->target;
 #if SMEAR_AVX2
     if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
@@ -559,7 +558,7 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         return;
     }
 #endif
-#if FLAT_ROWS_ASM
+#if FLAT_ROWS
     (void)t;
     (void)box;
     cover_flat_kernel(s);
@@ -568,6 +567,7 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         cover_flat_cut(s);
     else
         cover_flat_whole(s);
+#endif
 #endif
 }
 #endif

@@ -2,8 +2,8 @@
 /* flat_list.c - triangles of one colour, from vertices to rows. */
 #include "raster/flat_list.h"
 
-#include "kernels/flat_rows_armv6m.h"
-#include "kernels/flat_rows_armv7em.h"
+#include "kernels/flat_lines_armv6m.h"
+#include "kernels/flat_lines_armv7em.h"
 #include "kernels/gradient.h"
 #include "raster/cover_tiny.h"
 #include "raster/gradient.h"
@@ -98,66 +98,112 @@ static inline struct depth_slopes depth_slopes_of(const int32_t *const v0, const
     return (struct depth_slopes){ dx, dy };
 }
 
-/* Codes from row y on. */
-static inline void codes_make(struct flat_rows *r, const int32_t *const v[3], int32_t y)
+/* Where depths lie: nearer than the break of their code, farther, or on both sides of it. */
+static inline enum depth_slope depth_side(int32_t q0, int32_t q1, int32_t q2)
 {
-    const struct depth_slopes d = depth_slopes_of(v[0], v[1], v[2]);
-    const int32_t vx = v[0][VERTEX_X], vy = v[0][VERTEX_Y];
-    const int32_t q0 = v[0][VERTEX_DEPTH], q1 = v[1][VERTEX_DEPTH], q2 = v[2][VERTEX_DEPTH];
-    const int32_t here = add_wrap(q0, add_wrap(slope_part(d.dx, 128 - (vx & 255)), slope_part(d.dy, 128 - (vy & 255))));
-    const int32_t units = add_wrap(here, sub_wrap(mul_wrap(d.dy, y - (vy >> 8)), mul_wrap(d.dx, vx >> 8)));
-    const bool near0 = q0 >= SLOPE_BREAK, near1 = q1 >= SLOPE_BREAK, near2 = q2 >= SLOPE_BREAK;
-    r->breaks = near0 != near1 || near0 != near2;
-    if (r->breaks) {
-        r->z = (uint32_t)units - FLAT_BREAK;
-        r->dz = (uint32_t)d.dx;
-        r->dz_down = (uint32_t)d.dy;
-        return;
-    }
-    const enum depth_slope slope = near0 ? SLOPE_NEAR : SLOPE_FAR;
-    r->z = code_from_units(units, slope);
-    r->dz = (uint32_t)step_from_units(d.dx, slope);
-    r->dz_down = (uint32_t)step_from_units(d.dy, slope);
+    const bool near = q0 >= SLOPE_BREAK;
+    return near != (q1 >= SLOPE_BREAK) || near != (q2 >= SLOPE_BREAK) ? SLOPE_BOTH : near ? SLOPE_NEAR : SLOPE_FAR;
 }
 
-static SMEAR_NOINLINE void side_begin(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y) { edge_start(e, a, b, y); }
+/* Codes from a row on, of which pixel 0 has these units. */
+static inline void codes_make(struct flat_lines *l, enum depth_slope slope, int32_t units, int32_t dx, int32_t dy)
+{
+    l->breaks = slope == SLOPE_BOTH;
+    l->z = l->breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, slope);
+    l->dz = (uint32_t)(l->breaks ? dx : step_from_units(dx, slope));
+    l->dz_down = (uint32_t)(l->breaks ? dy : step_from_units(dy, slope));
+}
+
+static inline void depth_make(struct flat_lines *l, const int32_t *const v[3], int32_t y)
+{
+    const struct depth_slopes d = depth_slopes_of(v[0], v[1], v[2]);
+    const int32_t vx = v[0][VERTEX_X], vy = v[0][VERTEX_Y], q0 = v[0][VERTEX_DEPTH];
+    const int32_t here = add_wrap(q0, add_wrap(slope_part(d.dx, 128 - (vx & 255)), slope_part(d.dy, 128 - (vy & 255))));
+    const int32_t units = add_wrap(here, sub_wrap(mul_wrap(d.dy, y - (vy >> 8)), mul_wrap(d.dx, vx >> 8)));
+    codes_make(l, depth_side(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]), units, d.dx, d.dy);
+}
+
+/* ------------------------------------------------------------------ rows */
+
+/* Starts a side so many rows below its first one. */
+static SMEAR_NOINLINE void side_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+{
+#if SMEAR_ASM_ARMV6M
+    if (rows == 0 && flat_lines_side_armv6m(l, side, a, b))
+        return;
+#endif
+    struct edge_fine e;
+    edge_fine_start(&e, a, b, rows);
+    flat_lines_side(l, side, &e);
+}
+
+static inline void lines_start(struct flat_lines *l, const struct smear_raster_target *t, uint32_t color)
+{
+    l->x0 = t->x0;
+    l->x1 = t->x1;
+    l->narrow = target_is_direct(t);
+    l->color = target_pixel(t, color);
+    if (l->narrow)
+        l->color *= 0x10001u;
+    l->depth_bytes = t->window_rows.stride * 2;
+    l->to_pixels = l->narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
+}
+
+static inline void draw_lines(struct flat_lines *l, int32_t n)
+{
+#if SMEAR_ASM_ARMV6M
+    flat_lines_armv6m(l, n);
+#else
+    flat_lines_armv7em(l, n);
+#endif
+}
+
+/* Draws n rows of which some lie behind the ring's last one: `left` rows lie before its end. */
+static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t left, int32_t ring)
+{
+    if (left > 0) {
+        draw_lines(l, left);
+        n -= left;
+    }
+    l->depth = (uint16_t *)(void *)((uint8_t *)l->depth - ring * l->depth_bytes);
+    draw_lines(l, n);
+}
 
 /* Draws rows [y, end), of which those before the knee lie at one short side. */
-static inline void draw_rows(const struct smear_raster_target *t, struct flat_rows *rows, const struct corners_down *c, int32_t y,
+static inline void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners_down *c, int32_t y,
                              int32_t end)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
-    struct edge_walk side[2];
-    struct edge_walk *const whole = &side[c->long_is_left ? 0 : 1], *const part = &side[c->long_is_left ? 1 : 0];
-    int32_t stop = y, ring_row = w->ring_row + (y - t->y0);
-    if (ring_row >= w->ring)
-        ring_row -= w->ring;
-    side_begin(whole, c->top, c->bottom, y);
-    for (; y < end; y += rows->rows) {
-        if (y == stop) {
-            const bool upper = y < c->knee;
-            side_begin(part, upper ? c->top : c->middle, upper ? c->middle : c->bottom, y);
-            stop = upper ? min_i32(c->knee, end) : end;
+    const int whole = c->long_is_left ? 0 : 1;
+    int32_t left = w->ring - w->ring_row - (y - t->y0);     /* rows before the ring's end */
+    if (left <= 0)
+        left += w->ring;
+    l->depth = t->depth + ((w->ring - left) * w->stride - w->x0);
+    side_start(l, whole, c->top, c->bottom, y - c->first);
+    while (y < end) {
+        const bool upper = y < c->knee;
+        const int32_t n = (upper ? min_i32(c->knee, end) : end) - y;
+        if (upper)
+            side_start(l, 1 - whole, c->top, c->middle, y - c->first);
+        else
+            side_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
+        y += n;
+        if (left >= n) {
+            draw_lines(l, n);
+        } else {
+            draw_around(l, n, left, w->ring);
+            left += w->ring;
         }
-        const int32_t at = ring_row * w->stride - w->x0;
-        rows->rows = min_i32(stop - y, w->ring - ring_row);
-        rows->pixels = rows->narrow ? (void *)(t->direct + at) : t->color + at;
-        rows->depth = t->depth + at;
-#if SMEAR_ASM_ARMV6M
-        flat_rows_armv6m(rows, &side[0], &side[1]);
-#else
-        flat_rows_armv7em(rows, &side[0], &side[1]);
-#endif
-        rows->z += rows->dz_down * (uint32_t)rows->rows;
-        ring_row += rows->rows;
-        if (ring_row == w->ring)
-            ring_row = 0;
+        left -= n;
     }
 }
+
+/* ------------------------------------------------------------------ triangles */
 
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, bool whole)
 {
     struct corners_down c;
+    struct flat_lines l;
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
     if (c.end - c.first <= SMALL_PX && is_tiny(v, c.end - c.first))
@@ -166,11 +212,24 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
         return true;
     if (t->cache.entries != 0 && (y != c.first || end != c.end))
         return false;
-    struct flat_rows rows = { .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1,
-                              .color = target_pixel(t, color), .narrow = target_is_direct(t) };
-    codes_make(&rows, v, y);
-    draw_rows(t, &rows, &c, y, end);
+    lines_start(&l, t, color);
+    depth_make(&l, v, y);
+    draw_rows(t, &l, &c, y, end);
     return true;
+}
+
+void smear_flat_cover(const struct setup *s)
+{
+    const struct smear_raster_target *t = s->target;
+    struct corners_down c;
+    struct flat_lines l;
+    corners_sort(&c, s->v);
+    const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
+    if (y >= end)
+        return;
+    lines_start(&l, t, s->color);
+    codes_make(&l, s->slope, plane_at(&s->depth, 0, y), s->depth.dx, s->depth.dy);
+    draw_rows(t, &l, &c, y, end);
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* edge_walk.c - how check_kernels calls kernels/edge_walk.h and edge_sides.h. */
 #include "kernels/edge_sides.h"
+#include "kernels/flat_lines_armv6m.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -44,6 +45,48 @@ static void prepare(struct kernel_call *c)
 CALL(by_rest, edge_rest)
 CALL(best, edge)
 
+/* The same by divisions, and without where that will do. */
+static void fine_by(struct kernel_call *c, bool divided)
+{
+    const int32_t a[2] = { word(c, AX), word(c, AY) }, b[2] = { word(c, BX), word(c, BY) };
+    const int32_t first = (a[1] + 127) >> 8, rows = min_i32(((b[1] + 127) >> 8) - word(c, Y), c->n);
+    const struct edge_way way = edge_way_of(a, b);
+    struct edge_fine e;
+    if (rows <= 0)
+        return;
+    if (divided || !edge_fine_near(&e, &way))
+        edge_fine_divided(&e, &way);
+    if (word(c, Y) != first)
+        edge_fine_pass(&e, (uint32_t)(word(c, Y) - first));
+    for (int32_t i = 0; i < rows; i++, edge_fine_step(&e))
+        ((int32_t *)c->plane[0])[i] = edge_fine_pixel(&e);
+}
+
+static void fine_divided(struct kernel_call *c) { fine_by(c, true); }
+static void fine_near(struct kernel_call *c) { fine_by(c, false); }
+
+#if SMEAR_FLAT_LINES && SMEAR_ASM_ARMV6M
+static void fine_best(struct kernel_call *c)
+{
+    const int32_t a[2] = { word(c, AX), word(c, AY) }, b[2] = { word(c, BX), word(c, BY) };
+    const int32_t first = (a[1] + 127) >> 8, rows = min_i32(((b[1] + 127) >> 8) - word(c, Y), c->n);
+    struct flat_lines l;
+    if (rows <= 0)
+        return;
+    if (!flat_lines_side_armv6m(&l, 1, a, b)) {
+        fine_near(c);
+        return;
+    }
+    struct edge_fine e = { l.x[1][0], (int32_t)l.x[1][1], l.step[1][0], (int32_t)l.step[1][1] };
+    edge_fine_pass(&e, (uint32_t)(word(c, Y) - first));
+    for (int32_t i = 0; i < rows; i++, edge_fine_step(&e))
+        ((int32_t *)c->plane[0])[i] = edge_fine_pixel(&e);
+}
+#define BEST , { "best", fine_best }
+#else
+#define BEST
+#endif
+
 /* Rows of the same edge as left and as right sides. */
 static void sides_by(struct kernel_call *c, bool best)
 {
@@ -76,6 +119,8 @@ extern const struct kernel kernels_edge_walk[];
 const struct kernel kernels_edge_walk[] = {
     { .name = "edge_walk", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", by_rest }, { "best", best } } },
+    { .name = "edge_fine", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
+      .form = { { "reference", by_rest }, { "divided", fine_divided }, { "near", fine_near } BEST } },
     { .name = "edge_sides", .least = 1, .most = 19, .size = { 12 }, .align = { 4 }, .prepare = prepare, .timed = 19,
       .form = { { "reference", sides_reference }, { "best", sides_best } } },
     { .name = NULL }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
+#include "kernels/flat_lines_armv6m.h"
+#include "kernels/flat_lines_armv7em.h"
 #include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
-#include "kernels/flat_rows_armv7em.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -58,13 +59,9 @@ static void rows_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
     struct edge_walk a, b;
     edge_start(&a, left, left + 2, 0);
     edge_start(&b, right, right + 2, 0);
-#if SMEAR_ASM_ARMV6M
+#if FLAT_ROWS && SMEAR_ASM_ARMV6M
     if (best)
         flat_rows_armv6m(&rows, &a, &b);
-    else
-#elif SMEAR_ASM_ARMV7EM
-    if (best)
-        flat_rows_armv7em(&rows, &a, &b);
     else
 #elif SMEAR_ASM_ARM
     if (best)
@@ -83,6 +80,12 @@ static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, false, tru
 static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false, false); }
 static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, false, true); }
 #if FLAT_ROWS_BREAKS
+static void wide_rows_across(struct kernel_call *c) { rows_by(c, false, true, false); }
+static void wide_rows_across_best(struct kernel_call *c) { rows_by(c, false, true, true); }
+static void narrow_rows_across(struct kernel_call *c) { rows_by(c, true, true, false); }
+static void narrow_rows_across_best(struct kernel_call *c) { rows_by(c, true, true, true); }
+#endif
+
 /* Depth is small enough that sums and differences fit; often it is exactly at the break in a pixel. */
 static void breaks_prepare(struct kernel_call *c)
 {
@@ -93,11 +96,48 @@ static void breaks_prepare(struct kernel_call *c)
     c->word[Z] = (uint32_t)kernel_between(-1, 1) - c->word[DZ] * x - c->word[DZ_DOWN] * row;
 }
 
-static void wide_across(struct kernel_call *c) { rows_by(c, false, true, false); }
-static void wide_across_best(struct kernel_call *c) { rows_by(c, false, true, true); }
-static void narrow_across(struct kernel_call *c) { rows_by(c, true, true, false); }
-static void narrow_across_best(struct kernel_call *c) { rows_by(c, true, true, true); }
+/* In two parts, of which the first is a row. */
+static void lines_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
+{
+    const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
+    const int32_t rows = c->n / STRIDE;
+    struct flat_lines l = { .x0 = c->n % (STRIDE - COLUMNS), .z = c->word[Z], .dz = c->word[DZ], .dz_down = c->word[DZ_DOWN],
+                            .depth = c->plane[1], .depth_bytes = 2 * STRIDE, .narrow = narrow, .breaks = breaks };
+    struct edge_fine e;
+    l.x1 = l.x0 + COLUMNS;
+    l.to_pixels = (uintptr_t)c->plane[0] - (uintptr_t)c->plane[1] * (narrow ? 1u : 2u);
+    l.color = narrow ? (c->word[COLOR] & 0xffffu) * 0x10001u : c->word[COLOR];
+    edge_fine_start(&e, left, left + 2, -((left[1] + 127) >> 8));
+    flat_lines_side(&l, 0, &e);
+    edge_fine_start(&e, right, right + 2, -((right[1] + 127) >> 8));
+    flat_lines_side(&l, 1, &e);
+    for (int32_t part = 1, n = rows; n > 0; n -= part, part = n) {
+#if SMEAR_FLAT_LINES && SMEAR_ASM_ARMV6M
+        if (best)
+            flat_lines_armv6m(&l, part);
+        else
+#elif SMEAR_FLAT_LINES
+        if (best)
+            flat_lines_armv7em(&l, part);
+        else
+#else
+        (void)best;
 #endif
+            flat_lines_reference(&l, part);
+    }
+    c->word[LEFT] = l.x[0][1];
+    c->word[RIGHT] = l.x[1][0];
+    c->word[Z] = l.z;
+}
+
+static void wide_lines(struct kernel_call *c) { lines_by(c, false, false, false); }
+static void wide_lines_best(struct kernel_call *c) { lines_by(c, false, false, true); }
+static void narrow_lines(struct kernel_call *c) { lines_by(c, true, false, false); }
+static void narrow_lines_best(struct kernel_call *c) { lines_by(c, true, false, true); }
+static void wide_across(struct kernel_call *c) { lines_by(c, false, true, false); }
+static void wide_across_best(struct kernel_call *c) { lines_by(c, false, true, true); }
+static void narrow_across(struct kernel_call *c) { lines_by(c, true, true, false); }
+static void narrow_across_best(struct kernel_call *c) { lines_by(c, true, true, true); }
 
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
@@ -112,9 +152,17 @@ const struct kernel kernels_flat_run[] = {
       .form = { { "reference", narrow_rows }, { "best", narrow_rows_best } } },
 #if FLAT_ROWS_BREAKS
     { .name = "flat_rows (across)", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = breaks_prepare,
-      .form = { { "reference", wide_across }, { "best", wide_across_best } } },
+      .form = { { "reference", wide_rows_across }, { "best", wide_rows_across_best } } },
     { .name = "flat_rows (across, narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = breaks_prepare,
-      .form = { { "reference", narrow_across }, { "best", narrow_across_best } } },
+      .form = { { "reference", narrow_rows_across }, { "best", narrow_rows_across_best } } },
 #endif
+    { .name = "flat_lines", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", wide_lines }, { "best", wide_lines_best } } },
+    { .name = "flat_lines (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
+      .form = { { "reference", narrow_lines }, { "best", narrow_lines_best } } },
+    { .name = "flat_lines (across)", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = breaks_prepare,
+      .form = { { "reference", wide_across }, { "best", wide_across_best } } },
+    { .name = "flat_lines (across, narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = breaks_prepare,
+      .form = { { "reference", narrow_across }, { "best", narrow_across_best } } },
     { .name = NULL }
 };

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* flat_lines.h - depth-tested pixels of one colour in rows one below the other, between two edges, by assembly. */
+#ifndef SMEAR_KERNELS_FLAT_LINES_H
+#define SMEAR_KERNELS_FLAT_LINES_H
+
+#include "kernels/edge_fine.h"
+#include "kernels/flat_face.h"
+
+/* Not where size counts: there flat_rows.h does on Cortex-M0+. */
+#define SMEAR_FLAT_LINES ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
+
+/* The next row, and what changes from row to row: in the order in which assembly takes them. Of sides, the left one first, these are
+ * the low and the high words of struct edge_fine; z of pixel 0, which may lie outside the memory, and its steps to the right and down, are
+ * codes 16.16. */
+struct flat_lines {
+#if SMEAR_ASM_ARMV6M
+    uint32_t step[2][2], x[2][2];
+    int32_t x0, x1;                 /* columns */
+    uint32_t dz_down;
+    int32_t depth_bytes;            /* from row to row */
+    uint32_t z;
+    uint16_t *depth;
+    uintptr_t to_pixels;            /* what pixels lie behind depth, or where they are wide twice depth */
+    uint32_t dz;
+#else
+    uint32_t x[2][2], step[2][2];
+    int32_t x0, x1;
+    uintptr_t to_pixels;
+    uint16_t *depth;
+    uint32_t z, dz, dz_down;
+    int32_t depth_bytes, row;
+#endif
+    uint32_t color;                 /* twice where pixels are narrow */
+    bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes (flat_face.h) */
+};
+
+static inline void flat_lines_side(struct flat_lines *l, int side, const struct edge_fine *e)
+{
+    l->x[side][0] = e->low;
+    l->x[side][1] = (uint32_t)e->high;
+    l->step[side][0] = e->step_low;
+    l->step[side][1] = (uint32_t)e->step_high;
+}
+
+/* Draws pixels of n rows, one at least, from one side to before the other, if there are any, like flat_run. The next row is then that
+ * below. */
+static inline void flat_lines_reference(struct flat_lines *l, int32_t n)
+{
+    struct edge_fine side[2];
+    for (int i = 0; i < 2; i++)
+        side[i] = (struct edge_fine){ l->x[i][0], (int32_t)l->x[i][1], l->step[i][0], (int32_t)l->step[i][1] };
+    for (; n > 0; n--) {
+        void *const pixels = (void *)((uintptr_t)l->depth * (l->narrow ? 1u : 2u) + l->to_pixels);
+        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
+        for (int32_t x = a; x < b; x++)
+            flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, l->breaks), l->narrow ? l->color & 0xffffu : l->color,
+                       l->narrow);
+        edge_fine_step(&side[0]);
+        edge_fine_step(&side[1]);
+        l->z += l->dz_down;
+        l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes);
+    }
+    flat_lines_side(l, 0, &side[0]);
+    flat_lines_side(l, 1, &side[1]);
+}
+
+#endif

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT */
+/* flat_lines_armv7em.h - flat_lines in assembly for Cortex-M4: two pixels at once, and sides that stay in registers. Less than half of the
+ * compiler's instructions of a row, and two thirds of those of a pixel. */
+#ifndef SMEAR_KERNELS_FLAT_LINES_ARMV7EM_H
+#define SMEAR_KERNELS_FLAT_LINES_ARMV7EM_H
+
+#include "kernels/flat_lines.h"
+#include "kernels/flat_run_armv7em.h"
+
+#if SMEAR_ASM_ARMV7EM
+
+SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct flat_lines, to_pixels) == 40
+                        && offsetof(struct flat_lines, dz) == 40 + 12 && offsetof(struct flat_lines, row) == 40 + 24
+                        && offsetof(struct flat_lines, color) == 40 + 28,
+                    "the assembly knows struct flat_lines");
+
+/* The last instructions of a row: the next, or on to 2. */
+#define FLAT_LINES_NEXT         \
+    "ldr r8, [r9, #24]\n\t"     \
+    "adds r8, r8, #1\n\t"       \
+    "str r8, [r9, #24]\n\t"     \
+    "bne 1b\n\t"
+
+/* Where depth may have its break in a row it is in units from the break on. r7 pixels that lie on one side have their z and dz
+ * at 20; at 21 those are asked for that may not. */
+#define FLAT_LINES_BREAK              \
+    "21: sub r4, r7, #1\n\t"          \
+    "mla r4, r3, r4, r2\n\t"          \
+    "eors r4, r4, r2\n\t"             \
+    "bmi 22f\n"                       \
+    "20: cmp r2, #0\n\t"              \
+    "ittee lt\n\t"                    \
+    "lsllt r3, r3, #5\n\t"            \
+    "lsllt r2, r2, #5\n\t"            \
+    "lslge r3, r3, #1\n\t"            \
+    "lslge r2, r2, #1\n\t"            \
+    "add r2, r2, #0x80008000\n\t"
+
+/* Pixels behind the break come before the next row. Of them lie on the stack: their number, 0 where there are none, depth, and
+ * places. */
+#define FLAT_LINES_NEXT_BREAK         \
+    "ldr r7, [sp]\n\t"                \
+    "cmp r7, #0\n\t"                  \
+    "bne 23f\n\t"                     \
+    FLAT_LINES_NEXT
+
+/* Puts them there; at 20 are those before it. */
+#define FLAT_LINES_BREAK_APART(LOG2)  \
+    "22: cmp r3, #0\n\t"              \
+    "ble 24f\n\t"                     \
+    "subs r4, r3, r2\n\t"             \
+    "subs r4, r4, #1\n\t"             \
+    "sdiv r4, r4, r3\n\t"             \
+    "b 25f\n"                         \
+    "24: negs r4, r3\n\t"             \
+    "sdiv r4, r2, r4\n\t"             \
+    "adds r4, r4, #1\n"               \
+    "25: cmp r4, #1\n\t"              \
+    "it lt\n\t"                       \
+    "movlt r4, #1\n\t"                \
+    "subs r6, r7, #1\n\t"             \
+    "cmp r4, r6\n\t"                  \
+    "it gt\n\t"                       \
+    "movgt r4, r6\n\t"                \
+    "subs r6, r7, r4\n\t"             \
+    "mla r8, r3, r4, r2\n\t"          \
+    "strd r6, r8, [sp]\n\t"           \
+    "add r6, r0, r4, lsl #" LOG2 "\n\t" \
+    "add r8, r1, r4, lsl #1\n\t"      \
+    "strd r6, r8, [sp, #8]\n\t"       \
+    "mov r7, r4\n\t"                  \
+    "b 20b\n"                         \
+    "23: ldr r2, [sp, #4]\n\t"        \
+    "ldrd r0, r1, [sp, #8]\n\t"       \
+    "movs r4, #0\n\t"                 \
+    "str r4, [sp]\n\t"                \
+    "ldr r3, [r9, #12]\n\t"           \
+    "b 21b\n"
+
+/* r9 points into struct flat_lines, of which rows have numbers from minus their count to -1, and what is said of a row is of that behind
+ * them; the left side's place lies in r10 and r11, the right one's in r12 and lr. Then, in a row: pixels r0, depth r1, z r2, dz r3, the
+ * colour r7, rounds of four pixels r8. PIXELS brings r0; BREAK, NEXT and ELSE are those above. */
+#define FLAT_LINES(BREAK, NEXT, ELSE, PIXELS, STORE, STORE_TWO, SLOW) \
+    __asm__ volatile(".syntax unified\n\t" \
+                     "ldm r0, {r10, r11, r12, lr}\n\t" \
+                     "push {r0}\n\t" \
+                     "sub sp, #20\n\t" \
+                     "add r9, r0, #40\n\t" \
+                     "movs r0, #0\n\t" \
+                     "str r0, [sp]\n" \
+                     "1: ldmdb r9, {r0, r1, r2, r3, r6, r7}\n\t" \
+                     "cmp r6, r11, asr #10\n\t" \
+                     "it lt\n\t" \
+                     "asrlt r6, r11, #10\n\t" \
+                     "cmp r7, lr, asr #10\n\t" \
+                     "it gt\n\t" \
+                     "asrgt r7, lr, #10\n\t" \
+                     "adds r10, r10, r0\n\t" \
+                     "adc r11, r11, r1\n\t" \
+                     "adds r12, r12, r2\n\t" \
+                     "adc lr, lr, r3\n\t" \
+                     "subs r7, r7, r6\n\t" \
+                     "ble 8f\n\t" \
+                     "ldm r9, {r0, r1, r2, r3, r4, r5, r8}\n\t" \
+                     "mla r2, r4, r8, r2\n\t" \
+                     "mla r2, r3, r6, r2\n\t" \
+                     "mla r1, r5, r8, r1\n\t" \
+                     "add r1, r1, r6, lsl #1\n\t" \
+                     PIXELS BREAK FLAT_ARMV7EM_PIXELS("r7", "ldr r7, [r9, #28]\n\t", NEXT, ELSE, STORE, STORE_TWO, SLOW) \
+                     "add sp, #20\n\t" \
+                     "pop {r0}\n\t" \
+                     "stm r0, {r10, r11, r12, lr}" \
+                     : "+r"(r0) \
+                     : \
+                     : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+#define FLAT_LINES_NARROW(BREAK, NEXT, ELSE) \
+    FLAT_LINES(BREAK, NEXT, ELSE, "add r0, r0, r1\n\t", "strh", "str r7, [r0], #4\n\t", FLAT_ARMV7EM_SLOW_NARROW)
+#define FLAT_LINES_WIDE(BREAK, NEXT, ELSE) \
+    FLAT_LINES(BREAK, NEXT, ELSE, "add r0, r0, r1, lsl #1\n\t", "str", "strd r7, r7, [r0], #8\n\t", FLAT_ARMV7EM_SLOW_WIDE)
+
+/* Like flat_lines. */
+static inline void flat_lines_armv7em(struct flat_lines *l, int32_t n)
+{
+    l->row = -n;
+    l->z += l->dz_down * (uint32_t)n;
+    l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes * n);
+    register struct flat_lines *r0 __asm__("r0") = l;
+    if (l->narrow && l->breaks)
+        FLAT_LINES_NARROW(FLAT_LINES_BREAK, FLAT_LINES_NEXT_BREAK, FLAT_LINES_BREAK_APART("1"));
+    else if (l->narrow)
+        FLAT_LINES_NARROW("", FLAT_LINES_NEXT, "");
+    else if (l->breaks)
+        FLAT_LINES_WIDE(FLAT_LINES_BREAK, FLAT_LINES_NEXT_BREAK, FLAT_LINES_BREAK_APART("2"));
+    else
+        FLAT_LINES_WIDE("", FLAT_LINES_NEXT, "");
+}
+
+#endif
+
+#endif
