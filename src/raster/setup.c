@@ -405,7 +405,9 @@ void smear_setup_blocks(struct texture_setup *t, uint32_t worst, int32_t width, 
 static SMEAR_NOINLINE void setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;
-    struct corners k = { .low_q = INT32_MAX, .high_q = 0 };
+    struct corners k;
+    k.low_q = INT32_MAX;
+    k.high_q = 0;
     for (int i = 0; i < 3; i++) {
         k.uv[0][i] = setup_mesh_u(s, i);
         k.uv[1][i] = setup_mesh_v(s, i);

@@ -19,7 +19,7 @@
 #endif
 
 /* Whole spans of rows one below the other, from row y on. Where vectors draw them many cost less than few. */
-enum { SPAN_ROWS = SMEAR_AVX2 ? 64 : 16 };
+enum { SPAN_ROWS = SMEAR_AVX2 ? 64 : 32 };
 
 struct span_rows {
     int32_t y, count;
