@@ -182,8 +182,9 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "asrs r3, r3, #1\n\t" \
         "mov r12, r3\n\t"
 
-/* Of q in r3 the leading zeros less one into r4, and its reciprocal (recip_norm) into r6 and r5. */
-#define ARMV6M_RECIP \
+/* Of q in r3 the leading zeros less one into r4, and its reciprocal (recip_norm) into r6 and r5. The pointer to seeds lies SEED bytes
+ * behind r0. */
+#define ARMV6M_RECIP(SEED) \
         "movs r1, #1\n\t" \
         "lsls r1, r1, #11\n\t" \
         "cmp r3, r1\n\t" \
@@ -212,7 +213,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "4: lsls r1, r3, #1\n\t" \
         "lsrs r1, r1, #23\n\t" \
         "lsls r1, r1, #1\n\t" \
-        "ldr r2, [r0, #100]\n\t" \
+        "ldr r2, [r0, #" SEED "]\n\t" \
         "ldrh r1, [r2, r1]\n\t" \
         "lsrs r3, r3, #11\n\t" \
         "muls r3, r1\n\t" \
@@ -235,7 +236,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         "ldr r3, [r0, #52]\n\t" \
         "adds r3, r3, r1\n\t" \
         "str r3, [r0, #52]\n\t" \
-        ARMV6M_RECIP \
+        ARMV6M_RECIP("100") \
         RATE \
         ARMV6M_COORDINATE("56", "64", U, "36", "4", "", CURVE_U, TIMES, SLOPE) \
         ARMV6M_COORDINATE("60", "68", V, "40", "8", \
@@ -294,7 +295,7 @@ static SMEAR_NOINLINE void texel_track_start_armv6m(struct texel_track *k, const
         "mov lr, r4\n\t"
         "subs r0, #64\n\t"
         "mov r3, r12\n\t"
-        ARMV6M_RECIP
+        ARMV6M_RECIP("100")
         "movs r3, r7\n\t"
         ARMV6M_QUOTIENT
         "movs r7, r3\n\t"

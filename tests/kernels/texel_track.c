@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_track.c - how check_kernels calls kernels/texel_track.h: blocks one after the other, along planes of which some are like those of
- * triangles and some are anything; and texel_blocks_armv7em.h. */
+ * triangles and some are anything; texel_blocks_armv7em.h, and texel_place_rows.h. */
 #include "kernels/texel_blocks_armv7em.h"
+#include "kernels/texel_place_rows_armv6m.h"
+#include "kernels/texel_place_rows_armv7em.h"
 #include "kernels/texel_track.h"
 
 #include "tests/kernels/kernels.h"
@@ -96,9 +98,11 @@ CALL(reference)
 CALL(armv6m)
 #endif
 
-#if SMEAR_ASM_ARMV7EM
+#if SMEAR_ASM_ARMV7EM || TEXEL_PLACES_ASM
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END };       /* words from Z on */
+#endif
 
+#if SMEAR_ASM_ARMV7EM
 static void blocks_prepare(struct kernel_call *c)
 {
     prepare(c);
@@ -139,6 +143,46 @@ static void blocks_reference(struct kernel_call *c) { blocks(c, texel_blocks_ref
 static void blocks_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em); }
 #endif
 
+#if TEXEL_PLACES_ASM
+enum { STRIDE = 11 };
+
+static struct span_side sides[4];
+
+/* Rows of pixels within the stride, some of none. */
+static void places_prepare(struct kernel_call *c)
+{
+    prepare(c);
+    c->bytes[0] = c->n * 2;
+    c->bytes[2] = 2 << (LOG2_WIDTH + LOG2_HEIGHT);
+    for (int i = 0; i < 4; i++) {
+        const int32_t left = kernel_between(0, STRIDE - 1);
+        sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
+    }
+}
+
+SMEAR_INLINE void places_by(struct kernel_call *c, void draw(struct texel_place_rows *))
+{
+    int32_t plane[9];
+    set_planes(c, plane, 0, (int32_t)(c->word[KIND] & 511u));
+    struct texel_place_rows rows = {
+        sides, c->n / STRIDE, (int32_t)(c->word[KIND] & 511u), c->word[Z], c->word[COLOR_END], c->plane[1], STRIDE * 2,
+        (c->word[KIND] & 512u) != 0 ? SHORT_SPAN : INT32_MAX, c->word[DZ], { plane[0], plane[1], plane[2] },
+        { plane[3], plane[4], plane[5] }, { plane[6], plane[7], plane[8] }, smear_recip_seed, (int32_t)(c->word[KIND] >> 16 & 15u),
+        32 - LOG2_WIDTH, 32 - LOG2_HEIGHT, LOG2_WIDTH, c->plane[2], (int32_t)((uint8_t *)c->plane[0] - (uint8_t *)c->plane[1])
+    };
+    draw(&rows);
+}
+
+static void places_reference(struct kernel_call *c) { places_by(c, texel_place_rows_reference); }
+#if SMEAR_ASM_ARMV6M
+static void places_assembly(struct kernel_call *c) { places_by(c, texel_place_rows_armv6m); }
+#define PLACES "armv6m"
+#else
+static void places_assembly(struct kernel_call *c) { places_by(c, texel_place_rows_armv7em); }
+#define PLACES "armv7em"
+#endif
+#endif
+
 extern const struct kernel kernels_texel_track[];
 const struct kernel kernels_texel_track[] = {
     { .name = "texel_track", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
@@ -150,6 +194,10 @@ const struct kernel kernels_texel_track[] = {
 #if SMEAR_ASM_ARMV7EM
     { .name = "texel_blocks", .least = 3, .most = 140, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
       .form = { { "reference", blocks_reference }, { "armv7em", blocks_armv7em } } },
+#endif
+#if TEXEL_PLACES_ASM
+    { .name = "texel_place_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 2 }, .prepare = places_prepare,
+      .form = { { "reference", places_reference }, { PLACES, places_assembly } } },
 #endif
     { .name = NULL }
 };
