@@ -83,11 +83,13 @@ done | awk 'FNR == NR { known[$1] = 1; next } $1 in known' "$folder/model" - >"$
 
 best=
 for state in by-model by-lists; do
-    # What the model foresaw may be a little too large: its least dense functions go.
+    # What the model foresaw may be a little too large: its least dense functions go, of the memory that is too small.
     while ! link_programs "$folder/$state"; do
         grep -q "overflow" "$folder/link.log" && [ -s "$folder/$state" ] || { cat "$folder/link.log"; exit 1; }
-        awk 'FNR == NR { density[$1] = $4 / $3; next }
-            { line[++n] = $0; if (least == "" || density[$1] < low) { least = n; low = density[$1] } }
+        place=fast
+        grep -q "overflowed by" "$folder/link.log" && place=warm
+        awk -v place=$place 'FNR == NR { density[$1] = $4 / $3; next }
+            { line[++n] = $0; if ($2 == place && (least == "" || density[$1] < low)) { least = n; low = density[$1] } }
             END { for (i = 1; i <= n; i++) if (i != least) print line[i] }' "$folder/model" "$folder/$state" >"$folder/less"
         mv "$folder/less" "$folder/$state"
     done
@@ -99,7 +101,7 @@ for state in by-model by-lists; do
     fi
 done
 
-# try PLACE FUNCTION: keeps it there if that costs less.
+# try PLACE FUNCTION: keeps it there if that costs less; out: not in fast memory, which takes time to fill.
 try() {
     more=0
     while [ $more -le 400 ]; do
@@ -122,8 +124,10 @@ round=0
 while [ $round -lt "$rounds" ]; do
     round=$((round + 1))
     before=$best
-    for place in fast warm; do
-        awk -v place=$place 'FNR == NR { at[$1] = $2; next } at[$1] != "fast" && at[$1] != place && $4 > 0 { print $4 / $3, $1 }' "$folder/state" "$folder/model" |
+    for place in fast warm out; do
+        awk -v place=$place 'FNR == NR { at[$1] = $2; next }
+            place == "out" && at[$1] == "fast" { print -$4 / $3, $1 }
+            place != "out" && at[$1] != "fast" && at[$1] != place && $4 > 0 { print $4 / $3, $1 }' "$folder/state" "$folder/model" |
             sort -rn | awk -v tries="$tries" 'NR <= tries { print $2 }' >"$folder/candidates.$place"
         while read -r name; do
             try $place "$name"

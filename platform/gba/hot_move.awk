@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# hot_move.awk - awk -v place=fast|warm -v name=FUNCTION -v slack="ASSEMBLE DRAW WARM" -v more=BYTES -f hot_move.awk MODEL STATE
-# Prints STATE, "NAME PLACE", with a function moved, and those moved out that gain least per byte and give it room and MORE bytes. What
-# leaves fast memory goes to video memory, in place of what gains less there. Fails if all that would have to go gains more.
+# hot_move.awk - awk -v place=fast|warm|out -v name=FUNCTION -v slack="ASSEMBLE DRAW WARM" -v more=BYTES -f hot_move.awk MODEL STATE
+# Prints STATE, "NAME PLACE", with a function moved, to fast or video memory or out of fast memory, and those moved out that gain
+# least per byte and give it room and MORE bytes. What leaves fast memory goes to video memory, in place of what gains less there.
+# Fails if all that would have to go gains more.
 function by_density(list, n,    i, j, held) {
     for (i = 2; i <= n; i++)
         for (j = i; j > 1 && density[list[j]] < density[list[j - 1]]; j--) {
@@ -44,6 +45,11 @@ END {
     if (place == "warm")
         missing = make_room("warm", "", need - left[3])
     else {
+        if (place == "out") {
+            at[name] = "rom"
+            out[name] = "fast"
+            need = 0
+        }
         if (stage[name] != "draw")
             missing += make_room("fast", "assemble", need - left[1])
         if (stage[name] != "assemble")
@@ -64,11 +70,12 @@ END {
             }
         }
     }
-    if (missing > 0 || lost > 3 * density[name] * bytes[name])
+    if (place != "out" && (missing > 0 || lost > 3 * density[name] * bytes[name]))
         exit 1
     if (!(name in at))
         order[++lines] = name
-    at[name] = place
+    if (place != "out")
+        at[name] = place
     for (i = 1; i <= lines; i++)
         if (at[order[i]] != "rom")
             print order[i], at[order[i]]

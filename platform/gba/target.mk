@@ -23,6 +23,9 @@ CFLAGS += -DSMEAR_WITH_FOG=0
 CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
 $(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o: CFLAGS += -Os
 
+# The core has no pipeline that waits for loads: what is loaded early only takes registers.
+CFLAGS += -fno-schedule-insns
+
 # Video memory takes no single bytes.
 $(BUILD)/platform/common/memory.o: CFLAGS += -D'PLATFORM_COPY_FILE="platform/gba/copy.h"'
 
