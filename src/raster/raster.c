@@ -8,6 +8,7 @@
 #include "raster/flat_list.h"
 #include "raster/fog.h"
 #include "raster/kept_found.h"
+#include "raster/point.h"
 #include "raster/span.h"
 #include "raster/tiny_list.h"
 
@@ -353,26 +354,6 @@ static SMEAR_NOINLINE void draw_triangle(const struct smear_raster_frame *frame,
 }
 #endif
 
-/* A finished pixel; in fog there are none. */
-static inline void draw_point(const struct smear_raster_frame *frame,
-                              const struct smear_raster_target *target, const struct smear_triangle *t,
-                              bool moved)
-{
-    int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
-    if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
-        return;
-    int32_t ring_row = target->window_rows.ring_row + y;
-    if (ring_row >= target->window_rows.ring)
-        ring_row -= target->window_rows.ring;
-    int32_t at = ring_row * target->window_rows.stride + x - target->window_rows.x0;
-    if (t->vertex[POINT_DEPTH] <= target->depth[at])
-        return;
-    target->depth[at] = t->vertex[POINT_DEPTH];
-    target_put(target, at, t->color);
-    if (moved && target_has_velocity(target))
-        smear_velocity_still(target, at, frame_has_depth_velocity(frame));
-}
-
 /* Draws an entry of a list, triangle or point. */
 SMEAR_INLINE void draw_entry(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                              const struct smear_triangle *t, uint32_t number, bool *moved, bool in_fog)
@@ -551,6 +532,58 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
 }
 #endif
 
+#if SMEAR_FLAT_LIST
+/* Draws triangles of one segment that have no colours of vertices, from `head` on, and points among them: those where `points` is given
+ * at once. Returns what follows. */
+static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                              struct tiny_look *look, struct points_plane *points, uint32_t head, bool *moved)
+{
+    const struct smear_bins *const bins = frame->bins;
+    const uint32_t segment = bins_triangle(bins, head)->segment;
+    const struct smear_segment *const g = &bins->segment[segment];
+    const bool whole = target->x0 <= 0 && target->x1 >= frame->width, narrow = target_is_direct(target);
+    bool tiny = true;
+#if TINY_TRIANGLES
+    struct tiny_triangles triangles;
+    const bool loops = points != NULL && tiny_loop(&triangles, look, points, bins, g);
+#else
+    const bool loops = false;
+#endif
+    while (head != SMEAR_NO_TRIANGLE) {
+        const uint32_t number = head;
+        const struct smear_triangle *t = bins_triangle(bins, number);
+        if (t->segment != segment && t->segment != SMEAR_POINT)
+            break;
+        head = t->next;
+        if (t->segment == SMEAR_POINT) {
+            if (points != NULL)
+                head = points_list(points, number, narrow);
+            else
+                draw_point(frame, target, t, *moved);
+            continue;
+        }
+#if TINY_TRIANGLES
+        if (loops && (tiny || (number & 3u) == 0)) {
+            const uint32_t reached = tiny_triangles(&triangles, number);
+            tiny = reached != number;
+            if (tiny) {
+                head = reached;
+                continue;
+            }
+        }
+#endif
+        const int32_t *const v[3] = { bins_vertex(bins, g, t->vertex[0]), bins_vertex(bins, g, t->vertex[1]),
+                                      bins_vertex(bins, g, t->vertex[2]) };
+        /* After one that is large, some are not even looked at. */
+        if (!loops)
+            tiny = (tiny || (number & 3u) == 0) && tiny_draw(look, v, t->color);
+        if (!tiny && !smear_flat_triangle(target, v, t->color, whole))
+            draw_triangle(frame, target, g, t->color, number, v, NULL, moved);
+    }
+    return head;
+}
+#endif
+
 #if SMEAR_TINY_LIST
 /* A list of triangles that may be tiny, and points. */
 static void draw_list_tiny(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
@@ -561,9 +594,6 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
     struct points_plane points;
     const bool at_once = tiny_points(&points, frame, target), narrow = target_is_direct(target);
     bool loops = false;         /* tiny_loop draws */
-#if SMEAR_FLAT_LIST
-    const bool whole = target->x0 <= 0 && target->x1 >= frame->width;
-#endif
 #if TINY_TRIANGLES
     struct tiny_triangles triangles;
 #endif
@@ -583,6 +613,12 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         if (t->segment != segment) {
             segment = t->segment;
             tiny = suits = tiny_look(&look, frame, target, g);
+#if SMEAR_FLAT_LIST
+            if (suits && !look.box.shaded) {
+                head = draw_flat_ones(frame, target, &look, at_once ? &points : NULL, number, &moved);
+                continue;
+            }
+#endif
 #if TINY_TRIANGLES
             loops = suits && at_once && tiny_loop(&triangles, &look, &points, frame->bins, g);
 #endif
@@ -602,13 +638,8 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         /* After one that is large, some are not even looked at. */
         if (!loops)
             tiny = suits && (tiny || (number & 3u) == 0) && tiny_draw(&look, v, t->color);
-        if (tiny)
-            continue;
-#if SMEAR_FLAT_LIST
-        if (suits && !look.box.shaded && smear_flat_triangle(target, v, t->color, whole))
-            continue;
-#endif
-        draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
+        if (!tiny)
+            draw_triangle(frame, target, g, t->color, number, v, NULL, &moved);
     }
 }
 #endif
