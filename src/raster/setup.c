@@ -312,6 +312,16 @@ static bool curve_make(struct setup *s, const struct weights *w, const struct de
     return true;
 }
 
+/* a over the larger of a texture's sizes, rounded down. */
+static inline uint32_t over_size(uint32_t a, const struct smear_sampler *m)
+{
+#if !SMEAR_SMALL_CODE
+    if (m->turns)
+        return a >> max_u32(m->log2_width, m->log2_height);
+#endif
+    return a / (uint32_t)max_i32(m->width, m->height);
+}
+
 /* Around the middle of its range, q = m (1 + e) with |e| <= E. With planes e and W = (u - u_middle)
  * (1 + e), u is u_middle + W / (1 + e), nearly u_middle + W (1 + 3/16 E^2 - e): off by at most 13/16 E^2 W,
  * in corners; 3/16 makes it least on the average. Without perspective (`flat`) e is 0. False where the
@@ -321,9 +331,8 @@ static bool setup_curved(struct setup *s, const struct corners *k, uint32_t trav
     struct texture_setup *t = &s->texture;
     const struct smear_sampler *m = &s->draw->sampler;
     const uint32_t across = (uint32_t)max_i32(s->bounds.x1 - s->bounds.x0, s->bounds.y1 - s->bounds.y0) >> 8;
-    const uint32_t size = (uint32_t)max_i32(m->width, m->height);
     /* A last bit of the coefficients is 2^-(14 + uv_shift) turns. Edges of 2^13 px at most. */
-    if (across * across > (flat ? 1u << 26 : (256u << m->uv_shift) / size) || travel > 65535u
+    if (across * across > (flat ? 1u << 26 : over_size(256u << m->uv_shift, m)) || travel > 65535u
         || k->width[0] > CURVE_TURNS << m->uv_shift)
         return false;
     const int32_t x = s->v[0][VERTEX_X], y = s->v[0][VERTEX_Y];
