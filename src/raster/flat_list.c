@@ -210,8 +210,6 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
         return false;
     if (y >= end || (!whole && is_beside(t, v)))
         return true;
-    if (t->cache.entries != 0 && (y != c.first || end != c.end))
-        return false;
     lines_start(&l, t, color);
     depth_make(&l, v, y);
     draw_rows(t, &l, &c, y, end);

@@ -12,8 +12,8 @@
 
 #if SMEAR_FLAT_LIST
 /* Draws an opaque triangle of this colour, clockwise on the screen, where pixels say nothing but colour and depth. The bits are those of
- * setup.c and cover.c. False where it is tiny (cover_tiny.h), or may be kept (kept.h): it is drawn there. `whole`: the target has all
- * columns of the frame. */
+ * setup.c and cover.c. Nothing is kept of it for the next rows: to make it ready again takes less. False where it is tiny
+ * (cover_tiny.h): it is drawn there. `whole`: the target has all columns of the frame. */
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, bool whole);
 
 /* Draws the target's rows of one that is ready: not small, without velocity. */
