@@ -125,17 +125,27 @@ static inline void depth_make(struct flat_lines *l, const int32_t *const v[3], i
 
 /* ------------------------------------------------------------------ rows */
 
-/* Starts a side so many rows below its first one. */
-static SMEAR_NOINLINE void side_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+/* Starts a side so many rows below its first one, whatever it is. */
+static SMEAR_NOINLINE void line_start_any(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
 {
-#if SMEAR_ASM_ARMV6M
-    if (rows == 0 && flat_lines_side_armv6m(l, side, a, b))
-        return;
-#endif
     struct edge_fine e;
     edge_fine_start(&e, a, b, rows);
     flat_lines_side(l, side, &e);
 }
+
+#if SMEAR_ASM_ARMV6M
+/* Usual ones without what the others take of the stack. */
+static SMEAR_NOINLINE void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+{
+    if (rows != 0 || !flat_lines_side_armv6m(l, side, a, b))
+        line_start_any(l, side, a, b, rows);
+}
+#else
+static inline void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+{
+    line_start_any(l, side, a, b, rows);
+}
+#endif
 
 static inline void lines_start(struct flat_lines *l, const struct smear_raster_target *t, uint32_t color)
 {
@@ -179,14 +189,14 @@ static inline void draw_rows(const struct smear_raster_target *t, struct flat_li
     if (left <= 0)
         left += w->ring;
     l->depth = t->depth + ((w->ring - left) * w->stride - w->x0);
-    side_start(l, whole, c->top, c->bottom, y - c->first);
+    line_start(l, whole, c->top, c->bottom, y - c->first);
     while (y < end) {
         const bool upper = y < c->knee;
         const int32_t n = (upper ? min_i32(c->knee, end) : end) - y;
         if (upper)
-            side_start(l, 1 - whole, c->top, c->middle, y - c->first);
+            line_start(l, 1 - whole, c->top, c->middle, y - c->first);
         else
-            side_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
+            line_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
         y += n;
         if (left >= n) {
             draw_lines(l, n);
