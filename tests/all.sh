@@ -124,9 +124,8 @@ generated() {
     fi
 }
 
-# What others build the library from: its switches, packages, the one file.
+# What others build the library from: packages, the one file.
 forms() {
-    suite switches $make -s switches-test
     needs cmake "cmake" || true            # dist.sh builds packages with it
     needs pkg-config "pkg-config" || true
     needs arduino-builder "arduino-builder arduino-ctags" || true
@@ -144,7 +143,7 @@ forms() {
 suite includes $make -s layers
 suite house $make -s house
 suite build $make -s $jobs all build/host/run build/host/frames build/host/demo build/host/game build/host/tiny build/tapes/golden.c \
-    build/tapes/small.c build/demo/target_screen
+    build/tapes/small.c build/demo/target_screen build/dist-single
 beside others
 if needs clang-format-14 "clang-format-14"; then
     suite format $make -s format-check
@@ -193,6 +192,7 @@ if needs wasm-ld-14 "clang-14 lld-14" && needs llvm-ar-14 "llvm-14" && needs xz 
     suite target-wasm $make -s TARGET=wasm target-test
 fi
 suite golden-host $make -s TARGET=host target-test
+suite switches $make -s switches-test
 generated
 if needs frama-c "frama-c-base"; then
     suite proofs $make -s proofs STEP=7

@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# target_switches.sh BUILD-FOLDER
+# target_switches.sh BUILD-FOLDER SMEAR.C
 # Every switch of smear_config.h off alone, sets of them, and everything off but one method and one
 # format: compiles without a warning, draws the golden frames it can to the bit, refuses the others.
-# Needs build/tapes/golden.c and what `make dist` writes.
+# SMEAR.C is the one-file form. Needs build/tapes/golden.c.
 set -u
 . "$(dirname "$0")/lib.sh"
-base=$1
+base=$1 single=$2
 mkdir -p "$base"
 flags="-std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc -I."
 players="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c"
@@ -33,7 +33,7 @@ draws_alone() {
     name=$1
     shift
     # shellcheck disable=SC2086
-    ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" build/dist/single/smear.c &&
+    ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" "$single" &&
         ${CC:-cc} $flags "$@" -no-pie -Wl,--unresolved-symbols=ignore-in-object-files -o "$base/$name" $players "$base/tapes.o" \
             "$base/$name.o" &&
         plays "$name"
