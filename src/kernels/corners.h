@@ -5,16 +5,15 @@
 
 #include "base/fixmath.h"
 
-/* x and y, q8 px; and the rows between them that are drawn. */
+/* x and y, q8 px; and the rows between them: the first ones whose centres lie below each. */
 struct corners {
     const int32_t *top, *middle, *bottom;
     int32_t first, knee, end;
     bool whole_is_left;             /* the side without the middle corner */
 };
 
-/* Of rows [y0, y1). Clockwise from the top, the next corner lies right of the long edge, so that is the left one; each swap turns the
- * triangle over. */
-SMEAR_INLINE void corners_find(struct corners *c, const int32_t *const corner[3], int32_t y0, int32_t y1)
+/* Clockwise from the top, the next corner lies right of the long edge, so that is the left one; each swap turns the triangle over. */
+SMEAR_INLINE void corners_sort(struct corners *c, const int32_t *const corner[3])
 {
     const int32_t *top = corner[0], *middle = corner[1], *bottom = corner[2], *swap;
     bool whole_is_left = true;
@@ -39,10 +38,19 @@ SMEAR_INLINE void corners_find(struct corners *c, const int32_t *const corner[3]
     c->top = top;
     c->middle = middle;
     c->bottom = bottom;
-    c->first = max_i32((top[1] + 127) >> 8, y0);
-    c->end = min_i32((bottom[1] + 127) >> 8, y1);
-    c->knee = clamp_i32((middle[1] + 127) >> 8, c->first, max_i32(c->end, c->first));
+    c->first = (top[1] + 127) >> 8;
+    c->knee = (middle[1] + 127) >> 8;
+    c->end = (bottom[1] + 127) >> 8;
     c->whole_is_left = whole_is_left;
+}
+
+/* Of rows [y0, y1). */
+SMEAR_INLINE void corners_find(struct corners *c, const int32_t *const corner[3], int32_t y0, int32_t y1)
+{
+    corners_sort(c, corner);
+    c->first = max_i32(c->first, y0);
+    c->end = min_i32(c->end, y1);
+    c->knee = clamp_i32(c->knee, c->first, max_i32(c->end, c->first));
 }
 
 /* Tells which corner is which, in a number of eight bits; corners_ordered() then makes the same for rows [y0, y1) below the

@@ -5,6 +5,7 @@
 #define SMEAR_KERNELS_FLAT_LINES_ARMV6M_H
 
 #include "kernels/flat_lines.h"
+#include "kernels/flat_row_armv6m.h"
 
 #if SMEAR_FLAT_LINES && SMEAR_ASM_ARMV6M
 
@@ -12,26 +13,15 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, x) == 16 && offsetof(struct flat
                         && offsetof(struct flat_lines, to_pixels) == 56 && offsetof(struct flat_lines, color) == 64,
                     "the assembly knows struct flat_lines");
 
-/* The pixel AT bytes of depth and PLACE bytes of colours further on. LABEL is behind it. */
-#define FLAT_LINES_PUT(STORE, AT, PLACE, LABEL) \
-    "ldrh r5, [r1, #" AT "]\n\t"                \
-    "adds r0, r0, r3\n\t"                       \
-    "cmp r5, r4\n\t"                            \
-    "bhs " LABEL "f\n\t"                        \
-    "strh r4, [r1, #" AT "]\n\t" STORE " r7, [r2, #" PLACE "]\n" LABEL ": "
-#define FLAT_LINES_PIXEL(STORE, AT, PLACE, LABEL) \
-    "lsrs r4, r0, #16\n\t" FLAT_LINES_PUT(STORE, AT, PLACE, LABEL)
-
-/* The same where codes break: what flat_code adds is in r12. */
+/* A pixel where codes break: what flat_code adds is in r12. */
 #define FLAT_LINES_ACROSS(STORE, AT, PLACE, LABEL) \
     "lsls r4, r0, #1\n\t"                          \
     "bcc " LABEL "f\n\t"                           \
     "lsls r4, r0, #5\n"                            \
     LABEL ": add r4, r12\n\t"                      \
-    "lsrs r4, r4, #16\n\t" FLAT_LINES_PUT(STORE, AT, PLACE, LABEL)
+    "lsrs r4, r4, #16\n\t" FLAT_ROW_PUT(STORE, AT, PLACE, LABEL)
 
-/* struct flat_lines from x on in r8, rows in r9, steps of sides on the stack. Then, in a row: z r0, depth r1, pixels r2, dz r3, how many
- * r6, the colour r7. DOUBLE is an instruction where pixels are wide; of them SINGLE, TWICE, THRICE and FOUR are bytes. */
+/* struct flat_lines from x on in r8, rows in r9, steps of sides on the stack; the rest is of flat_row_armv6m.h. */
 #define FLAT_LINES_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                            \
     __asm__ volatile(".syntax unified\n\t"                                                                              \
                      "mov r9, r1\n\t"                                                                                   \
@@ -57,45 +47,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, x) == 16 && offsetof(struct flat
                      "adcs r3, r4\n\t"                                                                                  \
                      "subs r7, #16\n\t"                                                                                 \
                      "stm r7!, {r0, r1, r2, r3}\n\t"                                                                    \
-                     "ldm r7!, {r0, r1, r2, r3}\n\t"                                                                    \
-                     "cmp r5, r0\n\t"                                                                                   \
-                     "bge 4f\n\t"                                                                                       \
-                     "movs r5, r0\n"                                                                                    \
-                     "4: cmp r6, r1\n\t"                                                                                \
-                     "ble 5f\n\t"                                                                                       \
-                     "movs r6, r1\n"                                                                                    \
-                     "5: ldr r0, [r7]\n\t"                                                                              \
-                     "ldr r1, [r7, #4]\n\t"                                                                             \
-                     "adds r2, r2, r0\n\t"                                                                              \
-                     "adds r3, r3, r1\n\t"                                                                              \
-                     "stm r7!, {r2, r3}\n\t"                                                                            \
-                     "subs r6, r6, r5\n\t"                                                                              \
-                     "ble 9f\n\t"                                                                                       \
-                     "ldm r7, {r2, r3, r7}\n\t"                                                                         \
-                     "movs r4, r3\n\t"                                                                                  \
-                     "muls r4, r5\n\t"                                                                                  \
-                     "adds r0, r0, r4\n\t"                                                                              \
-                     "lsls r5, r5, #1\n\t"                                                                              \
-                     "adds r1, r1, r5\n\t" DOUBLE "adds r2, r2, r1\n\t"                                                 \
-                     "subs r6, #4\n\t"                                                                                  \
-                     "blt 7f\n"                                                                                         \
-                     "6: " PIXEL(STORE, "0", "0", "2") PIXEL(STORE, "2", SINGLE, "3")                                   \
-                         PIXEL(STORE, "4", TWICE, "4") PIXEL(STORE, "6", THRICE, "5")                                   \
-                     "adds r2, #" FOUR "\n\t"                                                                           \
-                     "adds r1, #8\n\t"                                                                                  \
-                     "subs r6, #4\n\t"                                                                                  \
-                     "bge 6b\n"                                                                                         \
-                     "7: lsrs r6, r6, #1\n\t"                                                                           \
-                     "bcc 8f\n\t" PIXEL(STORE, "0", "0", "2")                                                           \
-                     "adds r2, #" SINGLE "\n\t"                                                                         \
-                     "adds r1, #2\n"                                                                                    \
-                     "8: lsrs r6, r6, #1\n\t"                                                                           \
-                     "bcc 9f\n\t" PIXEL(STORE, "0", "0", "2") PIXEL(STORE, "2", SINGLE, "3")                            \
-                     "9: mov r4, r9\n\t"                                                                                \
-                     "subs r4, #1\n\t"                                                                                  \
-                     "mov r9, r4\n\t"                                                                                   \
-                     "beq 2f\n\t"                                                                                       \
-                     "b 1b\n"                                                                                           \
+                     FLAT_ROW_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
                      "2: add sp, #16"                                                                                   \
                      : "+r"(r0), "+r"(r1)                                                                               \
                      :                                                                                                  \
@@ -235,9 +187,9 @@ static inline void flat_lines_armv6m(struct flat_lines *l, int32_t n)
         else
             FLAT_LINES_ARMV6M(FLAT_LINES_ACROSS, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
     } else if (l->narrow) {
-        FLAT_LINES_ARMV6M(FLAT_LINES_PIXEL, "strh", "", "2", "4", "6", "8");
+        FLAT_LINES_ARMV6M(FLAT_ROW_PIXEL, "strh", "", "2", "4", "6", "8");
     } else {
-        FLAT_LINES_ARMV6M(FLAT_LINES_PIXEL, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
+        FLAT_LINES_ARMV6M(FLAT_ROW_PIXEL, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
     }
 }
 

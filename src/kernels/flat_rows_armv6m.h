@@ -4,6 +4,7 @@
 #ifndef SMEAR_KERNELS_FLAT_ROWS_ARMV6M_H
 #define SMEAR_KERNELS_FLAT_ROWS_ARMV6M_H
 
+#include "kernels/flat_row_armv6m.h"
 #include "kernels/flat_rows.h"
 
 #if FLAT_ROWS && SMEAR_ASM_ARMV6M
@@ -26,15 +27,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
                         && offsetof(struct edge_walk, step_rest) == 12 && sizeof(struct edge_walk) == 20,
                     "the assembly knows struct edge_walk");
 
-/* The pixel AT bytes of depth and PLACE bytes of colours further on. LABEL is behind it. */
-#define FLAT_ROWS_PIXEL(STORE, AT, PLACE, LABEL) \
-    "lsrs r4, r0, #16\n\t"                       \
-    "ldrh r5, [r1, #" AT "]\n\t"                 \
-    "adds r0, r0, r3\n\t"                        \
-    "cmp r5, r4\n\t"                             \
-    "bhs " LABEL "f\n\t"                         \
-    "strh r4, [r1, #" AT "]\n\t" STORE " r7, [r2, #" PLACE "]\n" LABEL ": "
-
 /* Takes the edge at r7: its pixel into register PIXEL, and goes on by a row. */
 #define FLAT_ROWS_EDGE(PIXEL, LABEL)   \
     "ldm r7!, {r0, r1, r2, r3, r4}\n\t" \
@@ -46,8 +38,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
     "adds r0, #1\n" LABEL ": subs r7, #20\n\t" \
     "stm r7!, {r0, r1}\n\t"
 
-/* struct flat_rows_walk in r8, rows in r9, edges in r10 and r11. Then, in a row: z r0, depth r1, pixels r2, dz r3, how many r6, the
- * colour r7. DOUBLE is an instruction where pixels are wide; of them SINGLE, TWICE, THRICE and FOUR are bytes. */
+/* struct flat_rows_walk in r8, rows in r9, edges in r10 and r11; the rest is of flat_row_armv6m.h. */
 #define FLAT_ROWS_ARMV6M(STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                                  \
     __asm__ volatile(".syntax unified\n\t"                                                                            \
                      "mov r8, r0\n\t"                                                                                 \
@@ -56,45 +47,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct edge_walk, x) == 0 && offsetof(struct edge_w
                      "mov r11, r3\n"                                                                                  \
                      "1: mov r7, r10\n\t" FLAT_ROWS_EDGE("r5", "2") "mov r7, r11\n\t" FLAT_ROWS_EDGE("r6", "3")       \
                      "mov r7, r8\n\t"                                                                                 \
-                     "ldm r7!, {r0, r1, r2, r3}\n\t"                                                                  \
-                     "cmp r5, r0\n\t"                                                                                 \
-                     "bge 4f\n\t"                                                                                     \
-                     "movs r5, r0\n"                                                                                  \
-                     "4: cmp r6, r1\n\t"                                                                              \
-                     "ble 5f\n\t"                                                                                     \
-                     "movs r6, r1\n"                                                                                  \
-                     "5: ldr r0, [r7]\n\t"                                                                            \
-                     "ldr r1, [r7, #4]\n\t"                                                                           \
-                     "adds r2, r2, r0\n\t"                                                                            \
-                     "adds r3, r3, r1\n\t"                                                                            \
-                     "stm r7!, {r2, r3}\n\t"                                                                          \
-                     "subs r6, r6, r5\n\t"                                                                            \
-                     "ble 9f\n\t"                                                                                     \
-                     "ldm r7, {r2, r3, r7}\n\t"                                                                       \
-                     "movs r4, r3\n\t"                                                                                \
-                     "muls r4, r5\n\t"                                                                                \
-                     "adds r0, r0, r4\n\t"                                                                            \
-                     "lsls r5, r5, #1\n\t"                                                                            \
-                     "adds r1, r1, r5\n\t" DOUBLE "adds r2, r2, r1\n\t"                                               \
-                     "subs r6, #4\n\t"                                                                                \
-                     "blt 7f\n"                                                                                       \
-                     "6: " FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")             \
-                         FLAT_ROWS_PIXEL(STORE, "4", TWICE, "4") FLAT_ROWS_PIXEL(STORE, "6", THRICE, "5")             \
-                     "adds r2, #" FOUR "\n\t"                                                                         \
-                     "adds r1, #8\n\t"                                                                                \
-                     "subs r6, #4\n\t"                                                                                \
-                     "bge 6b\n"                                                                                       \
-                     "7: lsrs r6, r6, #1\n\t"                                                                         \
-                     "bcc 8f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2")                                               \
-                     "adds r2, #" SINGLE "\n\t"                                                                       \
-                     "adds r1, #2\n"                                                                                  \
-                     "8: lsrs r6, r6, #1\n\t"                                                                         \
-                     "bcc 9f\n\t" FLAT_ROWS_PIXEL(STORE, "0", "0", "2") FLAT_ROWS_PIXEL(STORE, "2", SINGLE, "3")      \
-                     "9: mov r4, r9\n\t"                                                                              \
-                     "subs r4, #1\n\t"                                                                                \
-                     "mov r9, r4\n\t"                                                                                 \
-                     "beq 2f\n\t"                                                                                     \
-                     "b 1b\n"                                                                                         \
+                     FLAT_ROW_ARMV6M(FLAT_ROW_PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
                      "2:"                                                                                             \
                      : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)                                                         \
                      :                                                                                                \

@@ -41,6 +41,14 @@ static inline uint32_t texel_polynomial_at(const struct texel_polynomial *p, uin
     return p->at + (p->dyy * y + p->dy) * y + dx * x;
 }
 
+/* Assembly begins each row by going on to the next one. */
+static inline void texel_curve_rows_before(struct texel_curve_rows *r)
+{
+    r->y--;
+    r->z -= r->dz_down;
+    r->depth = (uint16_t *)((uintptr_t)r->depth - (uintptr_t)r->stride);
+}
+
 /* Draws rows from left to before right, where there are such pixels, as texels_draw does. Afterwards the rows are anything. */
 static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int log2_width, int log2_height)
 {

@@ -70,9 +70,7 @@
 static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct texel_curve_rows *rows, int log2_width, int log2_height)
 {
     rows->side = (const struct span_side *)((uintptr_t)rows->side - sizeof(struct span_side));
-    rows->y--;
-    rows->z -= rows->dz_down;
-    rows->depth = (uint16_t *)((uintptr_t)rows->depth - (uintptr_t)rows->stride);
+    texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
     __asm__ volatile(
         ".syntax unified\n\t"

@@ -21,9 +21,7 @@
 /* On the stack lie the end of a row, and the rows, whose members have come to the row before. */
 static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struct texel_curve_rows *rows, int log2_width, int log2_height)
 {
-    rows->y--;
-    rows->z -= rows->dz_down;
-    rows->depth = (uint16_t *)((uintptr_t)rows->depth - (uintptr_t)rows->stride);
+    texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
     __asm__ volatile(
         ".syntax unified\n\t"

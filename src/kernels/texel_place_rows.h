@@ -33,6 +33,14 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_place_rows, dz) == 32 && offsetof(stru
                         && sizeof(struct span_side) == 12 && offsetof(struct span_side, right) == 4,
                     "the assembly knows struct texel_place_rows and struct span_side");
 
+/* Assembly begins each row by going on to the next one. */
+static inline void texel_place_rows_before(struct texel_place_rows *r)
+{
+    r->y--;
+    r->z -= r->dz_down;
+    r->depth = (uint16_t *)((uintptr_t)r->depth - (uintptr_t)r->stride);
+}
+
 /* Draws rows from left to before right, where there are such pixels. Afterwards the rows are anything. */
 static inline void texel_place_rows_reference(struct texel_place_rows *r)
 {

@@ -72,9 +72,7 @@
 static SMEAR_NOINLINE void texel_place_rows_armv6m(struct texel_place_rows *rows)
 {
     rows->side = (const struct span_side *)((uintptr_t)rows->side - sizeof(struct span_side));
-    rows->y--;
-    rows->z -= rows->dz_down;
-    rows->depth = (uint16_t *)((uintptr_t)rows->depth - (uintptr_t)rows->stride);
+    texel_place_rows_before(rows);
     register struct texel_place_rows *r0 __asm__("r0") = rows;
     __asm__ volatile(
         ".syntax unified\n\t"

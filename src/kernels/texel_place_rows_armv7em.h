@@ -73,9 +73,7 @@
  * rows, whose members have come to the row before. */
 static SMEAR_NOINLINE void texel_place_rows_armv7em(struct texel_place_rows *rows)
 {
-    rows->y--;
-    rows->z -= rows->dz_down;
-    rows->depth = (uint16_t *)((uintptr_t)rows->depth - (uintptr_t)rows->stride);
+    texel_place_rows_before(rows);
     register struct texel_place_rows *r0 __asm__("r0") = rows;
     __asm__ volatile(
         ".syntax unified\n\t"

@@ -2,6 +2,7 @@
 /* flat_list.c - triangles of one colour, from vertices to rows. */
 #include "raster/flat_list.h"
 
+#include "kernels/corners.h"
 #include "kernels/flat_lines_armv6m.h"
 #include "kernels/flat_lines_armv7em.h"
 #include "kernels/gradient.h"
@@ -9,41 +10,6 @@
 #include "raster/gradient.h"
 
 #if SMEAR_FLAT_LIST
-
-/* Vertices from the top down, and the rows that begin there. The long side, from the first to the last, is the left one or not. */
-struct corners_down {
-    const int32_t *top, *middle, *bottom;
-    int32_t first, knee, end;
-    bool long_is_left;
-};
-
-/* The first row whose centres lie below. */
-static inline int32_t row_below(const int32_t *v) { return (v[VERTEX_Y] + 127) >> 8; }
-
-static inline void corners_sort(struct corners_down *c, const int32_t *const v[3])
-{
-    const int32_t *top = v[0], *middle = v[1], *bottom = v[2], *swap;
-    bool long_is_left = true; /* clockwise from the top; each swap turns the triangle over */
-    if (middle[VERTEX_Y] < top[VERTEX_Y]) {
-        swap = top;
-        top = middle;
-        middle = swap;
-        long_is_left = false;
-    }
-    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) {
-        swap = middle;
-        middle = bottom;
-        bottom = swap;
-        long_is_left = !long_is_left;
-        if (middle[VERTEX_Y] < top[VERTEX_Y]) {
-            swap = top;
-            top = middle;
-            middle = swap;
-            long_is_left = !long_is_left;
-        }
-    }
-    *c = (struct corners_down){ top, middle, bottom, row_below(top), row_below(middle), row_below(bottom), long_is_left };
-}
 
 /* Columns of its box. */
 struct columns {
@@ -180,11 +146,11 @@ static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t 
 }
 
 /* Draws rows [y, end), of which those before the knee lie at one short side. */
-static inline void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners_down *c, int32_t y,
+static inline void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
                              int32_t end)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
-    const int whole = c->long_is_left ? 0 : 1;
+    const int whole = c->whole_is_left ? 0 : 1;
     int32_t left = w->ring - w->ring_row - (y - t->y0);     /* rows before the ring's end */
     if (left <= 0)
         left += w->ring;
@@ -212,7 +178,7 @@ static inline void draw_rows(const struct smear_raster_target *t, struct flat_li
 
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, bool whole)
 {
-    struct corners_down c;
+    struct corners c;
     struct flat_lines l;
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
@@ -229,7 +195,7 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 void smear_flat_cover(const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
-    struct corners_down c;
+    struct corners c;
     struct flat_lines l;
     corners_sort(&c, s->v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);

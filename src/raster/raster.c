@@ -532,6 +532,18 @@ static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct
 }
 #endif
 
+#if TINY_TRIANGLES
+/* Draws tiny triangles from a number on, if it is that of one: *head follows them. */
+static inline bool draw_tiny_ones(struct tiny_triangles *t, uint32_t number, uint32_t *head, bool *tiny)
+{
+    const uint32_t reached = tiny_triangles(t, number);
+    *tiny = reached != number;
+    if (*tiny)
+        *head = reached;
+    return *tiny;
+}
+#endif
+
 #if SMEAR_FLAT_LIST
 /* Draws triangles of one segment that have no colours of vertices, from `head` on, and points among them: those where `points` is given
  * at once. Returns what follows. */
@@ -563,14 +575,8 @@ static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *f
             continue;
         }
 #if TINY_TRIANGLES
-        if (loops && (tiny || (number & 3u) == 0)) {
-            const uint32_t reached = tiny_triangles(&triangles, number);
-            tiny = reached != number;
-            if (tiny) {
-                head = reached;
-                continue;
-            }
-        }
+        if (loops && (tiny || (number & 3u) == 0) && draw_tiny_ones(&triangles, number, &head, &tiny))
+            continue;
 #endif
         const int32_t *const v[3] = { bins_vertex(bins, g, t->vertex[0]), bins_vertex(bins, g, t->vertex[1]),
                                       bins_vertex(bins, g, t->vertex[2]) };
@@ -624,14 +630,8 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
 #endif
         }
 #if TINY_TRIANGLES
-        if (loops && (tiny || (number & 3u) == 0)) {
-            const uint32_t reached = tiny_triangles(&triangles, number);
-            tiny = reached != number;
-            if (tiny) {
-                head = reached;
-                continue;
-            }
-        }
+        if (loops && (tiny || (number & 3u) == 0) && draw_tiny_ones(&triangles, number, &head, &tiny))
+            continue;
 #endif
         for (int i = 0; i < 3; i++)
             v[i] = bins_vertex(frame->bins, g, t->vertex[i]);
