@@ -61,26 +61,24 @@ void smear_turn_cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine)
 
 /* Brings a vector to length one, q30. *length is what it was after a shift to 30 bits by *shift: left, or right if
  * negative. Returns false for a vector without length. */
-static bool normalize(int32_t out[3], const int64_t in[3], uint32_t *length, int *shift)
+static bool normalize(int32_t out[3], const int32_t in[3], uint32_t *length, int *shift)
 {
-    uint64_t largest = 0;
-    for (int i = 0; i < 3; i++) {
-        const uint64_t size = magnitude(in[i]);
-        largest = size > largest ? size : largest;
-    }
+    uint32_t largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = max_u32(largest, (uint32_t)magnitude(in[i]));
     if (largest == 0)
         return false;
-    *shift = count_leading_zeros_64(largest) - 34;          /* 30 bits */
+    *shift = count_leading_zeros(largest) - 2;              /* 30 bits */
     uint64_t square = 0;
     for (int i = 0; i < 3; i++) {
-        out[i] = (int32_t)(*shift >= 0 ? in[i] * ((int64_t)1 << *shift) : in[i] >> -*shift);
+        out[i] = *shift >= 0 ? in[i] * (1 << *shift) : in[i] >> -*shift;
         square += (uint64_t)((int64_t)out[i] * out[i]);
     }
     *length = sqrt_floor_64(square);
     int zeros = count_leading_zeros(*length);
     int32_t r = (int32_t)recip_norm_precise(*length << zeros);      /* 1 / length = r 2^(zeros - 61) */
     for (int i = 0; i < 3; i++)
-        out[i] = (int32_t)((int64_t)out[i] * r >> (31 - zeros));
+        out[i] = mul_shift(out[i], r, 31 - zeros);
     return true;
 }
 
@@ -90,27 +88,35 @@ static int32_t dot(const int32_t a[3], const int32_t b[3])
     return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> 30);
 }
 
-/* Finds the axes of a pose without their scales: axis[j] is where x, y or z points. Returns false unless they are
- * orthogonal. */
-static bool find_axes(int32_t axis[3][3], bool *mirrored, const smear_transform *t)
+/* Whether axes at right angles are left-handed: x times y then points away from z, not nearly so. 14 bits tell. */
+static bool is_left_handed(int32_t axis[3][3])
 {
-    for (int j = 0; j < 3; j++) {
-        const int64_t column[3] = { t->basis[j], t->basis[3 + j], t->basis[6 + j] };
-        uint32_t length;
-        int shift;
-        if (!normalize(axis[j], column, &length, &shift))
-            return false;
-    }
+    int32_t a[3][3], sum = 0;
     for (int j = 0; j < 3; j++)
-        if (abs_i32(dot(axis[j], axis[j == 2 ? 0 : j + 1])) > ARC_SKEW)
-            return false;
-    int32_t cross[3];
+        for (int i = 0; i < 3; i++)
+            a[j][i] = axis[j][i] >> 16;
     for (int i = 0; i < 3; i++) {
         int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
-        cross[i] = (int32_t)(((int64_t)axis[0][i1] * axis[1][i2] - (int64_t)axis[0][i2] * axis[1][i1]) >> 30);
+        sum += ((a[0][i1] * a[1][i2] - a[0][i2] * a[1][i1]) >> 14) * a[2][i];
     }
-    *mirrored = dot(cross, axis[2]) < 0;
-    return true;
+    return sum < 0;
+}
+
+void smear_axes_find(struct smear_axes *axes, const smear_transform *t)
+{
+    axes->are_square = false;
+    for (int j = 0; j < 3; j++) {
+        const int32_t column[3] = { t->basis[j], t->basis[3 + j], t->basis[6 + j] };
+        uint32_t length;
+        int shift;
+        if (!normalize(axes->axis[j], column, &length, &shift))
+            return;
+    }
+    for (int j = 0; j < 3; j++)
+        if (abs_i32(dot(axes->axis[j], axes->axis[j == 2 ? 0 : j + 1])) > ARC_SKEW)
+            return;
+    axes->are_square = true;
+    axes->are_left_handed = is_left_handed(axes->axis);
 }
 
 /* Finds the quaternion w x y z, of any length, of a rotation in q28. Its largest component is 4 c^2 >= 1 and the others
@@ -142,48 +148,47 @@ static void quaternion_of(int32_t q[4], int32_t m[3][3])
 }
 
 /* Finds axis and angle. Returns false when there is no turn, or none to speak of. */
-static bool find_turn(struct smear_turn *turn, const smear_transform *before, const smear_transform *now)
+static bool find_turn(struct smear_turn *turn, const struct smear_axes *before, const struct smear_axes *now)
 {
-    int32_t a[3][3], b[3][3], m[3][3], q[4];
-    bool mirrored_a, mirrored_b;
-    if (!find_axes(a, &mirrored_a, before) || !find_axes(b, &mirrored_b, now) || mirrored_a != mirrored_b)
+    int32_t m[3][3], q[4];
+    if (!before->are_square || !now->are_square || before->are_left_handed != now->are_left_handed)
         return false;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            m[i][j] = (int32_t)(((int64_t)b[0][i] * a[0][j] + (int64_t)b[1][i] * a[1][j]
-                                 + (int64_t)b[2][i] * a[2][j])
-                                >> 32);
+        for (int j = 0; j < 3; j++) {
+            int64_t sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += (int64_t)now->axis[k][i] * before->axis[k][j];
+            m[i][j] = (int32_t)(sum >> 32);
+        }
     quaternion_of(q, m);
-    const int64_t v[3] = { q[1], q[2], q[3] };
     uint32_t length;
     int shift;
-    if (!normalize(turn->axis, v, &length, &shift) || shift > 13)       /* |v| < 2^-13 of w: no turn */
+    if (!normalize(turn->axis, q + 1, &length, &shift) || shift > 13)       /* |v| < 2^-13 of w: no turn */
         return false;
     turn->angle = 2 * angle_of(q[0], (int32_t)(shift >= 0 ? length >> shift : length << -shift));
     return true;
 }
 
-void smear_turn_find(struct smear_turn *turn, const smear_transform *before, const smear_transform *now)
+void smear_turn_between(struct smear_turn *turn, const struct smear_axes *before, const struct smear_axes *now)
 {
     turn->turns = find_turn(turn, before, now);
 }
 
 /* ------------------------------------------------------------------ poses */
 
-/* Finds Q - 1 for a turn by `angle` about the axis n, q29: sin [n] + (1 - cos) (n n' - 1). */
-static void rotation(int32_t m[3][3], const int32_t axis[3], uint32_t angle)
+/* Finds Q - 1 for a turn about the axis n by an angle of which cosine and sine are given, q29:
+ * sin [n] + (1 - cos) (n n' - 1). */
+static void rotation(int32_t m[3][3], const int32_t axis[3], int32_t c, int32_t s)
 {
-    int32_t c, s;
-    smear_turn_cosine_sine(angle, &c, &s);
     int64_t versine = ((int64_t)1 << 30) - c;               /* 0 .. 2, q30 */
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
+        for (int j = i; j < 3; j++) {
             int64_t nn = ((int64_t)axis[i] * axis[j] >> 30) - (i == j ? 1 << 30 : 0);
-            m[i][j] = (int32_t)(nn * versine >> 31);
+            m[i][j] = m[j][i] = (int32_t)(nn * versine >> 31);
         }
     for (int i = 0; i < 3; i++) {
         int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        int32_t sn = (int32_t)((int64_t)s * axis[i] >> 31);
+        int32_t sn = mul_shift(s, axis[i], 31);
         m[k][j] += sn;
         m[j][k] -= sn;
     }
@@ -200,22 +205,29 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
     }
 }
 
-void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
-                      const smear_transform *now, int32_t time, uint32_t angle)
+void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before)
 {
-    int32_t m[3][3], turned[9], rest[9];
+    int32_t m[3][3];
     for (int i = 0; i < 9; i++)
-        turned[i] = before->basis[i];
+        basis[i] = before->basis[i];
     if (turn->turns) {
-        rotation(m, turn->axis, turn->angle);
-        turn_basis(turned, m, before->basis);
+        smear_turn_cosine_sine(turn->angle, &turn->cosine, &turn->sine);
+        rotation(m, turn->axis, turn->cosine, turn->sine);
+        turn_basis(basis, m, before->basis);
     }
+}
+
+void smear_turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9],
+                     const smear_transform *now, int32_t time, uint32_t angle)
+{
+    int32_t m[3][3], rest[9], cosine, sine;
     for (int i = 0; i < 9; i++)
         rest[i] = extended(turned[i], now->basis[i], time);
     for (int i = 0; i < 9; i++)
         basis[i] = rest[i];
     if (turn->turns) {
-        rotation(m, turn->axis, angle);
+        smear_turn_cosine_sine(angle, &cosine, &sine);
+        rotation(m, turn->axis, cosine, sine);
         turn_basis(basis, m, rest);
     }
 }
@@ -223,16 +235,20 @@ void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const sme
 void smear_arc_between(smear_transform *out, const smear_transform *before, const smear_transform *now,
                        int32_t time)
 {
+    struct smear_axes axes[2];
     struct smear_turn turn;
-    int32_t origin[3];
+    int32_t origin[3], turned[9];
     if (time == 0 || time == -(1 << 24)) {
         *out = time == 0 ? *now : *before;
         return;
     }
-    smear_turn_find(&turn, before, now);
+    smear_axes_find(&axes[0], before);
+    smear_axes_find(&axes[1], now);
+    smear_turn_between(&turn, &axes[0], &axes[1]);
     for (int i = 0; i < 3; i++)
         origin[i] = extended(before->origin[i], now->origin[i], time);
-    smear_turn_basis(out->basis, &turn, before, now, time, turn_angle(&turn, time));
+    smear_turn_whole(turned, &turn, before);
+    smear_turn_part(out->basis, &turn, turned, now, time, turn_angle(&turn, time));
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }

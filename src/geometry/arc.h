@@ -12,9 +12,20 @@ struct smear_turn {
     bool turns;             /* else the axis means nothing, and everything is linear */
     int32_t axis[3];        /* q30, right-handed */
     uint32_t angle;         /* q32 turns, 0 .. half a turn */
+    int32_t cosine, sine;   /* of the angle, q30, once smear_turn_whole has found them */
 };
 
-void smear_turn_find(struct smear_turn *turn, const smear_transform *before, const smear_transform *now);
+/* The axes of a pose without their scales: axis[j] is where x, y or z points, q30. */
+struct smear_axes {
+    int32_t axis[3][3];
+    bool are_square;        /* at right angles; else the others mean nothing */
+    bool are_left_handed;
+};
+
+void smear_axes_find(struct smear_axes *axes, const smear_transform *t);
+
+/* Finds the turn from one pose's axes to another's. */
+void smear_turn_between(struct smear_turn *turn, const struct smear_axes *before, const struct smear_axes *now);
 
 /* Finds cosine and sine, q30, of an angle in q32 turns, to 2^-24. */
 void smear_turn_cosine_sine(uint32_t angle, int32_t *cosine, int32_t *sine);
@@ -32,9 +43,14 @@ static inline int32_t extended(int32_t before, int32_t now, int32_t time)
     return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
 }
 
-/* Finds the basis of the pose at a time, as smear_arc_between does. `angle` is what it has turned since now. */
-void smear_turn_basis(int32_t basis[9], const struct smear_turn *turn, const smear_transform *before,
-                      const smear_transform *now, int32_t time, uint32_t angle);
+/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by
+ * changes linearly. */
+void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before);
+
+/* Finds the basis of the pose at a time, as smear_arc_between does, from that after the whole turn. `angle` is what it has
+ * turned since now. */
+void smear_turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9],
+                     const smear_transform *now, int32_t time, uint32_t angle);
 
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis

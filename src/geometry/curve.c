@@ -33,12 +33,11 @@ static void across_axis(int32_t out[3], const int32_t axis[3], const int32_t v[3
 /* Finds the second difference of a screw: its first one, turned back by a frame, less itself. */
 static void screw_second(int32_t out[3], const struct smear_turn *turn, const int32_t first[3])
 {
-    int32_t cosine, sine, across[3], aside[3];
-    smear_turn_cosine_sine(turn->angle, &cosine, &sine);
+    int32_t across[3], aside[3];
     across_axis(across, turn->axis, first);
     cross_axis(aside, turn->axis, across);
     for (int i = 0; i < 3; i++)
-        out[i] = narrow_sat((((int64_t)cosine - (1 << 30)) * across[i] - (int64_t)sine * aside[i]) >> 30);
+        out[i] = narrow_sat((((int64_t)turn->cosine - (1 << 30)) * across[i] - (int64_t)turn->sine * aside[i]) >> 30);
 }
 
 /* ------------------------------------------------------------------ choice */
@@ -53,14 +52,16 @@ static int64_t length_of(const int32_t v[3])
 
 /* Finds how much faster it turns than in the frame before, where it turned about the same axis, nearly as fast. It is
  * steady where the two turns hardly differ: keys of an animation, where speeds jump, are met in other frames. */
-static void find_faster(struct smear_curve *c, const smear_transform *older)
+static void find_faster(struct smear_curve *c, const struct smear_axes *last, const smear_transform *older)
 {
+    struct smear_axes axes;
     struct smear_turn before;
     int64_t along = 0;
     c->is_steady = !c->turn.turns;
     if (older == NULL || !c->turn.turns)
         return;
-    smear_turn_find(&before, older, c->last);
+    smear_axes_find(&axes, older);
+    smear_turn_between(&before, &axes, last);
     if (!before.turns)
         return;
     for (int i = 0; i < 3; i++)
@@ -93,20 +94,37 @@ static void choose_second(struct smear_curve *c, const int32_t first[3], const s
             c->second[i] = screw_error * 2 < straight_error ? screw[i] : 0;
 }
 
+/* Finds the turn from last to now, and the axes of `last`, where there is one. */
+static void find_turn(struct smear_curve *c, struct smear_axes *last)
+{
+    struct smear_axes now;
+    bool differs = false;
+    for (int i = 0; i < 9; i++)
+        differs = differs || c->last->basis[i] != c->now->basis[i];
+    if (!differs)               /* between axes and themselves there is none */
+        return;
+    smear_axes_find(last, c->last);
+    smear_axes_find(&now, c->now);
+    smear_turn_between(&c->turn, last, &now);
+}
+
 bool smear_curve_find(struct smear_curve *c, const smear_transform *now, const smear_transform *last,
                       const smear_transform *older, uint8_t path)
 {
+    struct smear_axes axes;
     int32_t first[3];
     *c = (struct smear_curve){ .now = now, .last = last };
+    if (path != SMEAR_PATH_LINE)
+        find_turn(c, &axes);
+    smear_turn_whole(c->turned, &c->turn, last);
     if (path == SMEAR_PATH_LINE)
         return false;
-    smear_turn_find(&c->turn, last, now);
     for (int i = 0; i < 3; i++)
         first[i] = narrow_sat((int64_t)last->origin[i] - now->origin[i]);
     if (path == SMEAR_PATH_SCREW && c->turn.turns)
         screw_second(c->second, &c->turn, first);
     else if (path != SMEAR_PATH_ORIGIN) {
-        find_faster(c, older);
+        find_faster(c, &axes, older);
         choose_second(c, first, older);
     }
     /* Rounded poses of an even motion differ by as much. */
@@ -128,14 +146,13 @@ static int64_t parabola(int32_t time)
  * 2 - 2 cos(angle). */
 static void bend(int64_t b[2], const struct smear_turn *turn, int32_t time)
 {
-    int32_t cosine, sine, cosine_t, sine_t;
+    int32_t cosine_t, sine_t;
     b[0] = parabola(time);
     b[1] = 0;
     if (!turn->turns || turn->angle < CURVE_SMALL)
         return;
-    smear_turn_cosine_sine(turn->angle, &cosine, &sine);
     smear_turn_cosine_sine(turn_angle(turn, time), &cosine_t, &sine_t);
-    const int32_t one = 1 << 30;
+    const int32_t one = 1 << 30, cosine = turn->cosine, sine = turn->sine;
     /* q24: 130 at most */
     const int64_t x = (cosine_t - (int64_t)one + ((int64_t)time * ((int64_t)cosine - one) >> 24)) >> 6;
     const int64_t y = (sine_t - ((int64_t)time * sine >> 24)) >> 6;
@@ -174,7 +191,7 @@ void smear_curve_at(smear_transform *out, const struct smear_curve *c, int32_t t
     }
     origin_at(origin, c, time);
     const uint32_t angle = turn_angle(&c->turn, time) + (uint32_t)((c->faster >> 2) * (parabola(time) >> 4) >> 18);
-    smear_turn_basis(out->basis, &c->turn, c->last, c->now, time, angle);
+    smear_turn_part(out->basis, &c->turn, c->turned, c->now, time, angle);
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }

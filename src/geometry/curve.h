@@ -19,6 +19,7 @@
 struct smear_curve {
     const smear_transform *now, *last;
     struct smear_turn turn;     /* from last to now */
+    int32_t turned[9];          /* basis of `last` after that turn */
     int32_t second[3];          /* difference of the origin's places, q16 world units */
     bool is_steady;             /* it turned alike in the two frames */
     int32_t faster;             /* what it turned in the last frame, less what in that before it, q32 turns */
