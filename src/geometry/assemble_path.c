@@ -17,11 +17,6 @@ static int code_at(uint32_t outcodes, int key)
     return (int)(outcodes >> 8 * key & 255u);
 }
 
-static const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
-{
-    return key == MIDDLE ? &d->at : &d->motion.key[key];
-}
-
 static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
                         const struct smear_assembly *d, uint32_t tag)
 {

@@ -13,11 +13,6 @@
 #define SMEAR_PLACES (SMEAR_VECTORS && !SMEAR_FAST_STACK)
 #endif
 
-/* What a draw's vertices share is made ready where that pays: compilers reload it for each of them. */
-#ifndef SMEAR_VERTEX_SETUP
-#define SMEAR_VERTEX_SETUP ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
-#endif
-
 static inline uint32_t index_of(const struct smear_cached_vertex *v)
 {
     return v->tag & 0xffffu;

@@ -21,17 +21,9 @@ static inline void find_vertex(const struct smear_assembler *a, const struct sme
 }
 
 #if SMEAR_VERTEX_SETUP
-static SMEAR_RARE void batch_make_ready(struct batch *b)
+static inline void batch_make_ready(struct batch *b)
 {
-    const struct smear_placement *p = &b->d->at;
-    const struct smear_depths *depths = &p->now.depths;
-    const struct smear_viewport *viewport = &b->a->viewport;
-    const struct place_setup s = { p->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
-                                   depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
-                                   viewport->width << 7, viewport->height << 7 };
-    b->ready = !depths_are_even(depths) && p->extra_count == 0;
-    if (b->ready)
-        vertex_setup_make(&b->setup, &s);
+    b->ready = smear_vertex_setup(&b->setup, &b->d->at, &b->a->viewport);
 }
 
 static SMEAR_RARE int outcode_beside(const struct smear_screen *s, const struct smear_viewport *viewport)
@@ -50,14 +42,10 @@ static inline void found_vertex(const struct batch *b, struct smear_cached_verte
     v->outcode = inside ? 0 : outcode_beside(&v->screen, viewport);
 }
 
-/* Finds a vertex for which the setup is not ready: makes it ready for others like it. */
+/* Finds a vertex for which the setup is not ready, or has none. */
 static SMEAR_RARE void find_unready(struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
 {
-    struct vertex_setup *const s = &b->setup;
-    const int16_t *const position = b->d->at.position + 3 * (tag & 0xffffu);
-    const int32_t w = b->ready ? vertex_row_of(&s->row[2], position) : INT32_MIN;
-    if (b->ready && w >= s->near_distance && w <= s->far_distance && vertex_setup_for(s, w)
-        && vertex_find(&v->screen, &v->now, position, s))
+    if (b->ready && smear_vertex_find_unready(&v->screen, &v->now, b->d->at.position + 3 * (tag & 0xffffu), &b->setup))
         found_vertex(b, v, tag);
     else
         find_vertex(b->a, b->d, v, tag);

@@ -8,17 +8,17 @@
 
 SMEAR_AVX2_FUNCTION void smear_path_places_open(struct path_places *p, const struct smear_assembler *a, const struct smear_assembly *d)
 {
-    const struct smear_placement *const at[KEYS] = { &d->motion.key[OPEN], &d->motion.key[CLOSE], &d->at };
     const struct smear_viewport *const viewport = &a->viewport;
     const uint32_t count = d->mesh->vertex_count & ~7u;
     if (count == 0)
         return;
     for (int key = 0; key < KEYS; key++) {
-        const struct smear_depths *const depths = &at[key]->now.depths;
-        if (is_orthographic(&at[key]->now) || (SMEAR_WITH_DEFORM && at[key]->extra_count != 0))
+        const struct smear_placement *const at = placement_of(d, key);
+        const struct smear_depths *const depths = &at->now.depths;
+        if (is_orthographic(&at->now) || (SMEAR_WITH_DEFORM && at->extra_count != 0))
             return;
-        p->position[key] = at[key]->position;
-        p->setup[key] = (struct place_setup){ at[key]->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
+        p->position[key] = at->position;
+        p->setup[key] = (struct place_setup){ at->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
                                               depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX, viewport->width << 7,
                                               viewport->height << 7 };
         place_rows8_make(&p->rows[key], &p->setup[key]);
@@ -94,6 +94,34 @@ bool smear_path_places_take(struct path_vertex *v, struct path_places *p, uint32
     v->screen[CLOSE] = p->place[slot][CLOSE][k].screen;
     v->screen[MIDDLE] = p->place[slot][MIDDLE][k].screen;
     v->outcodes = p->outcodes[slot][k];
+    return true;
+}
+#endif
+
+#if SMEAR_WITH_SUBFRAMES && SMEAR_VERTEX_SETUP
+void smear_path_places_open(struct path_places *p, const struct smear_assembler *a, const struct smear_assembly *d)
+{
+    p->d = d;
+    p->viewport = &a->viewport;
+    p->ready = true;
+    for (int key = 0; key < KEYS && p->ready; key++)
+        p->ready = smear_vertex_setup(&p->setup[key], placement_of(d, key), p->viewport);
+}
+
+bool smear_path_places_take(struct path_vertex *v, struct path_places *p, uint32_t tag)
+{
+    struct smear_homogeneous passing;
+    v->tag = tag;
+    v->stored = 0;
+    v->outcodes = 0;
+    for (int key = 0; key < KEYS; key++) {
+        const int16_t *const position = placement_of(p->d, key)->position + 3 * (tag & 0xffffu);
+        struct vertex_setup *const setup = &p->setup[key];
+        if (!vertex_find(&v->screen[key], &passing, position, setup)
+            && !smear_vertex_find_unready(&v->screen[key], &passing, position, setup))
+            return false;
+        v->outcodes |= (uint32_t)outcode_sides(&v->screen[key], p->viewport) << 8 * key;
+    }
     return true;
 }
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* path_places.h - where the vertices of a mesh that moves are on the screen, at the instants that tell their paths: by eights on
- * processors with AVX2, for as long as others of an eight may be asked for. */
+/* path_places.h - where the vertices of a mesh that moves are on the screen, at the instants that tell their paths. Processors
+ * with AVX2 find them by eights, for as long as others of an eight may be asked for; cores where that pays one by one, with what
+ * they share made ready. */
 #ifndef SMEAR_PATH_PLACES_H
 #define SMEAR_PATH_PLACES_H
 
@@ -17,6 +18,11 @@ struct path_vertex {
     struct smear_screen screen[KEYS];
     uint32_t outcodes;                  /* a byte for each instant, see code_at() */
 };
+
+static inline const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
+{
+    return key == MIDDLE ? &d->at : &d->motion.key[key];
+}
 
 SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
@@ -51,6 +57,28 @@ static inline void path_places_open(struct path_places *p, const struct smear_as
 static inline bool path_places_take(struct path_vertex *v, struct path_places *p, uint32_t tag)
 {
     return (tag & 0xffffu) < p->count && smear_path_places_take(v, p, tag);
+}
+#elif SMEAR_VERTEX_SETUP
+struct path_places {
+    bool ready;
+    const struct smear_assembly *d;
+    const struct smear_viewport *viewport;
+    struct vertex_setup setup[KEYS];
+};
+
+void smear_path_places_open(struct path_places *p, const struct smear_assembler *a, const struct smear_assembly *d);
+bool smear_path_places_take(struct path_vertex *v, struct path_places *p, uint32_t tag);
+
+static inline void path_places_open(struct path_places *p, const struct smear_assembler *a, const struct smear_assembly *d)
+{
+    smear_path_places_open(p, a, d);
+}
+
+/* Makes a vertex. False where it is left out: it is before the near or behind the far plane at an instant, very near to the eye
+ * or far away from it. */
+static inline bool path_places_take(struct path_vertex *v, struct path_places *p, uint32_t tag)
+{
+    return p->ready && smear_path_places_take(v, p, tag);
 }
 #else
 struct path_places {
