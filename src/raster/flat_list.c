@@ -16,23 +16,26 @@ struct columns {
     int32_t left, right;
 };
 
-static inline struct columns columns_of(const int32_t *const v[3])
+static SMEAR_NOINLINE struct columns columns_of(const int32_t *const v[3])
 {
     const int32_t x0 = v[0][VERTEX_X], x1 = v[1][VERTEX_X], x2 = v[2][VERTEX_X];
     return (struct columns){ (min_i32(x0, min_i32(x1, x2)) + 127) >> 8, (max_i32(x0, max_i32(x1, x2)) + 127) >> 8 };
 }
 
-/* Whether it is drawn by the weights of its vertices. */
-static SMEAR_NOINLINE bool is_tiny(const int32_t *const v[3], int32_t rows)
+static inline struct columns columns_within(const struct bounds *b)
 {
-    const struct columns c = columns_of(v);
+    return (struct columns){ (b->x0 + 127) >> 8, (b->x1 + 127) >> 8 };
+}
+
+/* Whether it is drawn by the weights of its vertices. */
+static inline bool is_tiny(struct columns c, int32_t rows)
+{
     return c.right - c.left <= SMALL_PX && (c.right - c.left) * rows <= TINY_PIXELS;
 }
 
 /* Whether no column of its box is one of the target's. */
-static SMEAR_NOINLINE bool is_beside(const struct smear_raster_target *t, const int32_t *const v[3])
+static inline bool is_beside(const struct smear_raster_target *t, struct columns c)
 {
-    const struct columns c = columns_of(v);
     return max_i32(c.left, t->x0) >= min_i32(c.right, t->x1);
 }
 
@@ -67,8 +70,8 @@ static inline struct depth_slopes depth_slopes_of(const int32_t *const v0, const
 /* Where depths lie: nearer than the break of their code, farther, or on both sides of it. */
 static inline enum depth_slope depth_side(int32_t q0, int32_t q1, int32_t q2)
 {
-    const bool near = q0 >= SLOPE_BREAK;
-    return near != (q1 >= SLOPE_BREAK) || near != (q2 >= SLOPE_BREAK) ? SLOPE_BOTH : near ? SLOPE_NEAR : SLOPE_FAR;
+    const int32_t a = q0 - SLOPE_BREAK, b = q1 - SLOPE_BREAK, c = q2 - SLOPE_BREAK;        /* signs tell */
+    return ((a ^ b) | (a ^ c)) < 0 ? SLOPE_BOTH : a >= 0 ? SLOPE_NEAR : SLOPE_FAR;
 }
 
 /* Codes from a row on, of which pixel 0 has these units. */
@@ -100,11 +103,27 @@ static SMEAR_NOINLINE void line_start_any(struct flat_lines *l, int side, const 
 }
 
 #if SMEAR_ASM_ARMV6M
-/* Usual ones without what the others take of the stack. */
-static SMEAR_NOINLINE void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+/* Goes on by fewer rows than 65536, like edge_fine_pass. */
+static SMEAR_NOINLINE void line_pass(struct flat_lines *l, int side, uint32_t rows)
 {
-    if (rows != 0 || !flat_lines_side_armv6m(l, side, a, b))
+    const uint32_t step = l->step[side][0], low = step * rows;
+    const uint32_t high = ((step >> 16) * rows + ((step & 0xffffu) * rows >> 16)) >> 16;
+    l->x[side][0] += low;
+    l->x[side][1] += l->step[side][1] * rows + high + (l->x[side][0] < low);
+}
+
+/* Usual ones without what the others take of the stack and of registers. */
+static SMEAR_NOINLINE bool line_usual(struct flat_lines *l, int side, const int32_t *a, const int32_t *b)
+{
+    return flat_lines_side_armv6m(l, side, a, b);
+}
+
+static inline void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
+{
+    if (!line_usual(l, side, a, b))
         line_start_any(l, side, a, b, rows);
+    else if (rows != 0)
+        line_pass(l, side, (uint32_t)rows);
 }
 #else
 static inline void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
@@ -146,8 +165,8 @@ static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t 
 }
 
 /* Draws rows [y, end), of which those before the knee lie at one short side. */
-static inline void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
-                             int32_t end)
+SMEAR_INLINE void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
+                            int32_t end)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
     const int whole = c->whole_is_left ? 0 : 1;
@@ -176,15 +195,22 @@ static inline void draw_rows(const struct smear_raster_target *t, struct flat_li
 
 /* ------------------------------------------------------------------ triangles */
 
-bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, bool whole)
+bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
+                         bool whole)
 {
     struct corners c;
     struct flat_lines l;
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
-    if (c.end - c.first <= SMALL_PX && is_tiny(v, c.end - c.first))
-        return false;
-    if (y >= end || (!whole && is_beside(t, v)))
+    const bool low = c.end - c.first <= SMALL_PX;
+    if (low || !whole) {
+        const struct columns columns = given != NULL ? columns_within(given) : columns_of(v);
+        if (low && is_tiny(columns, c.end - c.first))
+            return false;
+        if (!whole && is_beside(t, columns))
+            return true;
+    }
+    if (y >= end)
         return true;
     lines_start(&l, t, color);
     depth_make(&l, v, y);
