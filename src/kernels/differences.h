@@ -81,15 +81,20 @@ uint32_t smear_difference_block_avx2(const struct difference_block *b, uint32_t 
 
 #if DIFFERENCES_ASM_ARMV6M
 /* 14 instructions a pixel that moves and is as the one there, 42 where they differ; compilers take 22 and 48. */
-uint32_t smear_differences_armv6m(const struct difference_rows *r, int32_t n, uint32_t *moving);
+uint32_t smear_difference_block_armv6m(const struct difference_block *b, uint32_t *moving);
 #endif
 
-static inline uint32_t differences(const struct difference_rows *r, int32_t n, uint32_t *moving)
+/* For up to 8 pixels in a row. */
+static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
 {
+#if SMEAR_AVX2
+    if (b->n >= 4 && smear_has_avx2())
+        return smear_difference_block_avx2(b, moving);
+#endif
 #if DIFFERENCES_ASM_ARMV6M
-    return smear_differences_armv6m(r, n, moving);
+    return smear_difference_block_armv6m(b, moving);
 #else
-    return differences_reference(r, n, moving);
+    return difference_block_reference(b, moving);
 #endif
 }
 

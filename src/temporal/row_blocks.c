@@ -15,7 +15,7 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
         return c;
     c.left = min_u32(LEFT + apart / max_u32(square >> UNLIKE_LOG2, 1), 256);
     c.floor = min_u32(FLOOR / square, 65536);
-    c.last = (int32_t)min_u32(sqrt_floor_64((256 - c.left) * 256 / max_u32(c.floor, 1)), BLOCK_INSTANTS_MAX);
+    c.last = closed_instants((256 - c.left) * 256, max_u32(c.floor, 1));
     return c;
 }
 

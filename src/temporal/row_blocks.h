@@ -32,6 +32,19 @@ static inline struct smear_block *block_at(const struct smear_row_blocks *b, int
     return &b->block[row * b->columns + column];
 }
 
+/* Returns floor(sqrt(n / d)) for n <= 2^22 and d > 0, BLOCK_INSTANTS_MAX at most: the largest number whose square times d is not
+ * above n. */
+static inline int32_t closed_instants(uint32_t n, uint32_t d)
+{
+    uint32_t k = 0;
+    if (d > n)
+        return 0;
+    for (uint32_t bit = d < 1u << 20 ? (BLOCK_INSTANTS_MAX + 1) / 2 : 2; bit != 0; bit >>= 1)     /* 2: n / d is 4 at most */
+        if ((k + bit) * (k + bit) * d <= n)
+            k += bit;
+    return (int32_t)k;
+}
+
 /* What closing the gaps leaves of the squared error of one instant: with N of them, left / N^2 and the floor, which no
  * number of instants takes away. */
 struct smear_closing {

@@ -19,37 +19,37 @@ struct look_sums {
     uint32_t along, beside, moving;
 };
 
-#if SMEAR_AVX2
+#if SMEAR_AVX2 || DIFFERENCES_ASM_ARMV6M
 /* Returns 1 where rows of the tiles have the pixels that lie dy farther, -1 where those as much nearer, 0 where neither. */
 static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int32_t dy)
 {
     return y + dy >= s->y0 && y + dy < s->y1 ? 1 : y - dy >= s->y0 && y - dy < s->y1 ? -1 : 0;
 }
 
-/* look_along where rows of what is static do not go round: those whose pixels lie in the same direction are looked at together. */
-static uint32_t look_by_blocks(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
+/* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
+ * the tiles. All rows left are looked at together whose pixels lie in the same direction, unless those of what is static go round. */
+static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
 {
     const struct smear_raster_target *s = &f->t->background;
-    const int32_t pitch = f->t->pitch, stride = s->color_rows.stride;
+    const struct smear_plane_rows *c = &s->color_rows;
+    const int32_t pitch = f->t->pitch, last = l->y + ((l->y1 - 1 - l->y) & ~1);
+    const bool round = c->ring_row + (s->y1 - s->y0) > c->ring;
     uint32_t sum = 0;
-    for (int32_t y = l->y, rows; y < l->y1; y += 2 * rows) {
+    for (int32_t y = l->y, end; y < l->y1; y = end) {
         const int32_t way = way_to(s, y, dy), x = way * dx, down = way * dy;
-        for (rows = 1; y + 2 * rows < l->y1 && way_to(s, y + 2 * rows, dy) == way;)
-            rows++;
+        end = !round && way_to(s, last, dy) == way ? last + 2 : y + 2;
         const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
-        const int32_t at = (y - s->y0) * pitch - s->x0 + first, behind = target_row(&s->color_rows, s, y) + first;
         if (way == 0 || n <= 0)
             continue;
-        const struct difference_block block = {
-            { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind, down * pitch + x, down * stride + x },
-            2 * pitch, 2 * stride, rows, n
-        };
-        sum += n < 4 ? difference_block_reference(&block, moving) : smear_difference_block_avx2(&block, moving);
+        const int32_t at = (y - s->y0) * pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
+        const struct difference_block block = { { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
+                                                  down * pitch + x, target_row(c, s, y + down) - row + x },
+                                                2 * pitch, 2 * c->stride, (end - y) >> 1, n };
+        sum += difference_block(&block, moving);
     }
     return sum;
 }
-#endif
-
+#else
 /* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
  * the tiles. */
 static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
@@ -57,10 +57,6 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
     const struct smear_raster_target *s = &f->t->background;
     const int32_t pitch = f->t->pitch;
     uint32_t sum = 0;
-#if SMEAR_AVX2
-    if (s->color_rows.ring_row + (s->y1 - s->y0) <= s->color_rows.ring && smear_has_avx2())
-        return look_by_blocks(f, l, dx, dy, moving);
-#endif
     for (int32_t y = l->y; y < l->y1; y += 2) {
         int32_t x = dx, down = dy;
         if (y + down < s->y0 || y + down >= s->y1) {
@@ -76,10 +72,11 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
         const struct difference_rows rows = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
                                               down * pitch + x,
                                               target_row(&s->color_rows, s, y + down) + first + x - behind };
-        sum += differences(&rows, n, moving);
+        sum += differences_reference(&rows, n, moving);
     }
     return sum;
 }
+#endif
 
 static bool is_slant(const struct look *l) { return l->dx != 0 && l->dy != 0 && abs_i32(l->dx) != abs_i32(l->dy); }
 
@@ -126,8 +123,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
     int32_t last = closing->last;
     if (last != 0 && d->along + d->beside >= FLAT)
-        last = (int32_t)sqrt_floor_64(min_u32((plain * (256 - closing->left) >> 8) / max_u32(floor, 1),
-                                              BLOCK_INSTANTS_MAX * BLOCK_INSTANTS_MAX));
+        last = closed_instants(plain * (256 - closing->left) >> 8, max_u32(floor, 1));
     const int at = (last + 1) >> 1;
     c->plain[at] = add_saturated(c->plain[at], plain);
     c->closed[at] = add_saturated(c->closed[at], plain * closing->left >> 8);

@@ -141,14 +141,17 @@ static uint32_t allowed(const struct smear_chooser *chooser, uint32_t share, uin
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }
 
+/* a / b: most are 0, and need no division where that is a call. */
+static inline uint32_t over(uint32_t a, uint32_t b) { return a < b ? 0 : a / b; }
+
 /* Returns what `instants` leave of the squared error. */
 static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, bool may_close)
 {
     const uint32_t square = (uint32_t)(instants * instants);
-    uint32_t sum = unseen / square;
+    uint32_t sum = over(unseen, square);
     for (int k = 0; k < CLOSING_CLASSES; k++) {
         const bool closes = may_close && (instants + 1) >> 1 <= k;
-        sum += closes ? c->closed[k] / square + c->floor[k] : c->plain[k] / square;
+        sum += closes ? over(c->closed[k], square) + c->floor[k] : over(c->plain[k], square);
     }
     return sum;
 }

@@ -56,19 +56,16 @@ static void block(struct kernel_call *c, uint32_t (*form)(const struct differenc
 
 static void block_reference(struct kernel_call *c) { block(c, difference_block_reference); }
 
-static void block_best(struct kernel_call *c)
-{
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        block(c, smear_difference_block_avx2);
-        return;
-    }
-#endif
-    block(c, difference_block_reference);
-}
+static void block_best(struct kernel_call *c) { block(c, difference_block); }
 
 #if DIFFERENCES_ASM_ARMV6M
-static void armv6m(struct kernel_call *c) { call(c, smear_differences_armv6m); }
+static uint32_t row_armv6m(const struct difference_rows *r, int32_t n, uint32_t *moving)
+{
+    const struct difference_block row = { *r, n, n, 1, n };
+    return smear_difference_block_armv6m(&row, moving);
+}
+
+static void armv6m(struct kernel_call *c) { call(c, row_armv6m); }
 #endif
 
 extern const struct kernel kernels_differences[];
