@@ -78,6 +78,38 @@ static inline void path_place(int32_t out[3], const int32_t *record, const int32
 #endif
 }
 
+/* Finds x, y and depth of three vertices at a phase, of which `vertex` has the first words from `base` on, and the box of them: the
+ * least x and y, and the largest. `near`: no curvature, open + close - 2 middle, reaches 2^16 along x or y. */
+static inline void path_triangle_reference(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3],
+                                           int motion, int32_t u)
+{
+    box[0] = box[1] = INT32_MAX;
+    box[2] = box[3] = INT32_MIN;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = base + vertex[i];
+        int32_t *const at = out[i].word;
+        path_place(at, v, v + motion, u);
+        box[0] = min_i32(box[0], at[VERTEX_X]);
+        box[1] = min_i32(box[1], at[VERTEX_Y]);
+        box[2] = max_i32(box[2], at[VERTEX_X]);
+        box[3] = max_i32(box[3], at[VERTEX_Y]);
+    }
+}
+
+static inline void path_triangle(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3], int motion,
+                                 int32_t u, bool near)
+{
+#if PATH_ASM_ARMV6M
+    if (near) {
+        triangle_path_armv6m(box, out, base, vertex, motion, u >> 15);
+        return;
+    }
+#else
+    (void)near;
+#endif
+    path_triangle_reference(box, out, base, vertex, motion, u);
+}
+
 /* Finds x, y and depth of a vertex at a time of the exposure. */
 static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
 {

@@ -31,24 +31,82 @@ static inline bool is_shifted(const int32_t *open, int axis)
 
 static inline struct range range_along(const struct posed *p, int axis)
 {
-    return range_of(p->record[0][axis], p->record[1][axis], p->record[2][axis]);
+    return range_of(p->v[0][axis], p->v[1][axis], p->v[2][axis]);
 }
 
-/* Shifts the vertices along an axis and returns their range. Between places within the guard band a parabola may leave it.
- * `middle`: of the frame. */
-static inline struct range place_along(struct posed *p, const struct subframes *f, int axis, int32_t middle)
+/* Shifts the vertices along an axis. Returns their range. */
+static SMEAR_RARE struct range shift_along(struct posed *p, const struct smear_bins *g, const struct smear_triangle *t, int axis,
+                                           int32_t shift)
 {
-    const int32_t guard = SMEAR_GUARD_PX << 8;
-    if (SMEAR_EDGES && f->shift[axis] != 0)
-        for (int i = 0; i < 3; i++)
-            if (is_shifted(p->v[i] + p->segment->motion, axis))
-                p->record[i][axis] += f->shift[axis];
-    struct range r = range_along(p, axis);
-    if (r.low >= middle - guard && r.high <= middle + guard)
-        return r;
     for (int i = 0; i < 3; i++)
-        p->record[i][axis] = clamp_i32(p->record[i][axis], middle - guard, middle + guard);
+        if (is_shifted(bins_vertex(g, p->segment, t->vertex[i]) + p->segment->motion, axis))
+            p->record[i].word[axis] += shift;
     return range_along(p, axis);
+}
+
+/* Keeps the vertices within a range along an axis. Returns theirs. */
+static SMEAR_RARE struct range keep_within(struct posed *p, int axis, int32_t low, int32_t high)
+{
+    for (int i = 0; i < 3; i++)
+        p->record[i].word[axis] = clamp_i32(p->record[i].word[axis], low, high);
+    return range_along(p, axis);
+}
+
+/* Makes the vertices' records, and their box in `bounds`. Between places within the guard band a parabola may leave it. */
+static inline void place(struct posed *p, const struct subframes *f, const struct smear_triangle *t, int32_t u, bool near)
+{
+    const struct smear_raster_frame *frame = f->t->frame;
+    const struct smear_segment *s = p->segment;
+    const int32_t guard = SMEAR_GUARD_PX << 8, x = frame->width << 7, y = frame->height << 7;       /* the middle of the frame */
+    int32_t box[4];
+    for (int i = 0; i < 3; i++)
+        p->v[i] = p->record[i].word;
+    path_triangle(box, p->record, bins_vertex(frame->bins, s, 0), t->vertex, s->motion, u, near);
+    struct range along_x = { box[0], box[2] }, along_y = { box[1], box[3] };
+    if (SMEAR_EDGES && f->shift[VERTEX_X] != 0)
+        along_x = shift_along(p, frame->bins, t, VERTEX_X, f->shift[VERTEX_X]);
+    if (SMEAR_EDGES && f->shift[VERTEX_Y] != 0)
+        along_y = shift_along(p, frame->bins, t, VERTEX_Y, f->shift[VERTEX_Y]);
+    if (((along_x.low - x + guard) | (x + guard - along_x.high) | (along_y.low - y + guard) | (y + guard - along_y.high)) < 0) {
+        along_x = keep_within(p, VERTEX_X, x - guard, x + guard);
+        along_y = keep_within(p, VERTEX_Y, y - guard, y + guard);
+    }
+    p->bounds = (struct bounds){ along_x.low, along_y.low, along_x.high, along_y.high };
+}
+
+/* Takes vertices as they are. */
+static inline void take(struct posed *p, const struct smear_bins *g, const struct smear_triangle *t)
+{
+    for (int i = 0; i < 3; i++)
+        p->v[i] = bins_vertex(g, p->segment, t->vertex[i]);
+    const struct range x = range_along(p, VERTEX_X), y = range_along(p, VERTEX_Y);
+    p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+}
+
+static SMEAR_RARE void clamp_depths(struct posed *p)
+{
+    for (int i = 0; i < 3; i++)
+        p->record[i].word[VERTEX_DEPTH] = clamp_i32(p->record[i].word[VERTEX_DEPTH], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+}
+
+/* Completes the records of a triangle that is seen. */
+static inline void complete(struct posed *p, const struct smear_bins *g, const struct smear_triangle *t)
+{
+    const struct smear_segment *s = p->segment;
+    const uint32_t usual = 1u << 30;        /* depths that need no clamp are less beyond the least */
+    SMEAR_STATIC_ASSERT(SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN >= (1 << 30), "depths that are usual are within the range");
+    const uint32_t any = (uint32_t)(p->record[0].word[VERTEX_DEPTH] - SMEAR_DEPTH_MIN)
+                       | (uint32_t)(p->record[1].word[VERTEX_DEPTH] - SMEAR_DEPTH_MIN)
+                       | (uint32_t)(p->record[2].word[VERTEX_DEPTH] - SMEAR_DEPTH_MIN);
+    if (any >= usual)
+        clamp_depths(p);
+    if (s->motion == VERTEX_BASE_WORDS)
+        return;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]);
+        for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
+            p->record[i].word[k] = v[k];
+    }
 }
 
 static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)
@@ -66,46 +124,31 @@ static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int3
 
 bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time)
 {
-    const struct smear_raster_frame *frame = f->t->frame;
-    const struct smear_triangle *t = bins_triangle(frame->bins, triangle);
-    const struct smear_segment *s = &frame->bins->segment[t->segment];
+    enum { NEAR = 65536 >> 4 };
+    const struct smear_bins *g = f->t->frame->bins;
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
     const struct smear_raster_target *tile = &f->t->background;
     p->segment = s;
     p->color = t->color;
-    if (s->path && !path_interval_time(&time, bins_bounds(frame->bins, triangle)->interval))
-        return false;
-    for (int i = 0; i < 3; i++)
-        p->v[i] = bins_vertex(frame->bins, s, t->vertex[i]);
-    const int32_t u = path_phase(time);
-    /* In the middle, vertices are where their records say. */
-    const bool moves = s->path && (u != 0 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0));
-    struct range x, y;
-    if (moves) {
-        for (int i = 0; i < 3; i++)
-            path_place(p->record[i], p->v[i], p->v[i] + s->motion, u);
-        x = place_along(p, f, VERTEX_X, frame->width << 7);
-        y = place_along(p, f, VERTEX_Y, frame->height << 7);
-    } else {
-        x = range_of(p->v[0][VERTEX_X], p->v[1][VERTEX_X], p->v[2][VERTEX_X]);
-        y = range_of(p->v[0][VERTEX_Y], p->v[1][VERTEX_Y], p->v[2][VERTEX_Y]);
+    bool moves = false;
+    if (s->path) {
+        const struct smear_path_bounds *b = bins_bounds(g, triangle);
+        if (!path_interval_time(&time, b->interval))
+            return false;
+        /* In the middle, vertices are where their records say. */
+        moves = time != SHUTTER_CLOSE / 2 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0);
+        if (moves)
+            place(p, f, t, path_phase(time), b->curvature < NEAR);
     }
-    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
-    if (columns.low >= columns.high || rows.low >= rows.high)
-        return false;
-    p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
-    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
-    if (!s->path)
-        return true;
     if (!moves)
-        return !is_turned_away(p->v[0], p->v[1], p->v[2]);
-    if (is_turned_away(p->record[0], p->record[1], p->record[2]))
+        take(p, g, t);
+    const struct range x = { p->bounds.x0, p->bounds.x1 }, y = { p->bounds.y0, p->bounds.y1 };
+    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
+    if (columns.low >= columns.high || rows.low >= rows.high || (s->path && is_turned_away(p->v[0], p->v[1], p->v[2])))
         return false;
-    for (int i = 0; i < 3; i++) {
-        int32_t *record = p->record[i];
-        record[VERTEX_DEPTH] = clamp_i32(record[VERTEX_DEPTH], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-        for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
-            record[k] = p->v[i][k];
-        p->v[i] = record;
-    }
+    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
+    if (moves)
+        complete(p, g, t);
     return true;
 }

@@ -5,8 +5,6 @@
 
 #include "temporal/subframe_tile.h"
 
-enum { RECORD_WORDS = VERTEX_BASE_WORDS + 3 };      /* of a vertex, without its path, which comes last */
-
 /* A triangle with its vertices at an instant. */
 struct posed {
     const struct smear_segment *segment;
@@ -14,7 +12,7 @@ struct posed {
     const int32_t *v[3];        /* `record`, or the vertices themselves where they do not move */
     struct bounds bounds;       /* of the vertices */
     struct subframe_box box;       /* within the tiles */
-    int32_t record[3][RECORD_WORDS];
+    struct path_record record[3];       /* without paths, which come last */
 };
 
 /* False where the triangle is not seen in the tiles at this time, 0 .. SHUTTER_CLOSE: elsewhere, or turned away. */

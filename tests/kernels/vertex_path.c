@@ -42,12 +42,52 @@ static void armv6m(struct kernel_call *c)
 }
 #endif
 
+/* Triangles of vertices that lie one behind the other, all nine words of them, whose curvature is small. */
+static void prepare_triangles(struct kernel_call *c)
+{
+    prepare(c);
+    int32_t *word = c->plane[0];
+    for (int32_t i = 0; i < c->n; i++)
+        for (int axis = VERTEX_X; axis <= VERTEX_Y; axis++) {
+            int32_t *const v = word + 9 * i + axis;
+            const int32_t way = kernel_between(-(1 << 19), 1 << 19), curvature = kernel_between(-65535, 65535);
+            v[3] = v[0] - way;
+            v[6] = v[0] + way + curvature;
+        }
+}
+
+static void triangles(struct kernel_call *c, bool near)
+{
+    const int32_t *word = c->plane[0];
+    int32_t *out = c->plane[1];
+    for (int32_t i = 0; i + 2 < c->n; i += 3) {
+        const uint16_t vertex[3] = { (uint16_t)(9 * (i + 2)), (uint16_t)(9 * i), (uint16_t)(9 * (i + 1)) };
+        struct path_record record[3];
+        int32_t *const box = out + 5 * i;
+        path_triangle(box, record, word, vertex, 3, path_phase((int32_t)c->word[TIME]), near);
+        for (int k = 0; k < 9; k++)
+            out[5 * i + 4 + k] = record[k / 3].word[k % 3];
+    }
+}
+
+static void triangles_reference(struct kernel_call *c) { triangles(c, false); }
+
+#if PATH_ASM_ARMV6M
+static void triangles_armv6m(struct kernel_call *c) { triangles(c, true); }
+#endif
+
 extern const struct kernel kernels_vertex_path[];
 const struct kernel kernels_vertex_path[] = {
     { .name = "vertex_path", .most = 28, .size = { 36, 12 }, .align = { 4, 4 }, .prepare = prepare, .timed = 24,
       .form = { { "reference", reference },
 #if PATH_ASM_ARMV6M
                 { "armv6m", armv6m },
+#endif
+      } },
+    { .name = "triangle_path", .least = 3, .most = 24, .size = { 36, 20 }, .align = { 4, 4 }, .prepare = prepare_triangles, .timed = 24,
+      .form = { { "reference", triangles_reference },
+#if PATH_ASM_ARMV6M
+                { "armv6m", triangles_armv6m },
 #endif
       } },
     { .name = NULL }
