@@ -52,8 +52,45 @@ static inline struct depth_range depth_range_vector(const uint16_t *depth, int32
 }
 #endif
 
-#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
-/* Four codes a round: 6 instructions a code of a Cortex-M0+ in place of 9. */
+#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && defined(__ARM_ARCH_6M__)
+/* Four codes a round: 6 instructions a code of a Cortex-M0+ in place of 9, or 2 where they are the same as those before. */
+static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
+{
+    const bool any = width > 0 && height > 0;
+    uint32_t least = any ? *depth : UINT16_MAX, most = any ? *depth : 0, before = least * 0x10001u;     /* two codes */
+    for (int32_t y = 0; y < height; y++, depth += pitch) {
+        const uint16_t *code = depth;
+        int32_t left = width;
+        if (((uintptr_t)code & 3u) != 0 && left > 0) {
+            least = min_u32(least, *code);
+            most = max_u32(most, *code++);
+            left--;
+        }
+        for (; left >= 4; left -= 4, code += 4) {
+            uint32_t word[2];
+            __builtin_memcpy(word, __builtin_assume_aligned(code, 4), sizeof word);
+            if (((word[0] ^ before) | (word[1] ^ before)) == 0)
+                continue;
+            before = word[1];
+            const uint32_t a = code[0], b = code[1], c = code[2], d = code[3];
+            least = min_u32(least, a);
+            most = max_u32(most, a);
+            least = min_u32(least, b);
+            most = max_u32(most, b);
+            least = min_u32(least, c);
+            most = max_u32(most, c);
+            least = min_u32(least, d);
+            most = max_u32(most, d);
+        }
+        for (; left > 0; left--, code++) {
+            least = min_u32(least, *code);
+            most = max_u32(most, *code);
+        }
+    }
+    return (struct depth_range){ least, most };
+}
+#elif !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+/* Four codes a round. */
 static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
 {
     uint32_t least = UINT16_MAX, most = 0;
