@@ -387,11 +387,15 @@ void smear_packed_means(uint32_t *color, const struct packed_sum *sum, int32_t n
         "lsrs r4, r4, #24\n\t"
         "lsls r4, r4, #16\n\t"
         "orrs r5, r4\n\t"
-        "str r5, [%[color]]\n"
+        "stm %[color]!, {r5}\n\t"
+        "cmp %[sum], %[end]\n\t"
+        "bne 1b\n\t"
+        "b 4f\n"
         "2:\n\t"
         "adds %[color], #4\n\t"
         "cmp %[sum], %[end]\n\t"
-        "bne 1b"
+        "bne 1b\n"
+        "4:"
         : [color] "+l"(color), [sum] "+l"(sum)
         : [end] "r"(end), [n] "r"(m->n), [halves] "r"(m->halves), [factor] "r"(m->factor24)
         : "r3", "r4", "r5", "r6", "r7", "r8", "cc", "memory");

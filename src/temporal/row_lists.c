@@ -45,46 +45,43 @@ struct corners {
     int32_t x[3], y[3], dx[3], dy[3], depth[3];
 };
 
-static struct corners corners_of(const struct smear_bins *g, uint32_t triangle)
+static SMEAR_NOINLINE void corners_of(struct corners *c, const struct smear_bins *g, uint32_t triangle)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
-    struct corners c;
     for (int i = 0; i < 3; i++) {
         const int32_t *v = bins_vertex(g, s, t->vertex[i]), *open = v + s->motion, *close = open + PATH_POSE_WORDS;
-        c.x[i] = v[VERTEX_X] >> 8;
-        c.y[i] = v[VERTEX_Y] >> 8;
-        c.dx[i] = (close[PATH_X] - open[PATH_X]) >> 4;
-        c.dy[i] = (close[PATH_Y] - open[PATH_Y]) >> 4;
-        c.depth[i] = v[VERTEX_DEPTH] >> 14;
+        c->x[i] = v[VERTEX_X] >> 8;
+        c->y[i] = v[VERTEX_Y] >> 8;
+        c->dx[i] = (close[PATH_X] - open[PATH_X]) >> 4;
+        c->dy[i] = (close[PATH_Y] - open[PATH_Y]) >> 4;
+        c->depth[i] = v[VERTEX_DEPTH] >> 14;
     }
-    return c;
 }
 
-static struct displacements displacements_of(const struct smear_bins *g, uint32_t triangle, const struct corners *c)
+static SMEAR_NOINLINE void displacements_of(struct displacements *w, const struct smear_bins *g, uint32_t triangle, const struct corners *c)
 {
     const struct smear_path_bounds *b = bins_bounds(g, triangle);
-    struct displacements w = {
-        .x0 = min_i32(c->dx[0], min_i32(c->dx[1], c->dx[2])), .x1 = max_i32(c->dx[0], max_i32(c->dx[1], c->dx[2])),
-        .y0 = min_i32(c->dy[0], min_i32(c->dy[1], c->dy[2])), .y1 = max_i32(c->dy[0], max_i32(c->dy[1], c->dy[2])),
-        .curvature = b->curvature
-    };
-    w.large = (b->flags & PATH_LARGE) != 0
-           && (w.x1 - w.x0 > ALIKE || w.y1 - w.y0 > ALIKE);
+    w->x0 = min_i32(c->dx[0], min_i32(c->dx[1], c->dx[2]));
+    w->x1 = max_i32(c->dx[0], max_i32(c->dx[1], c->dx[2]));
+    w->y0 = min_i32(c->dy[0], min_i32(c->dy[1], c->dy[2]));
+    w->y1 = max_i32(c->dy[0], max_i32(c->dy[1], c->dy[2]));
+    w->curvature = b->curvature;
+    w->large = (b->flags & PATH_LARGE) != 0
+            && (w->x1 - w->x0 > ALIKE || w->y1 - w->y0 > ALIKE);
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
-    for (int i = 0; w.large && i < 3; i++) {
+    for (int i = 0; w->large && i < 3; i++) {
         const int32_t *v = bins_vertex(g, s, t->vertex[i]);
-        w.x[i] = c->x[i];
-        w.y[i] = c->y[i];
+        w->x[i] = c->x[i];
+        w->y[i] = c->y[i];
         for (int k = 0; k < 2; k++) {
             const int32_t *pose = v + s->motion + k * PATH_POSE_WORDS;
-            w.pose[k].x[i] = pose[PATH_X] >> 5;
-            w.pose[k].y[i] = pose[PATH_Y] >> 5;
-            w.pose[k].weight[i] = depth_ratio(v[VERTEX_DEPTH], pose[PATH_DEPTH]);
+            w->pose[k].x[i] = pose[PATH_X] >> 5;
+            w->pose[k].y[i] = pose[PATH_Y] >> 5;
+            w->pose[k].weight[i] = depth_ratio(v[VERTEX_DEPTH], pose[PATH_DEPTH]);
         }
     }
-    return w;
 }
 
 static int shift_to(int32_t largest)
@@ -290,8 +287,10 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
         int32_t x0, x1;
         if (g->segment[t->segment].path) {
             const struct smear_path_bounds *b = bins_bounds(g, i);
-            const struct corners c = corners_of(g, i);
-            const struct displacements d = displacements_of(g, i, &c);
+            struct corners c;
+            struct displacements d;
+            corners_of(&c, g, i);
+            displacements_of(&d, g, i, &c);
             add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top, all);
         } else {
             static_columns(g, t, &x0, &x1);
@@ -378,10 +377,15 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct corners
     sides_at(&s, c, (left << BLOCK_SHIFT) + BLOCK_PX / 2, top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2);
     for (int32_t y = upper; y <= lower; y++) {
         int32_t e[3] = { s.e[0], s.e[1], s.e[2] };
+        bool found = false;
         for (int32_t x = left; x <= right; x++) {
-            if ((e[0] | e[1] | e[2]) >= 0)
+            const bool covers = (e[0] | e[1] | e[2]) >= 0;
+            if (covers)
                 put_covering(block_at(&r->blocks, x, y), c, w, (x << BLOCK_SHIFT) + BLOCK_PX / 2,
                              top + (y << BLOCK_SHIFT) + BLOCK_PX / 2, e);
+            else if (found)
+                break;              /* what it covers of a row is in one piece */
+            found = covers;
             for (int i = 0; i < 3; i++)
                 e[i] += s.right[i];
         }
@@ -415,8 +419,10 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *g, 
         const struct smear_path_bounds *b = bins_bounds(g, i);
         if (b->x1 <= left || b->x0 >= right)
             continue;
-        const struct corners c = corners_of(g, i);
-        const struct displacements d = displacements_of(g, i, &c);
+        struct corners c;
+        struct displacements d;
+        corners_of(&c, g, i);
+        displacements_of(&d, g, i, &c);
         add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top, columns);
         if (r->blocks.columns != 0 && b->interval == 0)
             add_to_blocks(r, &c, &d, w, top, blocks);
