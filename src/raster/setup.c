@@ -288,6 +288,23 @@ struct depth_change {
     int32_t fx, fy;
 };
 
+/* Terms of a polynomial, from mesh units to turns. One by one they stay in registers, in a loop the code is shorter. */
+SMEAR_INLINE void turns_make(int32_t value[6], int up, int32_t step)
+{
+    const int32_t half = step >> 1;
+#if SMEAR_SMALL_CODE
+    for (int i = 0; i < 6; i++)
+        value[i] = (shl_wrap(value[i], up) + half) & -step;
+#else
+    value[0] = (shl_wrap(value[0], up) + half) & -step;
+    value[1] = (shl_wrap(value[1], up) + half) & -step;
+    value[2] = (shl_wrap(value[2], up) + half) & -step;
+    value[3] = (shl_wrap(value[3], up) + half) & -step;
+    value[4] = (shl_wrap(value[4], up) + half) & -step;
+    value[5] = (shl_wrap(value[5], up) + half) & -step;
+#endif
+}
+
 /* One coordinate's polynomial. False where it is steep. */
 static bool curve_make(struct setup *s, const struct weights *w, const struct depth_change *e,
                        const struct corners *k, int axis, int32_t step)
@@ -305,8 +322,8 @@ static bool curve_make(struct setup *s, const struct weights *w, const struct de
         dx - mulh_i32(dx, e->at) - mulh_i32(here, e->dx), dy - mulh_i32(dy, e->at) - mulh_i32(here, e->dy),
         -mulh_i32(dx, e->dx), -mulh_i32(dx, e->dy) - mulh_i32(dy, e->dx), -mulh_i32(dy, e->dy)
     };
-    for (int i = 0; i < 6 && s->texture.turns; i++)
-        value[i] = (shl_wrap(value[i], 18 - m->uv_shift) + (step >> 1)) & -step;
+    if (s->texture.turns)
+        turns_make(value, 18 - m->uv_shift, step);
     value[0] += step >> 1;
     s->texture.curve[axis] = (struct curve){ value[0], value[1], value[2], value[3], value[4], value[5] };
     return true;
