@@ -12,16 +12,18 @@
 #if TEXEL_CURVES_ASM
 /* A polynomial of x and y, modulo 2^32. */
 struct texel_polynomial {
-    uint32_t dxy, dx, dyy, dy, at, dxx;
+    uint32_t at, dx, dy, dxx, dxy, dyy;
 };
 
 /* Rows one below the other, and coordinates of their pixels. */
 struct texel_curve_rows {
     const struct span_side *side;
     int32_t count;              /* of rows; at least one */
-    int32_t x0, y;              /* polynomials are of x - x0 and of y, y + 1 and so on */
-    uint32_t z, dz_down;        /* depth codes 16.16 at column 0 of the first row; their change from row to row */
+    int32_t y;                  /* polynomials are of x - x0 and of y, y + 1 and so on */
+    uint32_t z;                 /* depth code 16.16 at column 0 of the first row */
     uint16_t *depth;            /* of that pixel, which may lie outside the memory */
+    int32_t x0;
+    uint32_t dz_down;           /* how z changes from row to row */
     int32_t stride;             /* bytes */
     struct texel_polynomial u, v;
     uint32_t dz, ddu, ddv;      /* ddu is 2 dxx of u */

@@ -11,59 +11,58 @@
 /* Of a polynomial at r7, of x in r10 and y in r6: the value into r4, the first change into r3. Takes r0 to r5. */
 #define ARMV6M_POLYNOMIAL \
         "ldm r7!, {r0, r1, r2, r3, r4, r5}\n\t" \
-        "muls r0, r6\n\t" \
-        "adds r1, r1, r0\n\t" \
+        "muls r4, r6\n\t" \
+        "adds r1, r1, r4\n\t" \
+        "muls r5, r6\n\t" \
+        "adds r2, r2, r5\n\t" \
         "muls r2, r6\n\t" \
-        "adds r3, r3, r2\n\t" \
-        "muls r3, r6\n\t" \
-        "adds r4, r4, r3\n\t" \
-        "mov r0, r10\n\t" \
-        "movs r2, r5\n\t" \
-        "muls r2, r0\n\t" \
-        "adds r1, r1, r2\n\t" \
-        "adds r3, r1, r2\n\t" \
-        "adds r3, r3, r5\n\t" \
-        "muls r1, r0\n\t" \
-        "adds r4, r4, r1\n\t"
+        "adds r0, r0, r2\n\t" \
+        "mov r5, r10\n\t" \
+        "movs r4, r3\n\t" \
+        "muls r4, r5\n\t" \
+        "adds r1, r1, r4\n\t" \
+        "adds r3, r3, r1\n\t" \
+        "adds r3, r3, r4\n\t" \
+        "muls r1, r5\n\t" \
+        "adds r4, r0, r1\n\t"
 
-/* The rows' members come to the next row and go to registers: -n into r1, where it has n > 0 pixels, x0 into r2, y into r3, z into r4,
- * the left side into r5 and depths into r6. Else goes on at 40, or 42 behind the last row. */
+/* The rows' members come to the next row and go to registers: -n into r1, where it has n > 0 pixels, y into r2, z into r3, depths into
+ * r4, x0 into r5 and the left side into r6. Else goes on at 40, or 42 behind the last row. */
 #define ARMV6M_NEXT_ROW \
         "40: ldr r7, [sp]\n\t" \
         "ldm r7!, {r0, r1, r2, r3, r4, r5, r6}\n\t" \
         "subs r1, r1, #1\n\t" \
         "bpl 41f\n\t" \
         "b 42f\n" \
-        "41: adds r3, r3, #1\n\t" \
-        "adds r4, r4, r5\n\t" \
-        "ldr r5, [r7]\n\t" \
-        "adds r6, r6, r5\n\t" \
+        "41: adds r2, r2, #1\n\t" \
+        "adds r3, r3, r6\n\t" \
+        "ldr r6, [r7]\n\t" \
+        "adds r4, r4, r6\n\t" \
         "subs r7, #28\n\t" \
         "adds r0, #12\n\t" \
         "stm r7!, {r0, r1, r2, r3, r4}\n\t" \
-        "str r6, [r7, #4]\n\t" \
-        "ldr r5, [r0]\n\t" \
-        "ldr r1, [r0, #4]\n\t" \
-        "subs r1, r5, r1\n\t" \
+        "ldm r0, {r0, r6}\n\t" \
+        "subs r1, r0, r6\n\t" \
         "bge 40b\n\t"
 
 /* Rounds have eight pixels; the first begins so many before the row's that its last are the row's. Their number goes to the stack, with
- * depth and z at the row's first pixel, and space for u; where rounds end goes to lr. */
+ * depth and z at the row's first pixel, and space for u; where rounds end goes to lr, y to r6, x to r10. */
 #define ARMV6M_ROW_PLACE \
-        "adds r6, r6, r5\n\t" \
-        "adds r6, r6, r5\n\t" \
+        "movs r6, r2\n\t" \
+        "lsls r2, r0, #1\n\t" \
+        "adds r4, r4, r2\n\t" \
+        "lsls r2, r1, #1\n\t" \
+        "subs r2, r4, r2\n\t" \
+        "mov lr, r2\n\t" \
+        "subs r5, r0, r5\n\t" \
+        "mov r10, r5\n\t" \
+        "mov r5, r8\n\t" \
+        "muls r5, r0\n\t" \
+        "adds r5, r5, r3\n\t" \
         "movs r0, #7\n\t" \
         "ands r0, r1\n\t" \
-        "lsls r1, r1, #1\n\t" \
-        "subs r1, r6, r1\n\t" \
-        "mov lr, r1\n\t" \
-        "subs r2, r5, r2\n\t" \
-        "mov r10, r2\n\t" \
-        "mov r1, r8\n\t" \
-        "muls r5, r1\n\t" \
-        "adds r5, r5, r4\n\t" \
-        "subs r6, r6, r0\n\t" \
-        "subs r4, r6, r0\n\t" \
+        "subs r4, r4, r0\n\t" \
+        "subs r4, r4, r0\n\t" \
         "push {r0, r4, r5, r6}\n\t"
 
 /* On the stack lie the rows, whose members have come to the row before. */
@@ -82,7 +81,6 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct
         "mov r12, r3\n"
         ARMV6M_NEXT_ROW
             ARMV6M_ROW_PLACE
-        "movs r6, r3\n\t"
         "adds r7, #12\n\t"
         ARMV6M_POLYNOMIAL
         "str r4, [sp, #12]\n\t"

@@ -8,14 +8,14 @@
 
 #if SMEAR_ASM_ARMV7EM
 
-/* Of a polynomial dxy, dx, dyy, dy, at and dxx are in registers, x in r3 and y in r4: AT becomes the value, STEP the first change. */
-#define ARMV7EM_POLYNOMIAL(DXY, DX, DYY, DY, AT, DXX, STEP) \
-        "mla " DX ", " DXY ", r4, " DX "\n\t" \
-        "mla " DY ", " DYY ", r4, " DY "\n\t" \
-        "mla " AT ", " DY ", r4, " AT "\n\t" \
-        "mla " DYY ", " DXX ", r3, " DX "\n\t" \
-        "mla " DX ", " DXX ", r3, " DYY "\n\t" \
-        "mla " AT ", " DYY ", r3, " AT "\n\t" \
+/* Of a polynomial at, dx, dy, dxx, dxy and dyy are in registers, x in r12 and y in r3: VALUE becomes the value, STEP the first change. */
+#define ARMV7EM_POLYNOMIAL(AT, DX, DY, DXX, DXY, DYY, VALUE, STEP) \
+        "mla " DX ", " DXY ", r3, " DX "\n\t" \
+        "mla " DY ", " DYY ", r3, " DY "\n\t" \
+        "mla " AT ", " DY ", r3, " AT "\n\t" \
+        "mla " DYY ", " DXX ", r12, " DX "\n\t" \
+        "mla " DX ", " DXX ", r12, " DYY "\n\t" \
+        "mla " VALUE ", " DYY ", r12, " AT "\n\t" \
         "add " STEP ", " DX ", " DXX "\n\t"
 
 /* On the stack lie the end of a row, and the rows, whose members have come to the row before. */
@@ -32,23 +32,21 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struc
         "subs r2, r2, #1\n\t"
         "blt 42f\n\t"
         "ldrd r9, r10, [r1], #12\n\t"
-        "adds r4, r4, #1\n\t"
-        "add r5, r5, r6\n\t"
-        "add r7, r7, r8\n\t"
+        "adds r3, r3, #1\n\t"
+        "add r4, r4, r7\n\t"
+        "add r5, r5, r8\n\t"
         "stm r0, {r1, r2, r3, r4, r5}\n\t"
-        "str r7, [r0, #24]\n\t"
         "subs lr, r10, r9\n\t"
         "ble 41b\n\t"
-        "sub r3, r9, r3\n\t"
-        "add r7, r7, r9, lsl #1\n\t"
+        "add r7, r5, r9, lsl #1\n\t"
+        "sub r12, r9, r6\n\t"
         "ldr r1, [r0, #80]\n\t"
-        "mla r5, r1, r9, r5\n\t"
+        "mla r9, r1, r9, r4\n\t"
         "adds r0, #32\n\t"
-        "ldm r0!, {r2, r6, r8, r9, r10, r12}\n\t"
-        ARMV7EM_POLYNOMIAL("r2", "r6", "r8", "r9", "r10", "r12", "r2")
-        "ldm r0!, {r1, r6, r8, r9, r11, r12}\n\t"
-        ARMV7EM_POLYNOMIAL("r1", "r6", "r8", "r9", "r11", "r12", "r3")
-        "mov r9, r5\n\t"
+        "ldm r0!, {r1, r2, r6, r8, r10, r11}\n\t"
+        ARMV7EM_POLYNOMIAL("r1", "r2", "r6", "r8", "r10", "r11", "r10", "r2")
+        "ldm r0!, {r1, r4, r5, r6, r8, r11}\n\t"
+        ARMV7EM_POLYNOMIAL("r1", "r4", "r5", "r6", "r8", "r11", "r11", "r3")
         "ldm r0, {r1, r4, r5, r8, r12}\n\t"
         "sub r7, r7, r8\n\t"
         "add r0, r7, lr, lsl #1\n\t"

@@ -10,8 +10,8 @@
 #if TEXEL_CURVES_ASM
 static inline struct texel_polynomial polynomial_of(const struct curve *c)
 {
-    return (struct texel_polynomial){ (uint32_t)c->dxy, (uint32_t)c->dx, (uint32_t)c->dyy, (uint32_t)c->dy, (uint32_t)c->at,
-                                      (uint32_t)c->dxx };
+    return (struct texel_polynomial){ (uint32_t)c->at, (uint32_t)c->dx, (uint32_t)c->dy, (uint32_t)c->dxx, (uint32_t)c->dxy,
+                                      (uint32_t)c->dyy };
 }
 
 /* Whole rows of copied texels. */

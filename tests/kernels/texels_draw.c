@@ -149,14 +149,14 @@ static void curves_prepare(struct kernel_call *c)
         sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
     }
     for (int i = 0; i < 2; i++)
-        polynomials[i] = (struct texel_polynomial){ kernel_random(), kernel_random(), kernel_random(), kernel_random(), kernel_random(),
-                                                    kernel_random() >> 12 };
+        polynomials[i] = (struct texel_polynomial){ kernel_random(), kernel_random(), kernel_random(), kernel_random() >> 12,
+                                                    kernel_random(), kernel_random() };
 }
 
 SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int))
 {
-    struct texel_curve_rows rows = { sides, c->n / STRIDE, (int32_t)c->word[U], (int32_t)c->word[V], c->word[Z], c->word[DU],
-                                     c->plane[DEPTH], STRIDE * 2, polynomials[0], polynomials[1], c->word[DZ], c->word[DDU],
+    struct texel_curve_rows rows = { sides, c->n / STRIDE, (int32_t)c->word[V], c->word[Z], c->plane[DEPTH], (int32_t)c->word[U],
+                                     c->word[DU], STRIDE * 2, polynomials[0], polynomials[1], c->word[DZ], c->word[DDU],
                                      c->word[DDV], (int32_t)((uint8_t *)c->plane[DEPTH] - (uint8_t *)c->plane[COLOR]), c->plane[TEXTURE] };
     draw(&rows, LOG2_WIDTH, LOG2_HEIGHT);
 }
