@@ -5,12 +5,12 @@
 #include "raster/texture_rows.h"
 
 #include "kernels/texel_blocks_armv7em.h"
-#include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 #include "raster/fog.h"
 #include "raster/texcoord.h"
 #include "raster/texture_curves.h"
 #include "raster/texture_places.h"
+#include "raster/texture_track.h"
 
 #if SMEAR_SPAN_ROWS
 
@@ -81,101 +81,6 @@ SMEAR_INLINE bool light_is_in_fog(const struct texel_light *l, const struct setu
 static bool fog_has_no_rows(const struct setup *s)
 {
     return fog_varies(s) && !fog_is_by_rows(s) && s->texture.block == 1;
-}
-
-/* ------------------------------------------------------------------ blocks */
-
-/* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
-static inline const struct texture_setup *texture_of(const struct setup *s)
-{
-    const struct texture_setup *t = &s->texture;
-#if defined(__ARM_ARCH_6M__)
-    SMEAR_KEEP_VALUE(t);
-#endif
-    return t;
-}
-
-/* With few registers functions of their own: the loops over pixels take them all. */
-#if UINTPTR_MAX > 0xffffffffu
-#define TRACK_FUNCTION SMEAR_INLINE
-#else
-#define TRACK_FUNCTION static SMEAR_NOINLINE
-#endif
-
-/* Where assembly divides, the choice is not worth a function. */
-#if TRACK_ROWS_ARMV6M
-#define TRACK_GO static SMEAR_NOINLINE
-#define TRACK_NEXT SMEAR_INLINE
-#else
-#define TRACK_GO SMEAR_INLINE
-#define TRACK_NEXT TRACK_FUNCTION
-#endif
-
-/* Goes on by n pixels, at most a block, where no places are divided. */
-TRACK_GO void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
-{
-    const struct place from = k->place;
-    k->u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
-    k->v = add_wrap(k->v, mul_wrap(t->uv[1].dx, n));
-    k->place = (struct place){ k->u, k->v, 0 };
-    texcoord_run(&k->run, texcoord_between(t, from, k->place, n, true));
-}
-
-/* Finds the coordinates of the next n pixels. */
-TRACK_NEXT void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
-{
-    if (t->mode == TEXTURE_DIVIDED)
-        texel_track_part(k, n);
-    else
-        track_go(k, t, n);
-}
-
-/* A whole block where places are quotients. The assembly is a function. */
-#if SMEAR_ASM_ARMV6M
-#define track_block texel_track_next
-#else
-TRACK_FUNCTION void track_block(struct texel_track *k)
-{
-    texel_track_next(k);
-}
-#endif
-
-/* What a triangle's tracks have in common. */
-SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setup *t)
-{
-    k->log2 = 31 - count_leading_zeros(t->block);
-    k->dq = shl_wrap(t->q.dx, k->log2);
-    k->du = shl_wrap(t->uv[0].dx, k->log2);
-    k->dv = shl_wrap(t->uv[1].dx, k->log2);
-    k->qx = t->q.dx;
-    k->ux = t->uv[0].dx;
-    k->vx = t->uv[1].dx;
-    k->up = t->up;
-    k->slope = t->slope;
-    k->seed = smear_recip_seed;
-    k->parabolic = t->parabolic;
-#if SMEAR_ASM_ARMV7EM
-    k->last = t->block - 1;
-    k->counter = 256 - t->block;
-#endif
-    texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
-}
-
-SMEAR_STATIC_ASSERT(offsetof(struct texture_setup, uv) == offsetof(struct texture_setup, q) + 12, "texel_track_start takes nine words");
-
-/* At pixel (x, y). */
-TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setup *t, int32_t x, int32_t y)
-{
-#if TRACK_ROWS_ARMV6M
-    if (t->mode == TEXTURE_DIVIDED) {
-        texel_track_start_armv6m(k, &t->q.at, x, y);
-        return;
-    }
-#endif
-    k->q = plane_at(&t->q, x, y);
-    k->u = plane_at(&t->uv[0], x, y);
-    k->v = plane_at(&t->uv[1], x, y);
-    k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
 }
 
 /* ------------------------------------------------------------------ runs of a row */
@@ -337,23 +242,54 @@ SMEAR_INLINE int32_t draw_run_blocks(struct texel_track *k, int32_t rest, int32_
 }
 #endif
 
-/* A row, of which the first run is known. */
-SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
-                                  struct row_run *p, struct texel_light *light, int log2_width, int log2_height,
-                                  enum texel_kind kind)
+/* A row's run and track from pixel x on. */
+SMEAR_INLINE void row_start(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
+                            const struct row_run *p, int32_t x, bool narrow)
 {
-    const bool narrow = texels_are_narrow(kind), in_fog = light_is_in_fog(light, s);
     const struct smear_raster_target *target = s->target;
-    const struct texture_setup *t = texture_of(s);
-    const bool divided = t->mode == TEXTURE_DIVIDED && !in_fog;
-    const int32_t block = t->block, right = r->side[row].right;
-    const int32_t x = block_start(r->side[row].left, right - 1, p->a, block);
     const int32_t at = r->at + row * target->window_rows.stride + x;
     k->run.depth = target->depth + at;
     k->run.color = narrow ? (void *)(target->direct + at) : target->color + at;
     k->run.dz = p->dz;
     k->run.z = p->z + p->dz * (uint32_t)x;
-    track_start(k, t, x, r->y + row);
+    track_start(k, texture_of(s), x, r->y + row);
+}
+
+/* A row that is one run, and whose places are quotients: from its first pixel on, where the track and its run have come to, `rest`
+ * pixels and the last. */
+SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
+{
+    const int32_t block = 1 << k->log2;
+#if SMEAR_ASM_ARMV7EM
+    if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width)) {
+        const int32_t blocks = (rest - 1) >> k->log2;
+        texel_blocks_armv7em(k, blocks, rest - (blocks << k->log2), log2_width, log2_height);
+        return;
+    }
+#endif
+    for (int32_t n = block; rest > 0;) {
+        if (rest > block) {
+            track_block(k);
+        } else {
+            n = block_next(block, rest);
+            track_part(k, n);
+        }
+        rest -= n;
+        texels_draw(&k->run, n + (rest == 0), log2_width, log2_height, kind);
+    }
+}
+
+/* Any row, of which the first run is known. */
+SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
+                                  struct row_run *p, struct texel_light *light, int log2_width, int log2_height,
+                                  enum texel_kind kind)
+{
+    const bool narrow = texels_are_narrow(kind), in_fog = light_is_in_fog(light, s);
+    const struct texture_setup *t = texture_of(s);
+    const bool divided = t->mode == TEXTURE_DIVIDED && !in_fog;
+    const int32_t block = t->block, right = r->side[row].right;
+    const int32_t x = block_start(r->side[row].left, right - 1, p->a, block);
+    row_start(k, s, r, row, p, x, narrow);
     int32_t rest = right - 1 - x;                       /* behind the block, but for the last pixel */
     int32_t least = divided ? max_i32(right - 1 - p->b, 1) : INT32_MAX - BLOCK_LONGEST;
     bool is_in_run = p->a == x;
@@ -403,7 +339,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
 {
     const struct texture_setup *t = texture_of(s);
     const int32_t shortest = t->block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;        /* block_of */
-    const bool whole = rows_are_whole(s, r);
+    const bool whole = rows_are_whole(s, r), divided = t->mode == TEXTURE_DIVIDED && !light_is_in_fog(light, s);
     struct texel_track k;
     struct row_run p;
     uint8_t *next_quotient = quotients->row;
@@ -427,7 +363,12 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         } else if (!smear_row_run_next(&p, s, r, row, left)) {
             continue;
         }
-        draw_row_blocks(&k, s, r, row, &p, light, log2_width, log2_height, kind);
+        if (divided && p.a == left && p.b == right) {
+            row_start(&k, s, r, row, &p, left, texels_are_narrow(kind));
+            draw_divided_row(&k, right - 1 - left, log2_width, log2_height, kind);
+        } else {
+            draw_row_blocks(&k, s, r, row, &p, light, log2_width, log2_height, kind);
+        }
     }
     quotients->count = (int32_t)(next_quotient - quotients->row);
 }
