@@ -385,6 +385,21 @@ static bool setup_curved(struct setup *s, const struct corners *k, uint32_t trav
     return curve_make(s, &w, &e, k, 0, 1) && curve_make(s, &w, &e, k, 1, CURVE_STEP);
 }
 
+/* The most texels per pixel, q6, of what changes by so much over q. Without textures of so many texels that they wrap, that is where
+ * the change is largest. */
+static uint32_t texels_most(const struct setup *s, int axis, uint32_t change[3], uint32_t q)
+{
+    const int count = SMEAR_SMALL_CODE || s->draw->sampler.shift[axis] > 4 ? 3 : 1;
+    uint32_t most = 0;
+    if (count == 1)
+        change[0] = max_u32(change[0], max_u32(change[1], change[2]));
+    for (int j = 0; j < count; j++) {
+        const uint32_t r = smear_times_over(change[j], 1u << 16, q);        /* q16 of 2^15 mesh units */
+        most = max_u32(most, texels_q6(s, axis, (int32_t)min_u32(r, 0xffffu) << 13));
+    }
+    return most;
+}
+
 /* Divides for every block. */
 static void setup_divided(struct setup *s, const struct corners *k)
 {
@@ -410,11 +425,10 @@ static void setup_divided(struct setup *s, const struct corners *k)
         const int32_t *u = k->uv[i];
         struct plane *p = &t->uv[i];
         smear_plane_make(s, p, times_q15(u[0], q[0]), times_q15(u[1], q[1]), times_q15(u[2], q[2]));
-        for (int j = 0; j < 3; j++) {
-            uint32_t r = smear_times_over(magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx))),
-                                          1u << 16, seen_q);       /* q16 of 2^15 mesh units */
-            worst = max_u32(worst, texels_q6(s, i, (int32_t)min_u32(r, 0xffffu) << 13));
-        }
+        uint32_t change[3];
+        for (int j = 0; j < 3; j++)
+            change[j] = magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx)));
+        worst = max_u32(worst, texels_most(s, i, change, seen_q));
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
     uint32_t change = min_u32(smear_times_over(slope_q << 4, 1u << 12, seen_q), 1u << 16);
