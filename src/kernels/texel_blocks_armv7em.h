@@ -86,9 +86,9 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         "ite ge\n\t" \
         "movge lr, #32\n\t" \
         "movlt lr, #16\n" \
-        "61: ldr r0, [sp, #12]\n\t" \
+        "61: ldr r0, [sp, #8]\n\t" \
         "subs r0, r0, lr\n\t" \
-        "str r0, [sp, #12]\n\t" \
+        "str r0, [sp, #8]\n\t" \
         "ite eq\n\t" \
         "addeq r0, lr, #1\n\t" \
         "movne r0, lr\n\t" \
@@ -161,18 +161,17 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         "ldr r12, [r12, #-8]\n\t" \
         ARMV7EM_MASK
 
-/* Starts the part's run: its number into lr, where it ends into END. */
-#define ARMV7EM_PART_RUN(END) \
+/* Starts the part's run: its number into lr. */
+#define ARMV7EM_PART_RUN \
         "lsl r2, r2, r11\n\t" \
         "lsl r3, r3, r11\n\t" \
         "bic r3, r3, #255\n\t" \
         "mov r11, lr\n\t" \
         "ldr lr, [r12, #-32]\n\t" \
         "ldr r1, [r12, #-52]\n\t" \
-        "ldr r12, [r12, #-8]\n\t" \
-        "add " END ", r7, lr, lsl #1\n\t"
+        "ldr r12, [r12, #-8]\n\t"
 
-/* On the stack lie a part's end, the track's q, how many blocks are left, and how many pixels behind them. */
+/* On the stack lie the track's q, how many blocks are left, and how many pixels behind them. */
 static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct texel_track *k, int32_t count, int32_t rest,
                                                                        int log2_width, int log2_height)
 {
@@ -182,32 +181,31 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
     __asm__ volatile(
         ".syntax unified\n\t"
         "push {r0, r1, r2}\n\t"
-        "sub sp, #4\n\t"
         "ldr r7, [r0, #-28]\n\t"
         "ldrd r8, r9, [r0, #-24]\n\t"
         "sub r8, r8, r7\n\t"
         "cmp r1, #0\n\t"
         "beq 54f\n"
-        "51: ldr r12, [sp, #4]\n\t"
+        "51: ldr r12, [sp]\n\t"
         ARMV7EM_PLACE
         "ldrb r0, [r12, #52]\n\t"
         "cmp r0, #0\n\t"
         "beq 52f\n\t"
         ARMV7EM_PARABOLA("ldr r0, [r12, #76]\n\t")
         ARMV7EM_RUN
-        ARMV7EM_BENT_QUADS("lsls r0, r11, #24\n\t", "53f")
+        ARMV7EM_BENT_QUADS("lsls r0, r11, #24\n\tbne 33b\n\t", "53f")
         "52: lsl r10, r4, r11\n\t"
         "lsl lr, r5, r11\n\t"
             ARMV7EM_RUN
         "rsb r4, r0, #256\n\t"
         "add r4, r7, r4, lsl #1\n\t"
-        ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\t", "53f")
-        "53: ldr r0, [sp, #8]\n\t"
+        ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\tbne 23b\n\t", "53f")
+        "53: ldr r0, [sp, #4]\n\t"
         "subs r0, r0, #1\n\t"
-        "str r0, [sp, #8]\n\t"
+        "str r0, [sp, #4]\n\t"
         "bne 51b\n"
-        "54: ldr lr, [sp, #12]\n\t"
-        "ldr r12, [sp, #4]\n\t"
+        "54: ldr lr, [sp, #8]\n\t"
+        "ldr r12, [sp]\n\t"
         "cmp lr, #0\n\t"
         "beq 57f\n\t"
         ARMV7EM_PART_PLACE
@@ -215,15 +213,11 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
         "cmp r0, #0\n\t"
         "beq 55f\n\t"
         ARMV7EM_PARABOLA("ldr r0, [r12, #60]\n\tsubs r0, r0, #1\n\t")
-        ARMV7EM_PART_RUN("r0")
-        "str r0, [sp]\n\t"
-        ARMV7EM_BENT("54b")
+        ARMV7EM_PART_RUN ARMV7EM_BENT("54b")
         "55: lsl r10, r4, r11\n\t"
-        "lsl lr, r5, r11\n\t"
-        ARMV7EM_PART_RUN("r4")
+        "lsl lr, r5, r11\n\t" ARMV7EM_PART_RUN "add r4, r7, lr, lsl #1\n\t"
         ARMV7EM_STRAIGHT("54b")
-        "57: add sp, #4\n\t"
-        "pop {r0, r1, r2}\n\t"
+        "57: pop {r0, r1, r2}\n\t"
         "add r8, r8, r7\n\t"
         "str r7, [r0, #-28]\n\t"
         "strd r8, r9, [r0, #-24]"

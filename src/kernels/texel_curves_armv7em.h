@@ -18,16 +18,15 @@
         "mla " VALUE ", " DYY ", r12, " AT "\n\t" \
         "add " STEP ", " DX ", " DXX "\n\t"
 
-/* On the stack lie the end of a row, and the rows, whose members have come to the row before. */
+/* On the stack lie the rows, whose members have come to the row before. */
 static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struct texel_curve_rows *rows, int log2_width, int log2_height)
 {
     texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
     __asm__ volatile(
         ".syntax unified\n\t"
-        "push {r0}\n\t"
-        "sub sp, #4\n"
-        "40: ldr r0, [sp, #4]\n"
+        "push {r0}\n"
+        "40: ldr r0, [sp]\n"
         "41: ldm r0, {r1, r2, r3, r4, r5, r6, r7, r8}\n\t"
         "subs r2, r2, #1\n\t"
         "blt 42f\n\t"
@@ -49,10 +48,8 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struc
         ARMV7EM_POLYNOMIAL("r1", "r4", "r5", "r6", "r8", "r11", "r11", "r3")
         "ldm r0, {r1, r4, r5, r8, r12}\n\t"
         "sub r7, r7, r8\n\t"
-        "add r0, r7, lr, lsl #1\n\t"
-        "str r0, [sp]\n\t"
         ARMV7EM_BENT("40b")
-        "42: add sp, #8"
+        "42: add sp, #4"
         : "+r"(r0)
         : ARMV7EM_SIZES
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
