@@ -311,6 +311,10 @@ UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path r
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
 SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath jobs kernels light math math_error matrix motion overlay path points present raster \
               still subframes texture tilemax timemask transform view x11,$(ALL_SUITES))
+# With sanitizers no other is compiled, unless SUITE names it.
+ifeq ($(SAN),1)
+SUITES := $(SAN_SUITES) $(filter-out $(SAN_SUITES),$(filter $(SUITE),$(SUITES)))
+endif
 
 ifeq ($(EXR),1)
 SUITES   += $(EXR_SUITES)
@@ -320,8 +324,9 @@ endif
 # The chart without what measures.
 CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_peer.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
-TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c tests/suite/failures*.c) \
-    $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(CHART_SRC) $(EXR_SRC)
+TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c) \
+    $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(EXR_SRC) \
+    $(if $(filter-out $(SAN_SUITES),$(SUITES)),$(wildcard tests/suite/failures*.c) $(CHART_SRC))
 TESTS    := $(BUILD)/run
 # What the suite of kernels calls: a family of kernels in each.
 KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
@@ -334,6 +339,13 @@ TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c
 $(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
+
+ifeq ($(SAN),1)
+$(BUILD)/tests/run.o: $(BUILD)/suites
+$(BUILD)/suites: always
+	@mkdir -p $(@D)
+	@echo '$(SUITES)' | cmp -s - $@ || echo '$(SUITES)' > $@
+endif
 
 KERNEL_FAMILIES := -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
 $(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): CFLAGS += $(KERNEL_FAMILIES)
