@@ -174,7 +174,7 @@ print-run:
 ## flash, RAM and worst stack of the library on every target, and what each switch saves
 footprint:
 	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
-	MAKE="$(MAKE)" sh platform/footprint_switches.sh $(FOOTPRINT)
+	MAKE="$(MAKE)" sh platform/footprint_switches.sh $(or $(FOOTPRINT_SETS),$(FOOTPRINT))
 
 ## writes these tables into platform/README.md
 footprint-readme:

@@ -33,8 +33,9 @@ for source in "$@"; do
     # shellcheck disable=SC2086
     $arm $common $own_headers -mcpu=cortex-m0plus -mthumb -Os -ffunction-sections -fdata-sections \
         -fno-common -c -o "$object" "$source" || status=1
+    # What takes other registers is told without optimization, too.
     # shellcheck disable=SC2086
-    $host $common $host_headers -mgeneral-regs-only -O1 -c -o "$out/host.o" "$source" || status=1
+    $host $common $host_headers -mgeneral-regs-only -O0 -c -o "$out/host.o" "$source" || status=1
     objects="$objects $object"
 done
 [ $status -eq 0 ] || exit 1
