@@ -261,18 +261,24 @@ build/gentables: tools/gentables.c
 # ---------------------------------------------------------------------- forms to hand on
 
 .PHONY: dist install dist-test dist-single-test
+ONE_FILE := build/one-file/single/smear.c
 ## what `make dist` and `make install` write, compiled and run
-dist-test: dist
+dist-test: dist $(ONE_FILE)
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
 	sh tests/shell/dist.sh
 
 ## the one file by every compiler of this machine, for every core and standard, and its golden frames
-dist-single-test: dist build/tapes/golden.c
-	sh tests/shell/dist_single.sh
+dist-single-test: $(ONE_FILE) build/tapes/golden.c
+	sh tests/shell/dist_single.sh $(<D)
 
 ## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist; URL=https://... of the project
 dist: build/dist-single
 	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
+
+# The one file alone, for suites that compile it: it stays as long as its sources do.
+$(ONE_FILE): build/dist-single tools/dist/dist.sh $(foreach room,include $(SRC_ROOMS),$(wildcard $(room)/*.[ch]*))
+	$(call say,GEN)
+	FORMS=single sh tools/dist/dist.sh $< build/one-file $(SRC_ROOMS)
 
 build/dist-single: tools/dist/single.c
 	$(call say,CC,$<)

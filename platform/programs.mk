@@ -83,9 +83,8 @@ $(BUILD)/overlay_cost$(EXE): $(PROGRAM_OBJ) $(BUILD)/tests/target/overlay_cost.o
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
 ## golden frames with each switch of smear_config.h off
-switches-test: build/dist-single $(TAPES)/golden.c
-	sh tools/dist/dist.sh $< build/switches-dist $(SRC_ROOMS) >/dev/null
-	sh tests/shell/target_switches.sh build/switches build/switches-dist/single/smear.c
+switches-test: $(ONE_FILE) $(TAPES)/golden.c
+	sh tests/shell/target_switches.sh build/switches $<
 
 # ---------------------------------------------------------------------- template
 

@@ -83,30 +83,61 @@ fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threa
 	build/fuzz/frames-memory wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
 	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
 
-# Builds that must draw the same: by optimization, compiler, width of a word, and what the code is told of the core.
-# At -O0 what overflows ends the program; at -O1 a picture that depends on a variable that nobody wrote, or that is out of scope,
-# is another one.
-FUZZ_BUILDS := gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 scalar sse2 armv6m armv7em
-$(eval $(call frames_build,gcc-O0,gcc,-O0 -ftrapv))
-$(eval $(call frames_build,gcc-O1,gcc,-O1 -ftrivial-auto-var-init=pattern))
-$(eval $(call frames_build,gcc-O3,gcc,-O3))
-$(eval $(call frames_build,clang-O2,$(FUZZ_CC),-O2))
-$(eval $(call frames_build,m32,gcc,-m32 -O2))
-$(eval $(call frames_build,mul16,gcc,-Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0))
-$(eval $(call frames_build,scalar,gcc,-O2 -DSMEAR_VECTORS=0))
-# Chars are unsigned, as on ARM; by which GCC leaves AVX2 out, too (avx2.h).
-$(eval $(call frames_build,sse2,gcc,-O2 -DSMEAR_AVX2=0 -funsigned-char))
-# The library of this machine's programs.
-build/fuzz/frames-gcc-O2: $(call host_objects,$(FRAMES_SRC))
-	$(call say,LD)
-	@mkdir -p $(@D)
-	gcc -o $@ $^ -lpthread
-# Assembly for Cortex-M0 and M4 in programs for Linux, which are emulated. (Code for any address leaves it too few registers.)
-FUZZ_THUMB := arm-linux-gnueabihf-gcc -mthumb -static -fno-pic -O2 -DSMEAR_VECTORS=0
-$(eval $(call frames_build,armv6m,$(FUZZ_THUMB),-DSMEAR_ASM_ARMV6M=1 -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0))
-$(eval $(call frames_build,armv7em,$(FUZZ_THUMB) -march=armv7ve+fp,-DSMEAR_ASM_ARMV7EM=1))
+# Builds that must draw the same: by compiler, optimization, width of a word, and what the code is told of the core. Most are the
+# one-file form's, whose objects draw golden frames, too (one_file.sh says what each is for). What draws is the same in all.
+ONE_FILE_BUILDS := gcc-O0 gxx-O1 gcc-O3 clang-O2 m32 plain armv7em
+FUZZ_BUILDS := gcc-O0 gxx-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 plain sse2 armv6m armv7em
+CASES_SRC := $(filter-out $(LIB_SRC),$(FRAMES_SRC))
+$(ONE_FILE_BUILDS:%=build/fuzz/one-file/%.o): build/fuzz/one-file/%.o: $(ONE_FILE) tests/shell/one_file.sh
+	$(call say,CC,$@)
+	sh tests/shell/one_file.sh $* $< $@
 
-## pictures of CASES=2000 cases from FIRST=1 by eleven builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 scalar")
+# own_cases NAME,COMPILER: the generator's objects build/fuzz/NAME/, of compilers that do not draw for this machine.
+define own_cases
+$(CASES_SRC:%.c=build/fuzz/$(1)/%.o): build/fuzz/$(1)/%.o: %.c
+	$$(call say,CC,$$<)
+	@mkdir -p $$(@D)
+	$(2) $(FUZZ_BASE) -D_GNU_SOURCE -O1 -c -o $$@ $$<
+-include $(if $(FUZZ_GOALS),$(CASES_SRC:%.c=build/fuzz/$(1)/%.d))
+endef
+$(eval $(call own_cases,m32-cases,gcc -m32))
+FUZZ_THUMB := arm-linux-gnueabihf-gcc -mthumb -static -fno-pic
+$(eval $(call own_cases,arm-cases,$(FUZZ_THUMB)))
+
+# frames_of NAME,COMPILER,OBJECTS: the program build/fuzz/frames-NAME of the generator's objects and the library's.
+define frames_of
+build/fuzz/frames-$(1): $(3)
+	$$(call say,LD)
+	@mkdir -p $$(@D)
+	$(2) -o $$@ $$^ -lpthread
+endef
+$(foreach build,gcc-O0 gxx-O1 gcc-O3 clang-O2 plain,$(eval $(call \
+    frames_of,$(build),gcc,$(call host_objects,$(CASES_SRC)) build/fuzz/one-file/$(build).o)))
+$(eval $(call frames_of,m32,gcc -m32,$(CASES_SRC:%.c=build/fuzz/m32-cases/%.o) build/fuzz/one-file/m32.o))
+$(eval $(call frames_of,armv7em,$(FUZZ_THUMB),$(CASES_SRC:%.c=build/fuzz/arm-cases/%.o) build/fuzz/one-file/armv7em.o))
+# The library of this machine's programs.
+$(eval $(call frames_of,gcc-O2,gcc,$(call host_objects,$(FRAMES_SRC))))
+
+# lib_build NAME,COMPILER,FLAGS,CASES: a build of the files of src/, with the generator's objects CASES.
+define lib_build
+build/fuzz/$(1)/%.o: %.c
+	$$(call say,CC,$$<)
+	@mkdir -p $$(@D)
+	$(2) $(3) -Iinclude -Isrc -I. -MMD -MP $$(vectors) -c -o $$@ $$<
+-include $(if $(FUZZ_GOALS),$(LIB_SRC:%.c=build/fuzz/$(1)/%.d))
+$(call fuzz_vectors,$(1),$(2) $(3))
+$(call frames_of,$(1),$(2),$(4) $(LIB_SRC:%.c=build/fuzz/$(1)/%.o))
+endef
+$(eval $(call lib_build,mul16,gcc,-std=c11 -Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,$(call host_objects,$(CASES_SRC))))
+# Chars are unsigned, as on ARM; by which GCC leaves AVX2 out, too (avx2.h). Flags and objects are those of packages (dist.sh).
+FUZZ_CACHED := SMEAR_OBJECTS=$${SMEAR_OBJECTS:-build/test/objects} sh tests/shell/launch_cached.sh $(HOST_CC)
+$(eval $(call lib_build,sse2,$(subst $$,$$$$,$(FUZZ_CACHED)),-std=gnu11 -O2 -Wall -Wextra -Werror -funsigned-char -DSMEAR_AVX2=0,\
+    $(call host_objects,$(CASES_SRC))))
+# Assembly for Cortex-M0 in a program for Linux, which is emulated. (Code for any address leaves it too few registers.)
+$(eval $(call lib_build,armv6m,$(FUZZ_THUMB),-std=c11 -O2 -DSMEAR_VECTORS=0 -DSMEAR_ASM_ARMV6M=1 -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,\
+    $(CASES_SRC:%.c=build/fuzz/arm-cases/%.o)))
+
+## pictures of CASES=2000 cases from FIRST=1 by eleven builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 plain")
 fuzz-builds: $(foreach build,$(or $(BUILDS),$(FUZZ_BUILDS)),build/fuzz/frames-$(build))
 	first=; \
 	for build in $(or $(BUILDS),$(FUZZ_BUILDS)); do \
