@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # pico_stranger.sh MODEL - the way of platform/README.md from a clean clone to the UF2 with a model of one's own, in at most
-# four commands, which are taken from there. Packages are only looked for, and the SDK is the one that is here.
+# four commands, which are taken from there. Packages are only looked for, and the SDK is the one that is here. What other
+# suites compiled of the same text is not compiled again.
 set -u
 model=$PWD/$1
 . "$(dirname "$0")/lib.sh"
@@ -26,9 +27,12 @@ bring_sdk() {
         mkdir pico-sdk && tar -C pico-sdk --strip-components=1 -xJf "$archive" && mkdir -p pico-sdk/docs && : >>pico-sdk/docs/CMakeLists.txt
     fi
 }
+SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
+export SMEAR_OBJECTS
+cc="sh $here/tests/shell/launch_cached.sh ${CC:-cc} -Werror"
 # The model's name and clip are the reader's.
 run_line() {
-    (unset MAKEFLAGS PICO_SDK_PATH PICO_SDK_ARCHIVE TARGET BOARD; sh -ec "$(sed -n "$1p" "$base/commands" | sed "s|Fox.glb --clip Run|'$model'|; s|^make |make -j2 |")")
+    (unset MAKEFLAGS PICO_SDK_PATH PICO_SDK_ARCHIVE TARGET BOARD; sh -ec "$(sed -n "$1p" "$base/commands" | sed "s|Fox.glb --clip Run|'$model'|; s|^make |make -j2 |; s|^make -j2 build/smear|& CC='$cc'|")")
 }
 
 claim "four commands at most" is_true "$(wc -l <"$base/commands") == 4"

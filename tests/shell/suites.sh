@@ -53,30 +53,32 @@ $(tail -n 60 "$log/$name.log")
     printf '%s\n' "$line"
 }
 
-# beside LANE: starts a function of suites beside those that follow, which write no file that these use. join waits for it
-# and adds up.
-beside() {
-    lane=$1
-    rm -f "$log/$lane.count"
-    (
-        passed=0 failed=0 missing=0
-        "$lane"
-        echo "$passed $failed $missing" >"$log/$lane.count"
-    ) &
-    lane_pid=$!
-}
-
-join() {
-    wait "$lane_pid"
-    if [ -f "$log/$lane.count" ]; then
-        read -r lane_passed lane_failed lane_missing <"$log/$lane.count"
-        passed=$((passed + lane_passed))
-        failed=$((failed + lane_failed))
-        missing=$((missing + lane_missing))
-    else
-        echo "suites of $lane ended early"
-        failed=$((failed + 1))
-    fi
+# lanes GROUP...: two lanes take functions of suites, each the next that nobody took: where the longest come first, both end at
+# about the same time. A group writes no file that another uses. Waits for both and adds up.
+lanes() {
+    rm -rf "$log/lanes"
+    mkdir -p "$log/lanes"
+    for lane in 1 2; do
+        (
+            passed=0 failed=0 missing=0
+            for group; do
+                ! mkdir "$log/lanes/$group" 2>/dev/null || "$group"
+            done
+            echo "$passed $failed $missing" >"$log/lanes/$lane.count"
+        ) &
+    done
+    wait
+    for lane in 1 2; do
+        if [ -f "$log/lanes/$lane.count" ]; then
+            read -r lane_passed lane_failed lane_missing <"$log/lanes/$lane.count"
+            passed=$((passed + lane_passed))
+            failed=$((failed + lane_failed))
+            missing=$((missing + lane_missing))
+        else
+            echo "a lane of suites ended early"
+            failed=$((failed + 1))
+        fi
+    done
 }
 
 # needs TOOL PACKAGES: true when the tool is there.
