@@ -11,9 +11,10 @@ base=$PWD/build/dist-test
 version=$(sh tools/dist/version.sh)
 rm -rf "$base"
 mkdir -p "$base"
-# The library is compiled once for all projects that want it alike. Those of boards, which have flags in common therefore, do
-# without what boards do not have.
-board_flags="-O1 -Wall -Wextra -Werror -DSMEAR_AVX2=0"
+# The library is compiled once for all projects that want it alike. Those of boards, which have flags and a standard in common
+# therefore, do without what boards do not have; a build of fuzz-builds has the same (tests/fuzz/fuzz.mk).
+file_flags="-O1 -Wall -Wextra -Werror -DSMEAR_AVX2=0"
+board_flags="-O2 -Wall -Wextra -Werror -funsigned-char -DSMEAR_AVX2=0"
 SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
 CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
 export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
@@ -100,10 +101,13 @@ mkdir -p "$base/plain"
 cp tests/examples/stand_ins/plain.h "$base/plain/display.h"
 plain_panel() {
     # shellcheck disable=SC2086
-    ${CC:-cc} -std=c11 $board_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples -o "$base/plain/program" \
-        tests/examples/flush.c "$dist/single/smear/smear.c" && "$base/plain/program" >"$base/plain/panel"
+    sh tests/shell/launch_cached.sh ${CC:-cc} -std=gnu11 $file_flags -I"$dist/single/smear" -o "$base/plain/smear.o" -c \
+        "$dist/single/smear/smear.c" &&
+        ${CC:-cc} -std=c11 $file_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples \
+            -o "$base/plain/program" tests/examples/flush.c "$base/plain/smear.o" && "$base/plain/program" >"$base/plain/panel"
 }
 claim "one file, on a panel" plain_panel
+claim "it is the one that dist_single.sh tries" same "$dist/single/smear/smear.c" build/one-file/single/smear.c
 
 # Arduino's builder, on a board that is this machine, with stand-ins of the displays' libraries.
 board=$base/hardware/tests/here
@@ -116,7 +120,7 @@ END
 cat >"$board/platform.txt" <<END
 name=This machine
 version=1.0.0
-compiler.flags=$board_flags -DARDUINO={runtime.ide.version}
+compiler.flags=$file_flags -DARDUINO={runtime.ide.version}
 recipe.c.o.pattern=sh "$PWD/tests/shell/launch_cached.sh" ${CC:-cc} -std=gnu11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.cpp.o.pattern=${CXX:-c++} -std=gnu++11 -c {compiler.flags} {includes} "{source_file}" -o "{object_file}"
 recipe.ar.pattern=ar rcs "{archive_file_path}" "{object_file}"
@@ -205,10 +209,13 @@ fi
 
 if command -v cmake >/dev/null 2>&1; then
     # project NAME: configures and builds out/NAME, whose program draws the example's picture. That it is a release where nobody
-    # says otherwise is shown by its commands, below: one build with all optimization is fuzz-builds' part.
+    # says otherwise is shown by its commands, below: one build with all optimization is fuzz-builds' part. What compiles fastest
+    # is enough here.
+    debug="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_C_FLAGS=-DSMEAR_AVX2=0"
     project() {
         cp "$dist/platformio/smear/examples/plain/src/main.c" "$base/$1/main.c"
-        cmake -S "$base/$1" -B "$base/$1/build" -DCMAKE_PREFIX_PATH="$base/prefix" -DCMAKE_BUILD_TYPE=Debug &&
+        # shellcheck disable=SC2086
+        cmake -S "$base/$1" -B "$base/$1/build" -DCMAKE_PREFIX_PATH="$base/prefix" $debug &&
             cmake --build "$base/$1/build" -j2 &&
             "$base/$1/build/program" >"$base/$1/picture.ppm" && cmp "$base/$1/picture.ppm" "$base/example.ppm"
     }
@@ -222,7 +229,8 @@ target_link_libraries(program smear::smear)
 END
     claim "cmake: add_subdirectory" project subdirectory
     package() {
-        cmake -S "$dist/cmake/smear" -B "$base/cmake" -DCMAKE_INSTALL_PREFIX="$base/prefix" -DCMAKE_BUILD_TYPE=Debug &&
+        # shellcheck disable=SC2086
+        cmake -S "$dist/cmake/smear" -B "$base/cmake" -DCMAKE_INSTALL_PREFIX="$base/prefix" $debug &&
             cmake --build "$base/cmake" -j2 && cmake --install "$base/cmake" && project package
     }
     cat >"$base/package/CMakeLists.txt" <<END
@@ -250,7 +258,18 @@ target_link_libraries(program smear::smear)
 END
     claim "cmake: FetchContent of the archive" project fetch
 
-    switches=$(sed -n 's/^config \(SMEAR_WITH_[A-Z0-9_]*\)$/set(CONFIG_\1 y)/p' "$dist/esp-idf/smear/Kconfig" | grep -v _MODEL)
+    switches=$(sed -n 's/^config \(SMEAR_WITH_[A-Z0-9_]*\)$/set(CONFIG_\1 y)/p' "$dist/esp-idf/smear/Kconfig")
+    # switched_off NAME: the same project without models; of its library the one source is compiled that would have them
+    switched_off() {
+        mkdir -p "$base/$1-off"
+        cp "$base/$1/main.c" "$base/$1-off"
+        sed '/CONFIG_SMEAR_WITH_MODEL /d' "$base/$1/CMakeLists.txt" >"$base/$1-off/CMakeLists.txt"
+        ! cmp -s "$base/$1/CMakeLists.txt" "$base/$1-off/CMakeLists.txt" &&
+            cmake -S "$base/$1-off" -B "$base/$1-off/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON &&
+            command=$(sed -n 's|^ *"command": "\(.*\) -o [^ ]* -c \(.*/model/anim\.c\)",*$|\1 -c \2|p' "$base/$1-off/build/compile_commands.json") &&
+            [ -n "$command" ] && sh -c "$command -o $base/$1-off/anim.o" && ! nm "$base/$1-off/anim.o" | grep smear_actor_init &&
+            nm "$base/$1/build/$2" | grep -q smear_actor_init
+    }
     cat >"$base/esp-idf/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
@@ -271,7 +290,7 @@ add_executable(program main.c)
 target_link_libraries(program component)
 END
     claim "esp-idf's functions" project esp-idf
-    claim "esp-idf: a switch that is off leaves code out" sh -c "! nm '$base/esp-idf/build/libcomponent.a' | grep -q smear_actor_init"
+    claim "esp-idf: a switch that is off leaves code out" switched_off esp-idf libcomponent.a
     cat >"$base/zephyr/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
@@ -303,9 +322,11 @@ add_executable(program main.c)
 target_link_libraries(program smear)
 END
     claim "zephyr's functions" project zephyr
+    claim "zephyr: a switch that is off leaves code out" switched_off zephyr libsmear.a
     cat >"$base/pico-sdk/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
+set(CMAKE_C_STANDARD 11)
 add_compile_options($board_flags)
 add_subdirectory($dist/pico-sdk/smear smear)
 add_executable(program main.c)
