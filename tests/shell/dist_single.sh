@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# dist_single.sh FOLDER: the one-file form, smear.c and its headers in FOLDER, compiles without a warning by all compilers of this machine for
-# Cortex-M, RISC-V and x86, in all standards of C and C++, with and without GCC's extensions, and draws the golden frames
-# wherever it can run. Compilers that are not installed are named.
+# dist_single.sh FOLDER: the one-file form, smear.c and its headers in FOLDER, compiles without a warning by all compilers of
+# this machine for Cortex-M, RISC-V and x86, in all standards of C and C++, with and without GCC's extensions, and draws the
+# golden frames wherever it can run. Compilers that are not installed are named.
 set -u
 . "$(dirname "$0")/lib.sh"
 base=$PWD/build/dist-single-test
@@ -41,6 +41,8 @@ for level in -O3 -O2 -Os -Og -O0; do
 done
 generates "g++ for cortex-m0plus" "arm-none-eabi-g++ -mcpu=cortex-m0plus -mthumb -x c++ -std=c++11 -ffreestanding" -O1
 generates "gcc for cortex-m4" "arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c11 -ffreestanding" -O2
+# With vectors of eight: as most desktops compile it.
+generates "gcc" "gcc -std=c99 -Wconversion" -O2
 # No line is this core's own: what -O2 warns of, Cortex-M0+ and M4 have shown.
 generates "gcc for rv32imc" "riscv64-unknown-elf-gcc -march=rv32imc -mabi=ilp32 -std=c11 -ffreestanding" -O1
 
@@ -125,7 +127,8 @@ draws "gcc without extensions" plain
 draws "tcc" "tcc -Wall -Werror" "tcc" tcc
 ! echo 'int main(void) { return 0; }' | gcc -m32 -x c -o "$base/program" - 2>/dev/null ||
     draws "gcc -m32" m32 "gcc -m32" m32
-draws "gcc for ARM" armv7em "arm-linux-gnueabihf-gcc -static" arm qemu-arm-static
+draws "gcc for ARM" "arm-linux-gnueabihf-gcc -std=c99 -O0 $strict" "arm-linux-gnueabihf-gcc -static" arm qemu-arm-static
+draws "gcc for ARM, Cortex-M4's assembly" armv7em "arm-linux-gnueabihf-gcc -static" arm qemu-arm-static
 job "switches" "gcc -std=c99 -O1 $strict -DSMEAR_WITH_ALL=0 -DSMEAR_WITH_RGB565=1 -c -o $base/NUMBER.o $single/smear.c"
 
 # ---------------------------------------------------------------------- all of it
