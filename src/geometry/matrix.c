@@ -66,8 +66,8 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
     return -shift;
 }
 
-/* Where products of 64 bits are calls, and size does not count, much is found without them. */
-#define PRODUCTS_ARE_DEAR (!SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY)
+/* Where products of 64 bits are calls, or shifts of them take many instructions, and size does not count, much is found without them. */
+#define PRODUCTS_ARE_DEAR (!(SMEAR_HAS_MUL64 && SMEAR_HAS_CLZ) && !SMEAR_ONE_COPY)
 
 #if PRODUCTS_ARE_DEAR
 /* Returns a b 2^-down to nearest, down 2 .. 32, where it has 32 bits. */

@@ -6,8 +6,8 @@
 #include "kernels/edge_fine.h"
 #include "kernels/flat_face.h"
 
-/* Not where size counts: there flat_rows.h does on Cortex-M0+. */
-#define SMEAR_FLAT_LINES ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
+/* Not where size counts: there flat_rows.h does on Cortex-M0+. On ARM7 files for which it counts call those for which it does not. */
+#define SMEAR_FLAT_LINES (((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE) || SMEAR_ASM_ARM)
 
 /* The next row, and what changes from row to row: in the order in which assembly takes them. Of sides, the left one first, these are
  * the low and the high words of struct edge_fine; z of pixel 0, which may lie outside the memory, and its steps to the right and down, are

@@ -6,10 +6,8 @@
 #include "kernels/edge_walk.h"
 #include "kernels/flat_face.h"
 
-/* By assembly on Cortex-M0+ where size counts, and on ARM7, which draws rows across the break of depth codes, too; on other cores
- * flat_lines.h does. */
-#define FLAT_ROWS ((SMEAR_ASM_ARMV6M && SMEAR_SMALL_CODE) || SMEAR_ASM_ARM)
-#define FLAT_ROWS_BREAKS SMEAR_ASM_ARM
+/* By assembly on Cortex-M0+ where size counts; on other cores flat_lines.h does. */
+#define FLAT_ROWS (SMEAR_ASM_ARMV6M && SMEAR_SMALL_CODE)
 
 /* Rows one below the other, and so much of their pixels as lies in columns [x0, x1). */
 struct flat_rows {
@@ -19,7 +17,7 @@ struct flat_rows {
     int32_t x0, x1;
     uint32_t z, dz, dz_down;        /* depth codes 16.16 at that pixel, and their steps */
     uint32_t color;
-    bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes (flat_face.h) */
+    bool narrow;
 };
 
 /* Draws pixels from one edge to before the other, if there are any, like flat_run. The edges go on by so many rows. */
@@ -29,7 +27,7 @@ static inline void flat_rows_reference(const struct flat_rows *r, struct edge_wa
         const int32_t a = max_i32(edge_pixel(left), r->x0), b = min_i32(edge_pixel(right), r->x1);
         const uint32_t z = r->z + r->dz_down * (uint32_t)i;
         for (int32_t x = a; x < b; x++)
-            flat_pixel(r->pixels, r->depth, i * r->stride + x, flat_code(z + r->dz * (uint32_t)x, r->breaks), r->color, r->narrow);
+            flat_pixel(r->pixels, r->depth, i * r->stride + x, z + r->dz * (uint32_t)x, r->color, r->narrow);
     }
 }
 

@@ -10,7 +10,6 @@
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
 #include "kernels/flat_face.h"
-#include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
 #include "kernels/row_sides.h"
 #include "kernels/shade_run.h"
@@ -339,7 +338,7 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     }
 }
 
-#if !FLAT_ROWS_BREAKS && !SMEAR_FLAT_LINES
+#if !SMEAR_FLAT_LINES
 /* n pixels from index `at` on, of the colour as the target has it. */
 SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
                               uint32_t dz, uint32_t color)
@@ -449,7 +448,7 @@ static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
 }
 #endif
 
-#if !FLAT_ROWS_BREAKS && !SMEAR_FLAT_LINES
+#if !SMEAR_FLAT_LINES
 static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 {
     cover_flat(s, true, true);
@@ -507,14 +506,12 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
     struct sides d;
     if (!sides_start(&d, s))
         return;
-    const bool breaks = FLAT_ROWS_BREAKS && s->slope == SLOPE_BOTH;
     const int32_t units = plane_at(&s->depth, 0, d.y);
     struct flat_rows rows = {
         .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1,
-        .z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope),
-        .dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope)),
-        .dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope)),
-        .color = target_pixel(t, s->color), .narrow = target_is_direct(t), .breaks = breaks
+        .z = code_from_units(units, s->slope), .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
+        .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
     };
     int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
     if (ring_row >= t->window_rows.ring)
@@ -526,11 +523,7 @@ static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
         rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
         rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
         rows.depth = t->depth + at;
-#if SMEAR_ASM_ARMV6M
         flat_rows_armv6m(&rows, &d.left, &d.right);
-#else
-        flat_rows_arm(&rows, &d.left, &d.right);
-#endif
         rows.z += rows.dz_down * (uint32_t)rows.rows;
         ring_row += rows.rows;
         if (ring_row == t->window_rows.ring)
@@ -552,12 +545,10 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
         return;
     }
 #endif
-#if !FLAT_ROWS_BREAKS
     if (s->slope == SLOPE_BOTH) {
         cover_flat_break(s);
         return;
     }
-#endif
 #if FLAT_ROWS
     (void)t;
     (void)box;

@@ -3,6 +3,7 @@
 #include "raster/flat_list.h"
 
 #include "kernels/corners.h"
+#include "kernels/flat_lines_arm.h"
 #include "kernels/flat_lines_armv6m.h"
 #include "kernels/flat_lines_armv7em.h"
 #include "kernels/gradient.h"
@@ -144,7 +145,18 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->to_pixels = l->narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
 }
 
-static inline void draw_lines(struct flat_lines *l, int32_t n)
+#if SMEAR_ASM_ARM
+/* One copy of each loop: fast memory has no room for more. */
+#define FLAT_COPY SMEAR_NOINLINE
+#define FLAT_ROWS_COPY static SMEAR_NOINLINE
+static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
+{
+    flat_lines_arm(l, n, SMEAR_DIRECT && l->narrow);
+}
+#else
+#define FLAT_COPY inline
+#define FLAT_ROWS_COPY SMEAR_INLINE
+static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
 {
 #if SMEAR_ASM_ARMV6M
     flat_lines_armv6m(l, n);
@@ -152,6 +164,7 @@ static inline void draw_lines(struct flat_lines *l, int32_t n)
     flat_lines_armv7em(l, n);
 #endif
 }
+#endif
 
 /* Draws n rows of which some lie behind the ring's last one: `left` rows lie before its end. */
 static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t left, int32_t ring)
@@ -165,8 +178,8 @@ static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t 
 }
 
 /* Draws rows [y, end), of which those before the knee lie at one short side. */
-SMEAR_INLINE void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
-                            int32_t end)
+FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
+                              int32_t end)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
     const int whole = c->whole_is_left ? 0 : 1;
@@ -217,6 +230,20 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     draw_rows(t, &l, &c, y, end);
     return true;
 }
+
+#if SMEAR_FLAT_ENTRIES
+bool smear_flat_entry(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t)
+{
+    const struct smear_bins *const bins = frame->bins;
+    if (t->segment == SMEAR_POINT)
+        return false;
+    const struct smear_segment *const g = &bins->segment[t->segment];
+    const int32_t *const v[3] = { bins_vertex(bins, g, t->vertex[0]), bins_vertex(bins, g, t->vertex[1]),
+                                  bins_vertex(bins, g, t->vertex[2]) };
+    return segment_is_flat(frame, g)
+        && smear_flat_triangle(target, v, t->color, NULL, target->x0 <= 0 && target->x1 >= frame->width);
+}
+#endif
 
 void smear_flat_cover(const struct setup *s)
 {

@@ -375,11 +375,14 @@ SMEAR_INLINE void draw_entry(const struct smear_raster_frame *frame, const struc
 SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
                             bool in_fog)
 {
+    const bool flat = SMEAR_FLAT_ENTRIES && !frame_has_fog(frame) && !target_has_velocity(target);
     bool moved = target->over;
     while (head != SMEAR_NO_TRIANGLE) {
         const uint32_t number = head;
         const struct smear_triangle *t = bins_triangle(frame->bins, number);
         head = t->next;
+        if (SMEAR_FLAT_ENTRIES && flat && smear_flat_entry(frame, target, t))
+            continue;
         draw_entry(frame, target, t, number, &moved, in_fog);
     }
 }
@@ -544,7 +547,7 @@ static inline bool draw_tiny_ones(struct tiny_triangles *t, uint32_t number, uin
 }
 #endif
 
-#if SMEAR_FLAT_LIST
+#if SMEAR_FLAT_LIST && SMEAR_TINY_LIST
 /* Draws triangles of one segment that have no colours of vertices, from `head` on, and points among them: those where `points` is given
  * at once. Returns what follows. */
 static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -686,7 +689,7 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
                            const struct bounds *bounds)
 {
     bool moved = false;
-#if SMEAR_FLAT_LIST
+#if SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES
     if (flat_list_suits(frame, target, segment) && smear_flat_triangle(target, v, color, bounds, false))
         return;
 #endif

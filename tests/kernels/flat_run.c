@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
+#include "kernels/flat_lines_arm.h"
 #include "kernels/flat_lines_armv6m.h"
 #include "kernels/flat_lines_armv7em.h"
-#include "kernels/flat_rows_arm.h"
 #include "kernels/flat_rows_armv6m.h"
 
 #include "tests/kernels/kernels.h"
@@ -50,22 +50,18 @@ static void rows_prepare(struct kernel_call *c)
     }
 }
 
-static void rows_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
+static void rows_by(struct kernel_call *c, bool narrow, bool best)
 {
     const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
     const int32_t x0 = c->n % (STRIDE - COLUMNS);
     const struct flat_rows rows = { c->plane[0], c->plane[1], STRIDE, c->n / STRIDE, x0, x0 + COLUMNS, c->word[Z], c->word[DZ],
-                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow, breaks };
+                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow };
     struct edge_walk a, b;
     edge_start(&a, left, left + 2, 0);
     edge_start(&b, right, right + 2, 0);
-#if FLAT_ROWS && SMEAR_ASM_ARMV6M
+#if FLAT_ROWS
     if (best)
         flat_rows_armv6m(&rows, &a, &b);
-    else
-#elif SMEAR_ASM_ARM
-    if (best)
-        flat_rows_arm(&rows, &a, &b);
     else
 #else
     (void)best;
@@ -75,16 +71,10 @@ static void rows_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
     c->word[RIGHT] = (uint32_t)edge_pixel(&b);
 }
 
-static void wide_rows(struct kernel_call *c) { rows_by(c, false, false, false); }
-static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, false, true); }
-static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false, false); }
-static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, false, true); }
-#if FLAT_ROWS_BREAKS
-static void wide_rows_across(struct kernel_call *c) { rows_by(c, false, true, false); }
-static void wide_rows_across_best(struct kernel_call *c) { rows_by(c, false, true, true); }
-static void narrow_rows_across(struct kernel_call *c) { rows_by(c, true, true, false); }
-static void narrow_rows_across_best(struct kernel_call *c) { rows_by(c, true, true, true); }
-#endif
+static void wide_rows(struct kernel_call *c) { rows_by(c, false, false); }
+static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, true); }
+static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false); }
+static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, true); }
 
 /* Depth is small enough that sums and differences fit; often it is exactly at the break in a pixel. */
 static void breaks_prepare(struct kernel_call *c)
@@ -116,9 +106,13 @@ static void lines_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
         if (best)
             flat_lines_armv6m(&l, part);
         else
-#elif SMEAR_FLAT_LINES
+#elif SMEAR_FLAT_LINES && SMEAR_ASM_ARMV7EM
         if (best)
             flat_lines_armv7em(&l, part);
+        else
+#elif SMEAR_FLAT_LINES
+        if (best)
+            flat_lines_arm(&l, part, narrow);
         else
 #else
         (void)best;
@@ -150,12 +144,6 @@ const struct kernel kernels_flat_run[] = {
       .form = { { "reference", wide_rows }, { "best", wide_rows_best } } },
     { .name = "flat_rows (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
       .form = { { "reference", narrow_rows }, { "best", narrow_rows_best } } },
-#if FLAT_ROWS_BREAKS
-    { .name = "flat_rows (across)", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = breaks_prepare,
-      .form = { { "reference", wide_rows_across }, { "best", wide_rows_across_best } } },
-    { .name = "flat_rows (across, narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = breaks_prepare,
-      .form = { { "reference", narrow_rows_across }, { "best", narrow_rows_across_best } } },
-#endif
     { .name = "flat_lines", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
       .form = { { "reference", wide_lines }, { "best", wide_lines_best } } },
     { .name = "flat_lines (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
