@@ -20,8 +20,8 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = &s->texture;
     struct texel_curve_rows rows = {
-        .side = r->side, .count = r->count, .x0 = t->x0, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
-        .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope), .depth = target->depth + r->at,
+        .side = r->side, .count = r->count, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
+        .depth = target->depth + r->at, .x0 = t->x0, .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
         .stride = 2 * target->window_rows.stride, .u = polynomial_of(&t->curve[0]), .v = polynomial_of(&t->curve[1]),
         .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
         .to_depth = (int32_t)((uintptr_t)target->depth - (uintptr_t)target->direct), .texels = s->draw->sampler.texels
