@@ -338,13 +338,12 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
 
 uint32_t smear_color_pack(const struct smear_color *color, bool linear)
 {
-    uint32_t packed = (uint32_t)(color->channel[3] >> 8) << 24;
-    for (int i = 0; i < 3; i++) {
-        uint32_t code = SMEAR_WITH_LINEAR && linear ? smear_srgb_encode[color->channel[i] >> 4]
-                                                    : (uint32_t)color->channel[i] >> 8;
-        packed |= code << (16 - 8 * i);
-    }
-    return packed;
+    const uint16_t *c = color->channel;
+    const uint32_t alpha = (uint32_t)(c[3] >> 8) << 24;
+    if (!SMEAR_WITH_LINEAR || !linear)
+        return alpha | (uint32_t)(c[0] >> 8) << 16 | (c[1] & 0xff00u) | c[2] >> 8;
+    return alpha | (uint32_t)smear_srgb_encode[c[0] >> 4] << 16 | (uint32_t)smear_srgb_encode[c[1] >> 4] << 8
+         | smear_srgb_encode[c[2] >> 4];
 }
 
 #if SMEAR_SHADES_FACES
