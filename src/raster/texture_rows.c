@@ -255,8 +255,14 @@ SMEAR_INLINE void row_start(struct texel_track *k, const struct setup *s, const 
     track_start(k, texture_of(s), x, r->y + row);
 }
 
-/* A row that is one run, and whose places are quotients: from its first pixel on, where the track and its run have come to, `rest`
- * pixels and the last. */
+/* Rows of one run whose places are quotients have a loop of their own; on a page size counts. */
+#ifdef __wasm__
+#define DIVIDED_ROWS 0
+#else
+#define DIVIDED_ROWS 1
+#endif
+
+/* Draws such a row from its first pixel on, where the track and its run have come to: `rest` pixels and the last. */
 SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
 {
     const int32_t block = 1 << k->log2;
@@ -339,7 +345,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
 {
     const struct texture_setup *t = texture_of(s);
     const int32_t shortest = t->block > 1 ? (int32_t)SHORT_SPAN : INT32_MAX;        /* block_of */
-    const bool whole = rows_are_whole(s, r), divided = t->mode == TEXTURE_DIVIDED && !light_is_in_fog(light, s);
+    const bool whole = rows_are_whole(s, r), divided = DIVIDED_ROWS && t->mode == TEXTURE_DIVIDED && !light_is_in_fog(light, s);
     struct texel_track k;
     struct row_run p;
     uint8_t *next_quotient = quotients->row;
