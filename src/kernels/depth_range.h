@@ -52,6 +52,24 @@ static inline struct depth_range depth_range_vector(const uint16_t *depth, int32
 }
 #endif
 
+#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+static inline void range_add(uint32_t *least, uint32_t *most, uint32_t code)
+{
+    *least = min_u32(*least, code);
+    *most = max_u32(*most, code);
+}
+
+/* A round of the loops below. */
+static inline void range_add4(uint32_t *least, uint32_t *most, const uint16_t *code)
+{
+    const uint32_t a = code[0], b = code[1], c = code[2], d = code[3];
+    range_add(least, most, a);
+    range_add(least, most, b);
+    range_add(least, most, c);
+    range_add(least, most, d);
+}
+#endif
+
 #if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && defined(__ARM_ARCH_6M__)
 /* Four codes a round: 6 instructions a code of a Cortex-M0+ in place of 9, or 2 where they are the same as those before. */
 static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
@@ -62,8 +80,7 @@ static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int
         const uint16_t *code = depth;
         int32_t left = width;
         if (((uintptr_t)code & 3u) != 0 && left > 0) {
-            least = min_u32(least, *code);
-            most = max_u32(most, *code++);
+            range_add(&least, &most, *code++);
             left--;
         }
         for (; left >= 4; left -= 4, code += 4) {
@@ -72,20 +89,10 @@ static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int
             if (((word[0] ^ before) | (word[1] ^ before)) == 0)
                 continue;
             before = word[1];
-            const uint32_t a = code[0], b = code[1], c = code[2], d = code[3];
-            least = min_u32(least, a);
-            most = max_u32(most, a);
-            least = min_u32(least, b);
-            most = max_u32(most, b);
-            least = min_u32(least, c);
-            most = max_u32(most, c);
-            least = min_u32(least, d);
-            most = max_u32(most, d);
+            range_add4(&least, &most, code);
         }
-        for (; left > 0; left--, code++) {
-            least = min_u32(least, *code);
-            most = max_u32(most, *code);
-        }
+        for (; left > 0; left--, code++)
+            range_add(&least, &most, *code);
     }
     return (struct depth_range){ least, most };
 }
@@ -96,21 +103,10 @@ static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int
     uint32_t least = UINT16_MAX, most = 0;
     for (int32_t y = 0; y < height; y++, depth += pitch) {
         const uint16_t *code = depth;
-        for (int32_t left = width; left >= 4; left -= 4, code += 4) {
-            const uint32_t a = code[0], b = code[1], c = code[2], d = code[3];
-            least = min_u32(least, a);
-            most = max_u32(most, a);
-            least = min_u32(least, b);
-            most = max_u32(most, b);
-            least = min_u32(least, c);
-            most = max_u32(most, c);
-            least = min_u32(least, d);
-            most = max_u32(most, d);
-        }
-        for (int32_t left = width & 3; left > 0; left--, code++) {
-            least = min_u32(least, *code);
-            most = max_u32(most, *code);
-        }
+        for (int32_t left = width; left >= 4; left -= 4, code += 4)
+            range_add4(&least, &most, code);
+        for (int32_t left = width & 3; left > 0; left--, code++)
+            range_add(&least, &most, *code);
     }
     return (struct depth_range){ least, most };
 }

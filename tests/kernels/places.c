@@ -3,18 +3,11 @@
  * of which most lie before the camera and some do not. */
 #include "kernels/places8.h"
 
-#include "tests/kernels/kernels.h"
-
-enum { ROW = 0, SHIFT = 9, NEAR, FAR, CLOSE = 6 };
+#include "tests/kernels/projection.h"
 
 static void prepare(struct kernel_call *c)
 {
-    const uint32_t bits = 8 + kernel_random() % 13u;
-    for (int i = 0; i < 9; i++)         /* sums of three products and an offset stay below 2^30 */
-        c->word[i] = (uint32_t)((int32_t)c->word[i] >> (i < 6 ? 3 : (int)(31 - bits)));
-    c->word[SHIFT] = c->word[SHIFT] % 32u;
-    c->word[NEAR] = 1 + c->word[NEAR] % 4096u;
-    c->word[FAR] = (c->word[FAR] & 1u) != 0 ? INT32_MAX : 1u << 21;
+    projection_prepare(c, 32u);
     c->n &= ~3;
     c->bytes[0] = c->n * 6;
     c->bytes[1] = c->n * (int32_t)sizeof(struct smear_place);
@@ -23,17 +16,8 @@ static void prepare(struct kernel_call *c)
 /* Rows of factors and offsets, and what else a setup has. */
 static void make(struct place_setup *s, int32_t m[3][4], const struct kernel_call *c)
 {
-    for (int r = 0; r < 3; r++) {
-        for (int j = 0; j < 3; j++)
-            m[r][j] = (int32_t)c->word[ROW + 3 * r + j] & ~3;
-        m[r][3] = r < 2 ? m[r][0] >> 2 : (int32_t)(c->word[ROW + 6] >> 7 | 1u << 21);
-    }
-    if ((c->word[CLOSE] & 3u) == 0) {       /* as close as may be, all of them */
-        m[2][0] = m[2][1] = m[2][2] = 0;
-        m[2][3] = (int32_t)(c->word[CLOSE] >> 2 & 1u ? c->word[NEAR] : 1u + (c->word[CLOSE] >> 3) % 8192u);
-    }
-    *s = (struct place_setup){ (const int32_t(*)[4])m, (int32_t)c->word[NEAR], (int32_t)c->word[FAR], 0x2aaaaaaa,
-                               (int32_t)c->word[SHIFT] - 26, 4096, 1 << 27, 160 << 8, 120 << 8 };
+    *s = projection_setup(m, c, 26, 160 << 8, 120 << 8);
+    s->depth_most = 1 << 27;
 }
 
 static void none(struct smear_place *out)

@@ -3,9 +3,7 @@
  * camera. The setup is made ready for the first one's w, so some have others. */
 #include "kernels/vertices.h"
 
-#include "tests/kernels/kernels.h"
-
-enum { SHIFT = 9, NEAR, FAR, CLOSE = 6 };
+#include "tests/kernels/projection.h"
 
 struct found {
     struct smear_screen screen;
@@ -14,28 +12,13 @@ struct found {
 
 static void prepare(struct kernel_call *c)
 {
-    const uint32_t bits = 8 + kernel_random() % 13u;
-    for (int i = 0; i < 9; i++)         /* sums of three products and an offset stay below 2^30 */
-        c->word[i] = (uint32_t)((int32_t)c->word[i] >> (i < 6 ? 3 : (int)(31 - bits)));
-    c->word[SHIFT] = c->word[SHIFT] % 48u;
-    c->word[NEAR] = 1 + c->word[NEAR] % 4096u;
-    c->word[FAR] = (c->word[FAR] & 1u) != 0 ? INT32_MAX : 1u << 21;
+    projection_prepare(c, 48u);
 }
 
 static void make(struct vertex_setup *v, const struct kernel_call *c)
 {
     int32_t m[3][4];
-    for (int r = 0; r < 3; r++) {
-        for (int j = 0; j < 3; j++)
-            m[r][j] = (int32_t)c->word[3 * r + j] & ~3;
-        m[r][3] = r < 2 ? m[r][0] >> 2 : (int32_t)(c->word[CLOSE] >> 7 | 1u << 21);
-    }
-    if ((c->word[CLOSE] & 3u) == 0) {       /* as close as may be, all of them */
-        m[2][0] = m[2][1] = m[2][2] = 0;
-        m[2][3] = (int32_t)(c->word[CLOSE] >> 2 & 1u ? c->word[NEAR] : 1u + (c->word[CLOSE] >> 3) % 8192u);
-    }
-    const struct place_setup s = { (const int32_t(*)[4])m, (int32_t)c->word[NEAR], (int32_t)c->word[FAR], 0x2aaaaaaa,
-                                   (int32_t)c->word[SHIFT] - 40, 4096, 0x43ff8000, 160 << 8, 120 << 8 };
+    const struct place_setup s = projection_setup(m, c, 40, 160 << 8, 120 << 8);
     vertex_setup_make(v, &s);
 }
 
