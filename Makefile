@@ -240,7 +240,7 @@ FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(NO_ROOMS) $(
 .PHONY: format format-check
 ## sources are indented as .clang-format says (needs clang-format-14); make format indents them
 format-check:
-	sh tests/shell/format.sh $(FORMATTED)
+	printf '%s\n' $(FORMATTED) | xargs -P 2 -n 500 sh tests/shell/format.sh
 
 format:
 	sh tests/shell/format.sh --fix $(FORMATTED)

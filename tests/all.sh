@@ -45,12 +45,7 @@ host() {
         suite format $make -s format-check
     fi
     suite demo sh tests/shell/demo.sh build/test/demo
-    suite headers $make -s test-headers
-    suite table-file $make -s test-tables
-    suite readme $make -s test-readme
-    suite manual $make -s test-manual
-    suite examples $make -s test-examples
-    suite flush $make -s test-flush
+    documents
     for name in $($make -s print-suites); do
         suite "$name" env SMEAR_ASSETS="$assets" build/host/run --suite "$name"
     done
@@ -259,10 +254,7 @@ s390x() {
 
 # ---------------------------------------------------------------------- all of them
 
-# As `make run-suite` has them, which would look at every source again.
-assets=${SMEAR_ASSETS-$([ ! -d ../shared/assets ] || echo ../shared/assets)}
-[ -n "$assets" ] ||
-    echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
+find_assets
 suite includes $make -s layers
 suite house $make -s house
 # What groups share is built before. Warnings of the optimizer are errors here.

@@ -6,22 +6,18 @@ set -u
 . "$(dirname "$0")/shell/suites.sh"
 longest=" accuracy blur failures "
 
+find_assets
 suite includes $make -s layers
 suite house $make -s house
 if needs clang-format-14 "clang-format-14"; then
     suite format $make -s format-check
 fi
 suite build $make -s $jobs all build/host/run
-suite headers $make -s test-headers
-suite table-file $make -s test-tables
-suite readme $make -s test-readme
-suite manual $make -s test-manual
-suite examples $make -s test-examples
-suite flush $make -s test-flush
+documents
 for name in $($make -s print-suites); do
     case $longest in
     *" $name "*) ;;
-    *) suite "$name" $make -s run-suite SUITE="$name" ;;
+    *) suite "$name" env SMEAR_ASSETS="$assets" build/host/run --suite "$name" ;;
     esac
 done
 suite golden-host $make -s $jobs TARGET=host target-test

@@ -111,3 +111,19 @@ add_up() {
     echo "$passed passed, $failed failed"
     [ $failed -eq 0 ]
 }
+
+# What documents and headers promise of this machine's build.
+documents() {
+    suite headers $make -s test-headers
+    suite table-file $make -s test-tables
+    suite readme $make -s test-readme
+    suite manual $make -s test-manual
+    suite examples $make -s test-examples
+    suite flush $make -s test-flush
+}
+
+# Sets `assets` as `make run-suite` does, for programs that are called directly: make would look at every source again.
+find_assets() {
+    assets=${SMEAR_ASSETS-$([ ! -d ../shared/assets ] || echo ../shared/assets)}
+    [ -n "$assets" ] || echo "SMEAR_ASSETS names no folder of sample models: tests of these are left out"
+}
