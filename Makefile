@@ -108,11 +108,13 @@ $(BUILD)/%.o: %.c
 	$(if $(CALLS),,$(if $(wildcard $(@:.o=.ci)),rm -f $(@:.o=.ci)))
 	$(CC) $(CFLAGS) -c -o $@ $<
 
-# What GCC knows of vectors is most of the text of half the library's sources, and most of the time that a build takes: it is
-# read once for all of them.
+# What GCC knows of vectors is most of the text of half the library's sources and of tests of kernels, and most of the time that
+# a build takes: it is read once for all of them.
 ifeq ($(filter-out host linux,$(TARGET))$(shell $(CC) -v 2>&1 | grep -c -e '^Target: x86_64' -e '^gcc version'),2)
-$(BUILD)/src/%.o: CFLAGS += -include $(BUILD)/vectors.h
-$(LIB_SRC:%.c=$(BUILD)/%.o): | $(BUILD)/vectors.h.gch
+VECTOR_TESTS := $(wildcard tests/kernels/*.c) $(addprefix tests/unit/,store.c test_convert.c test_raster.c test_subframes.c \
+    test_tilemax.c test_timemask.c)
+$(BUILD)/src/%.o $(VECTOR_TESTS:%.c=$(BUILD)/%.o): CFLAGS += -include $(BUILD)/vectors.h
+$(patsubst %.c,$(BUILD)/%.o,$(LIB_SRC) $(VECTOR_TESTS)): | $(BUILD)/vectors.h.gch
 $(BUILD)/vectors.h.gch:
 	$(call say,CC,$(@:.gch=))
 	@mkdir -p $(@D)
@@ -345,6 +347,16 @@ TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c
 $(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
+
+# Suites call what takes the time: of their own code it is the compiler that does. -O1 is a third less.
+QUICK_SUITES := $(filter-out %/test_accuracy.c %/test_blur.c,$(wildcard tests/suite/test_*.c))
+ifeq ($(filter-out -O2,$(OPT)),)
+$(call objects,$(QUICK_SUITES)): CFLAGS += -O1
+endif
+$(call objects,$(QUICK_SUITES)): HOST_CFLAGS += -O1
+# Its macros are seven megabytes of text, which GCC takes half a minute to optimize.
+$(call objects,tests/suite/test_memory.c): CFLAGS += -O0
+$(call objects,tests/suite/test_memory.c): HOST_CFLAGS += -O0
 
 ifeq ($(SAN),1)
 $(BUILD)/tests/run.o: $(BUILD)/suites
