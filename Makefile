@@ -422,7 +422,7 @@ check-kernels: $(BUILD)/check_kernels
 $(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^
 
-# Each public header alone, as C99 and as C++11, and what is used of them.
+# Each public header alone, as C99 and as C++11, and what is used of them; memory as a constant by both.
 STRICT := -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -Iinclude
 test-headers:
 	@mkdir -p $(BUILD)
@@ -432,6 +432,10 @@ test-headers:
 	    printf '#include <%s>\n' $$header | $(CXX) -std=c++11 $(STRICT) -c -o $(BUILD)/header.o -x c++ - || exit 1; done
 	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/unit/header.c
 	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c
+	$(CC) -std=c99 $(STRICT) -o $(BUILD)/memory_forms tests/examples/memory_forms.c
+	$(CXX) -std=c++11 $(STRICT) -o $(BUILD)/memory_forms_cxx -x c++ tests/examples/memory_forms.c
+	$(BUILD)/memory_forms > $(BUILD)/memory_forms.txt
+	$(BUILD)/memory_forms_cxx | cmp - $(BUILD)/memory_forms.txt
 
 # Programs by the public headers alone, as C99, as C++11 and by smear.hpp: one picture, of more than a few colours.
 EXAMPLES := $(BUILD)/examples

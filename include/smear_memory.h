@@ -79,14 +79,14 @@
 #define SMEAR_HIGH_BAND_(h, T) SMEAR_MIN_(SMEAR_PARTS_(h, 4 * (T)) * (size_t)(T), 64u)
 
 #define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
-    SMEAR_MEMORY_1_(w, h, SMEAR_OR_(t, 1024u), SMEAR_OR_(d, 16u), SMEAR_SET_OF_(m), T, \
-                    SMEAR_REACH_OF_(SMEAR_SET_OF_(m), h, r), s, b, SMEAR_OR_(n, 1u), f, SMEAR_OR_(k, 1u), \
-                    SMEAR_OR_(v, 64u), c, a, p, o, q, z)
+    SMEAR_STEP_1_(w, h, SMEAR_OR_(t, 1024u), SMEAR_OR_(d, 16u), SMEAR_SET_OF_(m), T, \
+                  SMEAR_REACH_OF_(SMEAR_SET_OF_(m), h, r), s, b, SMEAR_OR_(n, 1u), f, SMEAR_OR_(k, 1u), \
+                  SMEAR_OR_(v, 64u), c, a, p, o, q, z)
 #define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
-    SMEAR_MEMORY_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, \
-                    SMEAR_OR_((size_t)(b), SMEAR_BAND_ROWS_(m, w, h, r, T)), n, f, k, v, c, a, p, o, q, z)
+    SMEAR_STEP_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, \
+                  SMEAR_OR_((size_t)(b), SMEAR_BAND_ROWS_(m, w, h, r, T)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
-    SMEAR_MEMORY_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, (size_t)(T)), n, f, k, v, c, a, p, o, q, z)
+    SMEAR_STEP_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, (size_t)(T)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
     (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \
@@ -179,6 +179,29 @@
 #define SMEAR_STORE_(t, d, m) \
     (SMEAR_UP8_(SMEAR_STORE_WORDS_(t, m) * 4u) \
      + SMEAR_UP8_(((size_t)(d) + 2u + SMEAR_STORE_WORDS_(t, m) / 50000u) * SMEAR_SEGMENT_BYTES))
+
+/* Each step is a function where the language has functions that are constants, so that compilers read it once; else its text
+ * lies in that of the next, which takes a compiler of C++ seconds. */
+#if defined(__cplusplus) && __cplusplus >= 201103L
+#define SMEAR_STEP_1_ smear_memory_1_
+#define SMEAR_STEP_2_ smear_memory_2_
+#define SMEAR_STEP_3_ smear_memory_3_
+#define SMEAR_STEP_OF_(name, step) \
+    static inline constexpr size_t name(size_t w, size_t h, size_t t, size_t d, size_t m, size_t T, size_t r, size_t s, size_t b, \
+                                        size_t n, size_t f, size_t k, size_t v, size_t c, size_t a, size_t p, size_t o, size_t q, \
+                                        size_t z) \
+    { \
+        return step(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z); \
+    }
+SMEAR_STEP_OF_(smear_memory_3_, SMEAR_MEMORY_3_)
+SMEAR_STEP_OF_(smear_memory_2_, SMEAR_MEMORY_2_)
+SMEAR_STEP_OF_(smear_memory_1_, SMEAR_MEMORY_1_)
+#undef SMEAR_STEP_OF_
+#else
+#define SMEAR_STEP_1_ SMEAR_MEMORY_1_
+#define SMEAR_STEP_2_ SMEAR_MEMORY_2_
+#define SMEAR_STEP_3_ SMEAR_MEMORY_3_
+#endif
 
 /* What SMEAR_DESC calls. */
 #define SMEAR_DESC_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
