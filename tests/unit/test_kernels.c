@@ -31,7 +31,7 @@ enum { GUARD = 32, PLANE_BYTES = GUARD + 16 + KERNEL_BYTES + GUARD };
 /* The data of a call as they were made, as the kernel has them, and as the reference left them. */
 static union {
     uint8_t byte[PLANE_BYTES];
-    __attribute__((aligned(16))) uint32_t word;
+    __attribute__((aligned(16))) uint32_t word[PLANE_BYTES / 4];
 } made[KERNEL_PLANES], work[KERNEL_PLANES], wanted[KERNEL_PLANES];
 
 static int32_t start[KERNEL_PLANES], used[KERNEL_PLANES];      /* of a plane: its first byte; bytes with both guards */
@@ -76,11 +76,8 @@ void kernel_call_make(const struct kernel *k, struct kernel_call *c, int32_t n, 
         start[i] = GUARD + (shift + 7 * i) % 16 / align * align;
         c->plane[i] = work[i].byte + start[i];
         c->bytes[i] = n * k->size[i];
-        for (int32_t at = 0; at < PLANE_BYTES; at++) {
-            if ((at & 3) == 0)
-                word = datum(kind, word);
-            made[i].byte[at] = (uint8_t)(word >> (at & 3) * 8);
-        }
+        for (int32_t at = 0; at < PLANE_BYTES / 4; at++)
+            made[i].word[at] = word = datum(kind, word);
         __builtin_memcpy(work[i].byte, made[i].byte, PLANE_BYTES);
     }
     if (k->prepare != NULL) {
@@ -121,10 +118,12 @@ static struct kernel_call called(const struct kernel *k, const struct kernel_cal
 static bool guards_hold(const struct kernel_call *c)
 {
     bool hold = true;
-    for (int i = 0; i < KERNEL_PLANES; i++)
-        for (int32_t at = 0; at < used[i]; at++)
-            if (at < start[i] || at >= start[i] + c->bytes[i])
-                hold = hold && work[i].byte[at] == made[i].byte[at];
+    for (int i = 0; i < KERNEL_PLANES; i++) {
+        for (int32_t at = 0; at < start[i] && used[i] != 0; at++)
+            hold = hold && work[i].byte[at] == made[i].byte[at];
+        for (int32_t at = start[i] + c->bytes[i]; at < used[i]; at++)
+            hold = hold && work[i].byte[at] == made[i].byte[at];
+    }
     return hold;
 }
 
@@ -133,9 +132,13 @@ static bool are_equal(const struct kernel_call *got, const struct kernel_call *w
     bool equal = true;
     for (int i = 0; i < KERNEL_WORDS; i++)
         equal = equal && got->word[i] == want->word[i];
-    for (int i = 0; i < KERNEL_PLANES; i++)
-        for (int32_t at = 0; at < used[i]; at++)
+    for (int i = 0; i < KERNEL_PLANES; i++) {
+        const int32_t words = used[i] / 4;
+        for (int32_t at = 0; at < words; at++)
+            equal = equal && work[i].word[at] == wanted[i].word[at];
+        for (int32_t at = words * 4; at < used[i]; at++)
             equal = equal && work[i].byte[at] == wanted[i].byte[at];
+    }
     return equal;
 }
 
