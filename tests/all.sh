@@ -96,7 +96,8 @@ web() {
 }
 
 firmware_here() {
-    suite golden-host $make -s TARGET=host target-test
+    # Units are suites of the host's already, and of those under sanitizers.
+    suite golden-host $make -s TARGET=host TARGET_TESTS=golden target-test
     suite demo-host $make -s TARGET=host demo-test
     suite game-host $make -s TARGET=host game-test
     suite device-chart sh tests/shell/device_chart.sh build/test/device-chart
@@ -129,7 +130,7 @@ sanitized() {
     for name in $($make -s print-san-suites); do
         suite "sanitized-$name" env SMEAR_ASSETS="$assets" build/host-san-check/run --suite "$name"
     done
-    suite golden-sanitized $make -s $jobs SAN=1 CHECK=1 target-test
+    suite golden-sanitized $make -s $jobs SAN=1 CHECK=1 TARGET_TESTS=golden target-test
     suite view-sanitized sh tests/shell/view.sh build/host-san-check/smear
 }
 

@@ -54,7 +54,8 @@ $(tail -n 60 "$log/$name.log")
 }
 
 # lanes GROUP...: two lanes take functions of suites, each the next that nobody took: where the longest come first, both end at
-# about the same time. A group writes no file that another uses. Waits for both and adds up.
+# about the same time. A group writes no file that another uses; of one that is named FUNCTION=WORD the function has the word. Waits
+# for both and adds up.
 lanes() {
     rm -rf "$log/lanes"
     mkdir -p "$log/lanes"
@@ -62,7 +63,7 @@ lanes() {
         (
             passed=0 failed=0 missing=0
             for group; do
-                ! mkdir "$log/lanes/$group" 2>/dev/null || "$group"
+                ! mkdir "$log/lanes/$group" 2>/dev/null || "${group%%=*}" "${group#*=}"
             done
             echo "$passed $failed $missing" >"$log/lanes/$lane.count"
         ) &

@@ -182,12 +182,17 @@ static bool check_call(const struct kernel *k, int32_t n, int shift, int kind)
     return true;
 }
 
+/* Where there is less time, of each length a third of the calls: with every shift and every kind. */
+#ifndef KERNEL_STEP
+#define KERNEL_STEP 1
+#endif
+
 static bool check_kernel(const struct kernel *k)
 {
     for (int32_t n = k->least; n <= k->most; n++)
         for (int shift = 0; shift < 16; shift++)
             for (int kind = 0; kind < KERNEL_KINDS; kind++)
-                if (!check_call(k, n, shift, kind))
+                if ((n + shift + kind) % KERNEL_STEP == 0 && !check_call(k, n, shift, kind))
                     return false;
     return true;
 }
