@@ -7,47 +7,13 @@
 #include "raster/cover_tiny8.h"
 #include "raster/flat_list.h"
 #include "raster/fog.h"
+#include "raster/front_order.h"
 #include "raster/kept_found.h"
 #include "raster/point.h"
 #include "raster/span.h"
 #include "raster/tiny_list.h"
 
 /* ------------------------------------------------------------------ a triangle */
-
-enum { ENTRIES_MAX = 512 };
-
-struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
-{
-#if SMEAR_KEPT_LISTS
-    uint32_t entry_bytes = sizeof(struct kept_face);
-#else
-    uint32_t entry_bytes = sizeof(struct kept);
-#endif
-    for (uint32_t i = 0; i < bins->segment_count; i++)
-        entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
-#if SMEAR_KEPT_LISTS
-    const size_t odd = (0u - (uintptr_t)memory) & 7u;       /* lists and sides have words of 64 bits */
-    memory = (uint8_t *)memory + odd;
-    bytes = bytes < odd ? 0 : bytes - odd;
-#endif
-    const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
-    const struct smear_raster_cache cache = { memory, (uint16_t)entries, (uint16_t)entry_bytes };
-#if SMEAR_KEPT_LISTS
-    for (int i = 0; i < count && entries != 0; i++) {
-        const struct smear_raster_cache part = smear_raster_cache_of(&cache, i);
-        kept_list_clear(&part);
-    }
-#else
-    for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
-        kept_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
-#endif
-    return cache;
-}
-
-struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i)
-{
-    return (struct smear_raster_cache){ kept_at(first, (uint32_t)i * first->entries), first->entries, first->entry_bytes };
-}
 
 static inline bool has_levels(const struct setup *s)
 {
@@ -647,6 +613,24 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
 }
 #endif
 
+#if SMEAR_FRONT_ORDER
+/* Draws so many triangles in the target's order. */
+static SMEAR_NOINLINE void draw_from_front(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t n)
+{
+    const uint16_t *const order = front_order_of(&target->cache);
+    bool moved = target->over;
+    for (uint32_t i = 0, hidden = 0; i < n; i++) {
+        const uint32_t number = order[i];
+        const struct smear_triangle *t = bins_triangle(frame->bins, number);
+        /* Where few are hidden, only some are looked at. */
+        if ((8 * hidden + 32 > i || (i & 3u) == 0) && smear_front_hides(frame, target, t))
+            hidden++;
+        else
+            draw_entry(frame, target, t, number, &moved, false);
+    }
+}
+#endif
+
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
 #if SMEAR_KEPT_LISTS
@@ -655,6 +639,13 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
 #if SMEAR_AVX2
     if (!frame_has_fog(frame) && (head != SMEAR_NO_TRIANGLE || kept_list_seen(&target->cache)->first != 0) && tiny8_suit(target)) {
         draw_list_tiny8(frame, target, head);
+        return;
+    }
+#endif
+#if SMEAR_FRONT_ORDER
+    const uint32_t ordered = smear_front_order(frame, target, head);
+    if (ordered != 0) {
+        draw_from_front(frame, target, ordered);
         return;
     }
 #endif

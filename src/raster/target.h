@@ -5,6 +5,7 @@
 
 #include "geometry/bins.h"
 #include "base/pixel.h"
+#include "kernels/avx2.h"
 #include "raster/texture.h"
 
 /* One plane of pixels of which some rows exist, in a ring: the target's row `y0` is row `ring_row` of the
@@ -14,8 +15,25 @@ struct smear_plane_rows {
     int32_t ring_row, ring, x0;
 };
 
+/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
+#ifndef SMEAR_RASTER_CACHE
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_RASTER_CACHE 0
+#else
+#define SMEAR_RASTER_CACHE 1
+#endif
+#endif
+
+/* Textured triangles are drawn from the front (front_order.h): not where vectors draw, whose lists are in order, nor in a page or in
+ * the GBA's fast memory, where size counts. */
+#if SMEAR_AVX2 || !SMEAR_RASTER_CACHE || !SMEAR_WITH_TEXTURE || defined(__wasm__) || defined(__ARM_ARCH_4T__)
+#define SMEAR_FRONT_ORDER 0
+#else
+#define SMEAR_FRONT_ORDER 1
+#endif
+
 /* Memory for what was found out about triangles that reach beyond a
- * target's rows, for the rows after them: raster.c. */
+ * target's rows, for the rows after them, and for orders of lists: raster_cache.c. */
 struct smear_raster_cache {
     void *entry;
     uint16_t entries;       /* 0: none */
@@ -48,15 +66,6 @@ struct smear_raster_target {
 #define SMEAR_DIRECT 0
 #else
 #define SMEAR_DIRECT 1
-#endif
-#endif
-
-/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
-#ifndef SMEAR_RASTER_CACHE
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_RASTER_CACHE 0
-#else
-#define SMEAR_RASTER_CACHE 1
 #endif
 #endif
 

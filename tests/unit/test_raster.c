@@ -2,6 +2,7 @@
 /* test_raster.c - coverage, depth, colour, texels and velocity of triangles, against exact integer
  * arithmetic; and that cutting the frame into columns and bands never shows. Needs neither libc nor
  * floating point. */
+#include "raster/front_order.h"
 #include "raster/raster.h"
 
 #include "base/pixel.h"
@@ -1451,6 +1452,92 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
+#if SMEAR_FRONT_ORDER
+/* Textured triangles in two planes, in which many lie at the same depth; a few codes before each other; and of all distances. */
+static void random_planes(void)
+{
+    list_begin();
+    geometry.segment_count = 2;
+    for (int i = 0; i < 2; i++) {
+        const smear_texture texture = { .texels = texels, .width = 32, .height = chance(2) ? 32 : 16 };
+        set_layout(i, true, false, 0, SHADE_NONE);
+        draw[i].alpha = (uint8_t)(i == 0 ? SMEAR_OPAQUE : SMEAR_CUTOUT);
+        smear_sampler_make(&draw[i].sampler, &texture, 13, false, false);
+    }
+    const int32_t nearest = 1 << between(23, 29), most = between(20, 200);
+    const int32_t code = nearest < 32768 << 11 ? 1 << 11 : 1 << 15;
+    int32_t right[2], down[2];
+    for (int i = 0; i < 2; i++) {
+        right[i] = between(-nearest / (4 * W), nearest / (4 * W)) / (i + 1);
+        down[i] = between(-nearest / (4 * H), nearest / (4 * H)) / (i + 1);
+    }
+    for (int32_t n = 0; n < most && list_has_room(); n++) {
+        const int32_t size = between(1, 32), x = between(0, W), y = between(0, H), before = nearest + between(-2, 2) * code;
+        const int at = chance(4), i = between(0, 3);
+        int32_t p[3][2];
+        uint16_t v[3];
+        for (int k = 0; k < 3; k++) {
+            p[k][0] = (x + between(-size, size)) * 256 + 128;
+            p[k][1] = (y + between(-size, size)) * 256 + 128;
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            const int32_t s = between(-32768, 32767), t = between(-32768, 32767);
+            int32_t depth = i == 3 ? between(nearest >> 3, nearest) : before;
+            if (i < 2)
+                depth = nearest + right[i] * (p[k][0] >> 8) + down[i] * (p[k][1] >> 8);
+            v[k] = add_vertex(at, p[k][0], p[k][1], clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX));
+            set_uv(at, v[k], s, t);
+        }
+        add_triangle(at, v[0], v[1], v[2], 0xffffffffu);
+    }
+}
+
+/* Draws the list in bands of so many rows; if `order`, with memory for its order. Returns how many triangles it puts elsewhere. */
+static int32_t draw_bands(struct planes *p, int32_t band, bool order)
+{
+    static uint64_t memory[1024];
+    struct smear_raster_cache cache = { NULL, 0, 0 };
+    int32_t moved = 0;
+    if (order)
+        cache = smear_raster_cache_make(memory, sizeof memory, 1, &geometry);
+    uint16_t *const number = front_order_of(&cache);
+    planes_clear(p);
+    for (int32_t y = 0; y < H; y += band) {
+        struct smear_raster_target t = target_of(p);
+        t.velocity8 = NULL;
+        t.inspect = NULL;
+        t.cache = cache;
+        t.y0 = y;
+        t.y1 = min_i32(y + band, H);
+        t.color_rows.ring_row = t.window_rows.ring_row = y;
+        for (uint32_t i = 0; number != NULL && i < geometry.triangle_count; i++)
+            number[i] = (uint16_t)i;
+        smear_raster_list(&frame, &t, 0);
+        for (uint32_t i = 0; number != NULL && i < geometry.triangle_count; i++)
+            moved += number[i] != i;
+    }
+    return moved;
+}
+
+static void test_drawing_from_the_front_changes_nothing(void)
+{
+    int32_t moved = 0;
+    random_state = 61;
+    for (uint32_t i = 0; i < TEXELS; i++)
+        texels[i] = random_u32();
+    for (int n = 0; n < 120; n++) {
+        random_planes();
+        draw_bands(&full, H, false);
+        moved += draw_bands(&cut, chance(2) ? H : between(8, 24), true);
+        if (!same_planes(&full, &cut))
+            return;
+    }
+    CHECK(moved > 1000);
+}
+#endif
+
 /* Jobs of layers end within tiles: two of them would write one mark. Their rows have none, and the same velocities. */
 static void test_rows_without_marks_have_the_same_velocities(void)
 {
@@ -1775,6 +1862,9 @@ void suite_raster(void)
     RUN(test_cutouts_leave_what_lies_behind_their_holes);
     RUN(test_blended_triangles_only_change_colour);
     RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
+#if SMEAR_FRONT_ORDER
+    RUN(test_drawing_from_the_front_changes_nothing);
+#endif
     RUN(test_columns_within_long_blocks_draw_their_own_pixels);
     RUN(test_rows_without_marks_have_the_same_velocities);
     RUN(test_texels_in_rows_are_those_of_the_general_loop);

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/* front_order.c - see front_order.h.
+ *
+ * Two triangles may change places where no pixel of one has the same depth code as one of the other, or none lies in the same
+ * columns: then the nearer one is seen, whichever comes first. Depths are counted in levels, columns in strips. A triangle's
+ * place is the level of its farthest vertex; but behind that of each one before it in the list which lies in its strips and
+ * reaches its levels, so that those two stay in order. */
+#include "raster/front_order.h"
+
+#if SMEAR_FRONT_ORDER
+
+#include "base/fixmath.h"
+#include "kernels/hidden_box.h"
+
+enum {
+    OCTAVE = 4,                     /* levels of depths up to twice as near */
+    LEVELS = 12 * OCTAVE,
+    STRIPS = 16,
+    ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
+    ORDER_PIXELS = 8               /* of the target for each: smaller ones hide little */
+};
+
+/* Levels that were taken: of each strip, from which level of a near end on how far back triangles were put. */
+struct front_taken {
+    uint8_t back[STRIPS][LEVELS];
+};
+
+size_t smear_front_order_bytes(const struct smear_bins *bins)
+{
+    if (bins->triangle_count < ORDER_LEAST || bins->triangle_count > UINT16_MAX)
+        return 0;
+    for (uint32_t i = 0; i < bins->segment_count; i++)
+        if (!segment_textured(&bins->segment[i]) || bins->segment[i].path != 0)
+            return 0;
+    return (min_u32(bins->triangle_count, ORDER_MOST) * 3u + 3u) & ~(size_t)3u;
+}
+
+/* What depths of pixels may be beyond those of vertices, and half a step of a code more: planes are rounded, to a unit per
+ * pixel or a part of what they change by. */
+static inline int32_t depth_margin(int32_t nearest) { return 8192 + (nearest >> 8); }
+
+static inline int32_t level_of(int32_t units)
+{
+    const uint32_t u = (uint32_t)max_i32(units, 1);
+    const int zeros = count_leading_zeros(u);       /* 1 at least */
+    return max_i32((LEVELS / OCTAVE - zeros) * OCTAVE + (int32_t)(u << zeros >> 29 & 3u), 0);
+}
+
+/* A triangle's columns and depths. */
+struct front_range {
+    int32_t x0, x1;                 /* q8 */
+    int32_t farthest, nearest;      /* units q11 */
+};
+
+static inline void range_add(struct front_range *r, const int32_t *v)
+{
+    const int32_t x = v[VERTEX_X], depth = v[VERTEX_DEPTH];
+    r->x0 = min_i32(r->x0, x);
+    r->x1 = max_i32(r->x1, x);
+    r->farthest = min_i32(r->farthest, depth);
+    r->nearest = max_i32(r->nearest, depth);
+}
+
+static inline struct front_range range_of(const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+    struct front_range r = { v0[VERTEX_X], v0[VERTEX_X], v0[VERTEX_DEPTH], v0[VERTEX_DEPTH] };
+    range_add(&r, v1);
+    range_add(&r, v2);
+    return r;
+}
+
+/* Finds how far back a triangle comes, and notes it. `shift`: log2 of a strip's pixels, and 8. */
+static inline uint32_t take_level(struct front_taken *taken, const struct smear_raster_target *target, const struct front_range *r,
+                                  int shift)
+{
+    const int32_t left = target->x0 << 8, margin = depth_margin(r->nearest);
+    const int32_t first = max_i32(r->x0 - left, 0) >> shift, last = min_i32(r->x1 - left, (target->x1 << 8) - left - 1) >> shift;
+    const int32_t far = level_of(r->farthest - margin), near = level_of(r->nearest + margin);
+    uint32_t level = (uint32_t)far;
+    for (int32_t strip = first; strip <= last; strip++)
+        level = min_u32(level, taken->back[strip][far]);
+    for (int32_t strip = first; strip <= last; strip++)
+        for (int32_t i = near; i >= 0 && taken->back[strip][i] > level; i--)
+            taken->back[strip][i] = (uint8_t)level;
+    return level;
+}
+
+/* Returns log2 of a strip's pixels, and 8. */
+static int strip_shift(const struct smear_raster_target *target)
+{
+    int shift = 0;
+    while (target->x1 - target->x0 > STRIPS << shift)
+        shift++;
+    return shift + 8;
+}
+
+/* Whether a list has no more triangles than `most`. */
+static bool list_is_short(const struct smear_bins *bins, uint32_t head, uint32_t most)
+{
+    for (uint32_t n = 0; head != SMEAR_NO_TRIANGLE; head = bins_triangle(bins, head)->next)
+        if (n++ == most)
+            return false;
+    return true;
+}
+
+/* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
+ * is a point or blended. */
+static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct smear_raster_frame *frame,
+                            const struct smear_raster_target *target, uint32_t head)
+{
+    const struct smear_bins *const bins = frame->bins;
+    const uint32_t most = min_u32(min_u32(bins->triangle_count, ORDER_MOST),
+                                  (uint32_t)((target->x1 - target->x0) * (target->y1 - target->y0)) / ORDER_PIXELS);
+    const int shift = strip_shift(target);
+    struct front_taken taken;
+    uint32_t n = 0;
+    if (!list_is_short(bins, head, most))
+        return 0;
+    __builtin_memset(&taken, 255, sizeof taken);
+    while (head != SMEAR_NO_TRIANGLE) {
+        const struct smear_triangle *t = bins_triangle(bins, head);
+        if (t->segment == SMEAR_POINT)
+            return 0;
+        const struct smear_segment *segment = &bins->segment[t->segment];
+        if (draw_is_blended(&frame->draw[segment->draw]))
+            return 0;
+        const struct front_range r = range_of(bins_vertex(bins, segment, t->vertex[0]), bins_vertex(bins, segment, t->vertex[1]),
+                                              bins_vertex(bins, segment, t->vertex[2]));
+        const uint32_t taken_level = take_level(&taken, target, &r, shift);
+        level[n++] = (uint8_t)taken_level;
+        count[taken_level]++;
+        head = t->next;
+    }
+    return n;
+}
+
+uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    const struct smear_plane_rows *const rows = &target->window_rows;
+    uint16_t *const order = front_order_of(&target->cache), place[LEVELS] = { 0 };
+    if (order == NULL || head == SMEAR_NO_TRIANGLE || target_has_velocity(target) || frame_has_fog(frame)
+        || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
+        return 0;
+    uint8_t *const level = (uint8_t *)(order + min_u32(frame->bins->triangle_count, ORDER_MOST));
+    const uint32_t n = find_levels(place, level, frame, target, head);
+    if (n < ORDER_LEAST)
+        return 0;
+    uint32_t at = 0;
+    for (int i = LEVELS - 1; i >= 0; i--) {
+        const uint32_t count = place[i];
+        place[i] = (uint16_t)at;
+        at += count;
+    }
+    for (uint32_t i = 0; i < n; i++, head = bins_triangle(frame->bins, head)->next)
+        order[place[level[i]]++] = (uint16_t)head;
+    return n;
+}
+
+bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t)
+{
+    const struct smear_segment *segment = &frame->bins->segment[t->segment];
+    const int32_t *const v0 = bins_vertex(frame->bins, segment, t->vertex[0]), *const v1 = bins_vertex(frame->bins, segment, t->vertex[1]),
+                  *const v2 = bins_vertex(frame->bins, segment, t->vertex[2]);
+    const struct front_range r = range_of(v0, v1, v2);
+    const int32_t y0 = min_i32(v0[VERTEX_Y], min_i32(v1[VERTEX_Y], v2[VERTEX_Y])),
+                  y1 = max_i32(v0[VERTEX_Y], max_i32(v1[VERTEX_Y], v2[VERTEX_Y]));
+    const int32_t left = max_i32((r.x0 + 127) >> 8, target->x0), right = min_i32((r.x1 + 127) >> 8, target->x1),
+                  top = max_i32((y0 + 127) >> 8, target->y0), bottom = min_i32((y1 + 127) >> 8, target->y1);
+    if (left >= right || top >= bottom)
+        return true;
+    const struct smear_plane_rows *const rows = &target->window_rows;
+    const uint32_t units = ((uint32_t)(r.nearest + depth_margin(r.nearest)) >> 11) + 1u;
+    const uint32_t half = (units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65534u)) / 2u + 1u;
+    const uint16_t *const depth = target->depth + target_row(rows, target, top);
+    if (half > 0x7fffu || depth[((bottom - top) >> 1) * rows->stride + ((left + right) >> 1)] >> 1 < half)     /* as most that are seen */
+        return false;
+    const int32_t even = left - ((left - rows->x0) & 1);
+    return hidden_box((const pixel_word *)(const void *)(depth + even), rows->stride >> 1, (right - even + 1) >> 1, bottom - top, half);
+}
+
+#endif
