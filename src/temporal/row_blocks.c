@@ -23,7 +23,7 @@ struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32
 {
     static const int8_t beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
     const struct smear_block *here = block_at(b, column, row);
-    int32_t unlike = 0;
+    int32_t unlike = here->curvature << 2;      /* instants of a curve go on along its chord in the middle alone */
     for (int i = 0; i < 4; i++) {
         const int32_t c = column + beside[i][0], r = row + beside[i][1];
         if (c < 0 || c >= b->columns || r < 0 || r >= rows)

@@ -15,6 +15,7 @@ enum {
 struct smear_block {
     int16_t x, y;               /* displacement of the nearest moving surface in the block's middle, 1/16 px */
     uint16_t depth;             /* of that surface: larger is nearer. 0: none is there */
+    uint8_t curvature;          /* by how much the displacement changes along the path, about, 1/4 px, saturated */
     uint8_t last;               /* gaps are closed where there are no more instants than so many */
 };
 
@@ -53,7 +54,7 @@ struct smear_closing {
     int32_t last;               /* instants up to which it pays, where nothing else is known; 0: never */
 };
 
-/* Of a displacement that is `unlike` that of things beside it by so much, all 1/16 px. */
+/* Of a displacement that is `unlike` that of things beside it, or what it is at other times, by so much, all 1/16 px. */
 struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike);
 
 /* Of a block with a surface. `rows`: of blocks. */

@@ -303,9 +303,10 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
 
 static inline uint16_t nearness(int32_t depth) { return (uint16_t)clamp_i32(depth, 1, UINT16_MAX); }
 
-static void put_block(struct smear_block *b, int32_t x, int32_t y, uint16_t near)
+static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t curvature, uint16_t near)
 {
-    *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX), near, 0 };
+    *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX), near,
+                               (uint8_t)min_i32(curvature >> 2, UINT8_MAX), 0 };
 }
 
 /* Twice the areas between a place and a triangle's sides, and how they change from block to block. */
@@ -343,16 +344,16 @@ static void put_covering(struct smear_block *b, const struct corners *c, const s
         return;
     if (w->large) {
         const struct displacement d = displacement_at(w, x, y);
-        put_block(b, d.x, d.y, near);
+        put_block(b, d.x, d.y, d.curvature, near);
     } else {
-        put_block(b, dx / sum, dy / sum, near);
+        put_block(b, dx / sum, dy / sum, w->curvature, near);
     }
 }
 
 static inline void put_small(struct smear_block *b, const struct displacements *w, uint16_t near)
 {
     if (near > b->depth)
-        put_block(b, (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, near);
+        put_block(b, (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, w->curvature, near);
 }
 
 /* Puts a triangle that faces the eye into the wanted blocks whose middle it covers in the middle of the exposure; a small one

@@ -612,7 +612,7 @@ const struct fail_row fail_picture_rows[] = {
          .known = {[NONE] = 32, [PLAIN] = 18, [MENDED] = 17}},
     }, NULL},
     {2, "curved path", curve, {
-        {"rmse", "codes", 2.0, .known = {[NONE] = 16, [PLAIN] = 9.2, [MENDED] = 8.6, [AUTO] = 2.2}},
+        {"rmse", "codes", 2.0, .known = {[NONE] = 16, [PLAIN] = 9.2, [MENDED] = 8.6}},
         {"centroid of the streak", "px", 0.5,
          .known = {[NONE] = 2.4, [PLAIN] = 2.4, [MENDED] = 2.4}},
         {"centroid, only the pose a frame ago", "px", 0.5,

@@ -506,7 +506,7 @@ static const struct smear_tile_plan *plan_of(int32_t x, int32_t y, int32_t insta
     static struct smear_row_blocks blocks = { block, W / BLOCK_PX };
     static const struct smear_tile_plan plan = { .blocks = &blocks };
     for (size_t i = 0; i < sizeof block / sizeof *block; i++)
-        block[i] = (struct smear_block){ (int16_t)(x * instants), (int16_t)(y * instants), 1, BLOCK_INSTANTS_MAX };
+        block[i] = (struct smear_block){ (int16_t)(x * instants), (int16_t)(y * instants), 1, 0, BLOCK_INSTANTS_MAX };
     return &plan;
 }
 
@@ -544,6 +544,22 @@ static void test_a_step_closes_the_gap_between_instants(void)
             if (!CHECK(closed_error(n, plan_of(24 * 16 / n, 0, n)) <= (n < 3 ? 90 : 16)))
                 CHECK_EQ(n, closed_error(n, plan_of(24 * 16 / n, 0, n)));
     }
+}
+
+static void test_gaps_along_a_curve_close_for_fewer_instants(void)
+{
+    /* 28 px along, alone, and with a path of which the middle lies up to 31 px off the chord. */
+    struct smear_block block = { 28 * 16, 0, 1, 0, 0 };
+    const struct smear_row_blocks blocks = { &block, 1 };
+    struct smear_closing before = smear_block_closing(&blocks, 0, 0, 1);
+    CHECK(before.last > 14 && before.left < 16);
+    for (int32_t curvature = 8; curvature < 256; curvature += 8) {
+        block.curvature = (uint8_t)curvature;
+        const struct smear_closing closing = smear_block_closing(&blocks, 0, 0, 1);
+        CHECK(closing.last <= before.last && closing.left >= before.left);
+        before = closing;
+    }
+    CHECK_EQ(before.last, 0);
 }
 
 static void test_light_of_one_colour_stays_that_colour(void)
@@ -885,6 +901,7 @@ void suite_subframes(void)
     RUN(test_a_moving_edge_is_a_ramp);
     RUN(test_tiles_together_are_what_they_are_alone);
     RUN(test_a_step_closes_the_gap_between_instants);
+    RUN(test_gaps_along_a_curve_close_for_fewer_instants);
     RUN(test_light_of_one_colour_stays_that_colour);
     RUN(test_wide_gaps_of_many_instants_keep_white);
     RUN(test_gaps_at_a_border_close_with_what_lies_beyond_it);
