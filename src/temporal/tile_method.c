@@ -83,6 +83,15 @@ static int32_t interval_instants(int32_t target)
     return target >= 64 ? PATH_INTERVALS / 2 : PATH_INTERVALS;
 }
 
+/* Whether things pass through the near plane that most pixels of a run do not show in the middle of the exposure: they come and
+ * go, and each sub-interval that is not drawn is missed. A floor is there all the time, and another part of it looks much the
+ * same. */
+static bool comes_and_goes(const struct smear_contrast *c)
+{
+    enum { LOOKED_AT = BLOCK_PX * BLOCK_PX / 2 }; /* of a block: every other row */
+    return 2 * c->moving < c->blocks * LOOKED_AT;
+}
+
 /* Returns the nearest number of instants that draws each sub-interval as often as the others, or every other one once. */
 static int32_t whole_intervals(int32_t instants)
 {
@@ -181,7 +190,8 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
             break;
     instants = min_i32(instants, INSTANTS_MAX);
     if (passes_near) /* all sub-intervals that are drawn weigh the same */
-        instants = whole_intervals(instants);
+        instants = chooser->target <= SMEAR_BALANCED && comes_and_goes(c) ? whole_intervals(max_i32(instants, PATH_INTERVALS))
+                                                                          : whole_intervals(instants);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
