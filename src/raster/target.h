@@ -24,8 +24,8 @@ struct smear_plane_rows {
 #endif
 #endif
 
-/* Textured triangles are drawn from the front (front_order.h): not where vectors draw, whose lists are in order, nor in a page or in
- * the GBA's fast memory, where size counts. */
+/* Textured triangles are drawn from the front (front_order.h): not by AVX2, which draws lists in their order, nor in a page or in the
+ * GBA's fast memory, where size counts. */
 #if SMEAR_AVX2 || !SMEAR_RASTER_CACHE || !SMEAR_WITH_TEXTURE || defined(__wasm__) || defined(__ARM_ARCH_4T__)
 #define SMEAR_FRONT_ORDER 0
 #else

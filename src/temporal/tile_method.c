@@ -189,9 +189,10 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
     instants = min_i32(instants, INSTANTS_MAX);
+    if (passes_near && chooser->target <= SMEAR_BALANCED && comes_and_goes(c))
+        instants = max_i32(instants, PATH_INTERVALS);
     if (passes_near) /* all sub-intervals that are drawn weigh the same */
-        instants = chooser->target <= SMEAR_BALANCED && comes_and_goes(c) ? whole_intervals(max_i32(instants, PATH_INTERVALS))
-                                                                          : whole_intervals(instants);
+        instants = whole_intervals(instants);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
