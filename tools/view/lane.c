@@ -25,9 +25,49 @@ static void note_band(void *user, const smear_band *band)
     lane->band[lane->band_count++] = (struct lane_band){ drawn.x, drawn.y, drawn.width, drawn.height };
 }
 
-static bool open_parts(struct lane *lane, struct failure *f)
+/* What lane_open makes anew. The rest of a lane is options and a list of bands, 33 of its 34 kB: a recording with a
+ * million keys would do little but copy them. */
+struct parts {
+    struct setup setup;
+    struct device device;
+    struct panel_codes codes;
+    uint32_t *picture;
+    struct tiles tiles;
+};
+
+/* The lane's parts; it has none after that. */
+static struct parts take_parts(struct lane *lane)
 {
-    struct device_setup setup = setup_device(&lane->setup, &lane->options);
+    const struct parts parts = { lane->setup, lane->device, lane->codes, lane->picture, lane->tiles };
+    lane->setup = (struct setup){ .motion = NULL };
+    lane->device = (struct device){ .ctx = NULL };
+    lane->codes = (struct panel_codes){ 0 };
+    lane->picture = NULL;
+    lane->tiles = (struct tiles){ 0 };
+    return parts;
+}
+
+static void put_parts(struct lane *lane, const struct parts *parts)
+{
+    lane->setup = parts->setup;
+    lane->device = parts->device;
+    lane->codes = parts->codes;
+    lane->picture = parts->picture;
+    lane->tiles = parts->tiles;
+}
+
+static void close_parts(struct parts *parts)
+{
+    device_close(&parts->device);
+    panel_codes_close(&parts->codes);
+    tiles_close(&parts->tiles);
+    setup_release(&parts->setup);
+    free(parts->picture);
+}
+
+static bool open_parts(struct lane *lane, const struct render_options *options, struct failure *f)
+{
+    struct device_setup setup = setup_device(&lane->setup, options);
     size_t pixels = (size_t)lane->setup.width * (size_t)lane->setup.height;
     setup.band = note_band;
     setup.band_user = lane;
@@ -36,34 +76,34 @@ static bool open_parts(struct lane *lane, struct failure *f)
         return fail(f, "out of memory");
     return tiles_open(&lane->tiles, lane->setup.width, lane->setup.height, f) &&
            device_open(&lane->device, &setup, f) &&
-           panel_codes_open(&lane->codes, lane->options.format, f);
+           panel_codes_open(&lane->codes, options->format, f);
 }
 
 bool lane_open(struct lane *lane, const struct render_options *options, struct source *source,
                struct failure *f)
 {
-    struct lane old = *lane;
-    *lane = (struct lane){ .options = *options, .is_open = true };
-    if (setup_open(&lane->options, source, &lane->setup) != STATUS_OK)
-        fail(f, "these settings do not go together");
-    else if (open_parts(lane, f)) {
-        lane_close(&old);
+    struct parts old = take_parts(lane);
+    bool ok = setup_open(options, source, &lane->setup) == STATUS_OK || fail(f, "these settings do not go together");
+    ok = ok && open_parts(lane, options, f);
+    if (ok) {
+        lane->options = *options;
+        lane->stats = (smear_stats){ 0 };
+        lane->band_count = 0;
+        lane->is_open = true;
+        close_parts(&old);
         return true;
     }
-    lane_close(lane);
-    *lane = old;
+    struct parts failed = take_parts(lane);
+    close_parts(&failed);
+    put_parts(lane, &old);
     return false;
 }
 
 void lane_close(struct lane *lane)
 {
-    if (!lane->is_open)
-        return;
-    device_close(&lane->device);
-    panel_codes_close(&lane->codes);
-    tiles_close(&lane->tiles);
-    setup_release(&lane->setup);
-    free(lane->picture);
+    struct parts parts = take_parts(lane);
+    if (lane->is_open)
+        close_parts(&parts);
     *lane = (struct lane){ .is_open = false };
 }
 
