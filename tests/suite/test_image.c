@@ -150,33 +150,50 @@ static unsigned tiny_bits(struct tiny *t, unsigned count)
     return value;
 }
 
+/* Bits of the codes of an alphabet's symbols, 0 of those that have none, and how many symbols have so many. */
+struct tiny_lengths {
+    uint8_t of[288];
+    unsigned count, with[16];
+};
+
+static void tiny_lengths_set(struct tiny_lengths *l, const uint8_t *of, unsigned count)
+{
+    *l = (struct tiny_lengths){ .count = count };
+    for (unsigned i = 0; i < count; i++) {
+        l->of[i] = of[i];
+        l->with[of[i]]++;
+    }
+}
+
 /* Canonical decoding straight from RFC 1951, 3.2.2: compare with the first code of each length. */
-static unsigned tiny_symbol(struct tiny *t, const uint8_t *length, unsigned count)
+static unsigned tiny_symbol(struct tiny *t, const struct tiny_lengths *l)
 {
     unsigned code = 0, first = 0;
     for (unsigned bits = 1; bits <= 15 && t->ok; bits++) {
-        unsigned seen = 0;
         code = code << 1 | tiny_bits(t, 1);
-        for (unsigned i = 0; i < count; i++)
-            if (length[i] == bits && first + seen++ == code)
-                return i;
-        first = (first + seen) << 1;
+        if (code >= first && code - first < l->with[bits])
+            for (unsigned i = 0, seen = 0; i < l->count; i++)
+                if (l->of[i] == bits && first + seen++ == code)
+                    return i;
+        first = (first + l->with[bits]) << 1;
     }
     t->ok = false;
     return 0;
 }
 
-static void tiny_codes(struct tiny *t, uint8_t *literal, uint8_t *distance)
+static void tiny_codes(struct tiny *t, struct tiny_lengths *literal, struct tiny_lengths *distance)
 {
     static const uint8_t order[] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1,
                                     15};
     uint8_t lengths[19] = {0}, all[320] = {0};
+    struct tiny_lengths packed;
     unsigned literals = tiny_bits(t, 5) + 257, distances = tiny_bits(t, 5) + 1;
     unsigned count = tiny_bits(t, 4) + 4, at = 0;
     for (unsigned i = 0; i < count; i++)
         lengths[order[i]] = (uint8_t)tiny_bits(t, 3);
+    tiny_lengths_set(&packed, lengths, 19);
     while (t->ok && at < literals + distances) {
-        unsigned symbol = tiny_symbol(t, lengths, 19), repeat = 1, value = symbol;
+        unsigned symbol = tiny_symbol(t, &packed), repeat = 1, value = symbol;
         if (symbol == 16) {
             value = at > 0 ? all[at - 1] : 99;
             repeat = 3 + tiny_bits(t, 2);
@@ -188,16 +205,14 @@ static void tiny_codes(struct tiny *t, uint8_t *literal, uint8_t *distance)
         for (; t->ok && repeat > 0; repeat--)
             all[at++] = (uint8_t)value;
     }
-    memset(literal, 0, 288);
-    memset(distance, 0, 32);
-    memcpy(literal, all, literals);
-    memcpy(distance, all + literals, distances);
+    tiny_lengths_set(literal, all, literals);
+    tiny_lengths_set(distance, all + literals, distances < 30 ? distances : 30);      /* the others are of no use */
 }
 
-static void tiny_block(struct tiny *t, const uint8_t *literal, const uint8_t *distance)
+static void tiny_block(struct tiny *t, const struct tiny_lengths *literal, const struct tiny_lengths *distance)
 {
     while (t->ok) {
-        unsigned symbol = tiny_symbol(t, literal, 288);
+        unsigned symbol = tiny_symbol(t, literal);
         if (!t->ok || symbol == 256)
             return;
         if (symbol < 256) {
@@ -209,7 +224,7 @@ static void tiny_block(struct tiny *t, const uint8_t *literal, const uint8_t *di
             length += 1u << (i < 265 || i == 285 ? 0 : (i - 261) / 4);
         extra = symbol < 265 || symbol == 285 ? 0 : (symbol - 261) / 4;
         length = symbol == 285 ? 258 : length + tiny_bits(t, extra);
-        symbol = tiny_symbol(t, distance, 30);
+        symbol = tiny_symbol(t, distance);
         for (unsigned i = 0; i < symbol; i++)
             away += 1u << (i < 4 ? 0 : (i - 2) / 2);
         away += tiny_bits(t, symbol < 4 ? 0 : (symbol - 2) / 2);
@@ -225,7 +240,7 @@ static void tiny_block(struct tiny *t, const uint8_t *literal, const uint8_t *di
 static struct buffer tiny_inflate(const uint8_t *in, size_t size, bool *ok)
 {
     struct tiny t = {.in = in, .size = size, .ok = size >= 6 && in[0] == 0x78 && in[1] == 0x9c};
-    uint8_t literal[288], distance[32];
+    struct tiny_lengths literal, distance;
     unsigned last = 0;
     t.bit = 16;
     while (t.ok && last == 0) {
@@ -238,13 +253,16 @@ static struct buffer tiny_inflate(const uint8_t *in, size_t size, bool *ok)
             for (; t.ok && length > 0; length--)
                 buffer_byte(&t.out, tiny_bits(&t, 8));
         } else if (kind == 1) {
+            uint8_t all[288], five[30];
             for (unsigned i = 0; i < 288; i++)
-                literal[i] = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
-            memset(distance, 5, sizeof distance);
-            tiny_block(&t, literal, distance);
+                all[i] = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
+            memset(five, 5, sizeof five);
+            tiny_lengths_set(&literal, all, 288);
+            tiny_lengths_set(&distance, five, 30);
+            tiny_block(&t, &literal, &distance);
         } else if (kind == 2) {
-            tiny_codes(&t, literal, distance);
-            tiny_block(&t, literal, distance);
+            tiny_codes(&t, &literal, &distance);
+            tiny_block(&t, &literal, &distance);
         } else {
             t.ok = false;
         }

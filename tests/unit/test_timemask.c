@@ -257,13 +257,17 @@ static uint32_t truth_color(const struct smear_triangle *t, const int64_t e[3], 
 static void truth_draw(const struct smear_triangle *t, int32_t time)
 {
     const struct smear_segment *s = &segment[t->segment];
-    int32_t p[3][3], depth[3];
+    int32_t p[3][3], depth[3], low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN };
     for (int i = 0; i < 3; i++) {
         path_at(p[i], bins_vertex(&geometry, s, t->vertex[i]), s, time);
         depth[i] = p[i][2];
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = min_i32(low[axis], p[i][axis]);
+            high[axis] = max_i32(high[axis], p[i][axis]);
+        }
     }
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++) {
+    for (int32_t y = max_i32(low[1] >> 8, 0); y < min_i32((high[1] >> 8) + 1, H); y++)
+        for (int32_t x = max_i32(low[0] >> 8, 0); x < min_i32((high[0] >> 8) + 1, W); x++) {
             int64_t e[3];
             if (!covers(p, x * 256 + 128, y * 256 + 128, e))
                 continue;
