@@ -126,10 +126,12 @@
 #error "SMEAR_WITH_FILTERS and _LAYERS need SMEAR_WITH_RECONSTRUCT, whose velocities they read"
 #endif
 
-/* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, and with SMEAR_STAGE_DRAW before
- * these are drawn: where little memory is fast, the code that comes next may be brought there. */
+/* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, with SMEAR_STAGE_DRAW before
+ * these are drawn, and then with SMEAR_STAGE_LATE before rows of a sharp frame whose pixels are written late (late_blocks.h):
+ * where little memory is fast, the code that comes next may be brought there. */
 #define SMEAR_STAGE_ASSEMBLE 0
 #define SMEAR_STAGE_DRAW 1
+#define SMEAR_STAGE_LATE 2
 #ifndef SMEAR_ENTER_STAGE
 #define SMEAR_ENTER_STAGE(stage) ((void)0)
 #endif

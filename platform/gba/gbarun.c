@@ -56,7 +56,7 @@ static void take_log(struct mLogger *logger, int category, enum mLogLevel level,
     printf("%s\n", text);
 }
 
-/* --- profile: one slot per word of ROM (its first MB), fast (and its first mirror), slow and video memory --- */
+/* --- profile: one slot per word of ROM (its first MB), fast (and its first mirrors), slow and video memory --- */
 
 enum { BANKS = 4, SLOTS = 262144 };
 static struct { uint64_t cycles, count; } profile[BANKS][SLOTS];
@@ -202,7 +202,7 @@ static void step_frame(struct mCore *core)
         uint32_t took = (uint32_t)mTimingCurrentTime(core->timing) - before;
         for (int bank = 0; bank < BANKS; bank++)
             if (pc >> 24 == bank_base[bank] >> 24) {
-                uint32_t slot = (pc & (bank == 1 ? 0xffffu : bank == 0 ? 0xfffffu : 0x3ffffu)) >> 2;
+                uint32_t slot = (pc & (bank == 1 ? 0x1ffffu : bank == 0 ? 0xfffffu : 0x3ffffu)) >> 2;
                 profile[bank][slot].cycles += took;
                 profile[bank][slot].count++;
             }

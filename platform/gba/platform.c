@@ -26,17 +26,18 @@ void gba_main(void);
 const char platform_clock_unit[] = "cycles";
 
 extern uint8_t link_fast_end[], link_warm_start[];
-extern uint8_t link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[];
+extern uint8_t link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[], link_late_load[], link_late_size[];
 
 void gba_enter_stage(int stage)
 {
-    static int entered = GBA_STAGE_DRAW;        /* start.S */
-    const bool draws = stage == GBA_STAGE_DRAW;
-    const uint32_t words = (uint32_t)(draws ? link_draw_size : link_assemble_size) / 4;
+    static int entered = SMEAR_STAGE_DRAW;        /* start.S */
+    static uint8_t *const load[] = { link_assemble_load, link_draw_load, link_late_load };
+    static uint8_t *const size[] = { link_assemble_size, link_draw_size, link_late_size };
+    const uint32_t words = (uint32_t)size[stage] / 4;
     if (words == 0 || stage == entered)
         return;
     entered = stage;
-    GBA_DMA3_FROM = (uint32_t)(draws ? link_draw_load : link_assemble_load);
+    GBA_DMA3_FROM = (uint32_t)load[stage];
     GBA_DMA3_TO = (uint32_t)link_fast_end;
     GBA_DMA3_CONTROL = 0x84000000u | words;
 }

@@ -195,7 +195,8 @@ bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     }
     if (!format_is_16bit(format) || !is_dithered(dither))
         return false;
-    struct dithered_rows r = { (uint16_t *)(void *)band + x, in, stride / 2, in_stride, rows, n, x, y, NULL, 0 };
+    struct dithered_rows r = { .out = (uint16_t *)(void *)band + x, .in = in, .out_stride = stride / 2, .in_stride = in_stride,
+                               .rows = rows, .n = n, .x = x, .y = y };
     r.threshold = thresholds_of(0, dither, &r.mask);
     smear_rows_dithered_avx2(&r, layout_of(format));
     return true;
@@ -208,8 +209,24 @@ bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     if (!format_is_16bit(format) || !SMEAR_WITH_DITHER || dither != SMEAR_DITHER_ORDERED || ((n | x) & 7) != 0
         || (((uintptr_t)out | stride) & 3u) != 0)
         return false;
-    const struct dithered_rows r = { out, in, (ptrdiff_t)(stride / 2), in_stride, rows, n, x, y, NULL, 0 };
+    const struct dithered_rows r = { .out = out, .in = in, .out_stride = (ptrdiff_t)(stride / 2), .in_stride = in_stride,
+                                     .rows = rows, .n = n, .x = x, .y = y };
     smear_rows_dithered_blocks(&r, layout_of(format));
     return true;
+}
+#endif
+
+#if SMEAR_LATE_BLOCKS
+bool smear_format_takes_late(smear_format format, smear_dither dither)
+{
+    return SMEAR_ROWS_AT_ONCE && SMEAR_WITH_RGB && format == SMEAR_RGB555 && SMEAR_WITH_DITHER && dither == SMEAR_DITHER_ORDERED;
+}
+
+void smear_format_rows_late(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
+                            int32_t y)
+{
+    const struct dithered_rows r = { .out = (uint16_t *)(void *)band + x, .in = in, .out_stride = (ptrdiff_t)(stride / 2),
+                                     .in_stride = in_stride, .rows = rows, .n = n, .x = x, .y = y, .late = true };
+    smear_rows_dithered_blocks(&r, ROW_555);
 }
 #endif

@@ -14,13 +14,18 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct f
                     "the assembly knows struct flat_lines");
 
 /* The pixel AT bytes of depth and PLACE bytes of colours further on, in six instructions: the code at FLAT_ARM_PIXELS jumps over
- * some of them. */
+ * some of them. STORE: with the register of the colour. */
 #define FLAT_ARM_PIXEL(STORE, AT, PLACE)  \
     "ldrh r5, [r1, #" AT "]\n\t"          \
     "mov r4, r2, lsr #16\n\t"             \
     "add r2, r2, r3\n\t"                  \
     "cmp r4, r5\n\t"                      \
-    "strhhi r4, [r1, #" AT "]\n\t" STORE " r6, [r0, #" PLACE "]\n\t"
+    "strhhi r4, [r1, #" AT "]\n\t" STORE ", [r0, #" PLACE "]\n\t"
+
+#define FLAT_ARM_EIGHT(STORE, P1, P2, P3, P4, P5, P6, P7)                                         \
+    FLAT_ARM_PIXEL(STORE, "0", "0") FLAT_ARM_PIXEL(STORE, "2", P1) FLAT_ARM_PIXEL(STORE, "4", P2) \
+    FLAT_ARM_PIXEL(STORE, "6", P3) FLAT_ARM_PIXEL(STORE, "8", P4) FLAT_ARM_PIXEL(STORE, "10", P5) \
+            FLAT_ARM_PIXEL(STORE, "12", P6) FLAT_ARM_PIXEL(STORE, "14", P7)
 
 /* r7 > 0 pixels, eight a round; the first round begins behind its first pixels where they are fewer. */
 #define FLAT_ARM_PIXELS(LOG2, STORE, P1, P2, P3, P4, P5, P6, P7, P8)                                            \
@@ -32,9 +37,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct f
     "add r4, r4, r4, lsl #1\n\t"                                                                                \
     "add pc, pc, r4, lsl #3\n\t"                                                                                \
     "nop\n"                                                                                                     \
-    "3: " FLAT_ARM_PIXEL(STORE, "0", "0") FLAT_ARM_PIXEL(STORE, "2", P1) FLAT_ARM_PIXEL(STORE, "4", P2)         \
-    FLAT_ARM_PIXEL(STORE, "6", P3) FLAT_ARM_PIXEL(STORE, "8", P4) FLAT_ARM_PIXEL(STORE, "10", P5)               \
-    FLAT_ARM_PIXEL(STORE, "12", P6) FLAT_ARM_PIXEL(STORE, "14", P7)                                             \
+    "3: " FLAT_ARM_EIGHT(STORE, P1, P2, P3, P4, P5, P6, P7)                                                     \
     "add r0, r0, #" P8 "\n\t"                                                                                   \
     "add r1, r1, #16\n\t"                                                                                       \
     "subs r7, r7, #8\n\t"                                                                                       \
@@ -55,7 +58,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct f
     "add r2, r2, #0x8000\n\t"            \
     "add r2, r2, #0x80000000\n\t"
 
-#define FLAT_ARM_ACROSS(STORE, SINGLE)   \
+#define FLAT_ARM_ACROSS(STORE, SINGLE, DONE) \
     "5: movs r4, r2, lsl #1\n\t"         \
     "movcs r4, r2, lsl #5\n\t"           \
     "add r4, r4, #0x8000\n\t"            \
@@ -64,50 +67,58 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct f
     "add r2, r2, r3\n\t"                 \
     "ldrh r5, [r1]\n\t"                  \
     "cmp r4, r5\n\t"                     \
-    "strhhi r4, [r1]\n\t" STORE " r6, [r0]\n\t" \
+    "strhhi r4, [r1]\n\t" STORE ", [r0]\n\t" \
     "add r0, r0, #" SINGLE "\n\t"        \
     "add r1, r1, #2\n\t"                 \
     "subs r7, r7, #1\n\t"                \
     "bne 5b\n\t"                         \
-    "b 8b\n"
+    "b " DONE "b\n"
 
 /* r9 points into struct flat_lines, of which what is said of a row is of that behind the last one; rows have numbers from minus their
  * count to -1, in r8. The left side's place lies in r10 and r11, the right one's in r12 and lr. Then, in a row: pixels r0, depth r1, z r2,
  * dz r3, the colour r6, how many r7. PLACE brings r0. */
+#define FLAT_ARM_ROW_START                          \
+    ".syntax unified\n\t"                           \
+    "push {r0}\n\t"                                 \
+    "mov r8, r1\n\t"                                \
+    "add r9, r0, #40\n\t"                           \
+    "ldm r0, {r10, r11, r12, lr}\n"                 \
+    "1: ldmdb r9, {r0, r1, r2, r3, r6, r7}\n\t"     \
+    "cmp r6, r11, asr #10\n\t"                      \
+    "movlt r6, r11, asr #10\n\t"                    \
+    "cmp r7, lr, asr #10\n\t"                       \
+    "movgt r7, lr, asr #10\n\t"                     \
+    "adds r10, r10, r0\n\t"                         \
+    "adc r11, r11, r1\n\t"                          \
+    "adds r12, r12, r2\n\t"                         \
+    "adc lr, lr, r3\n\t"                            \
+    "subs r7, r7, r6\n\t"                           \
+    "ble 8f\n\t"
+
+#define FLAT_ARM_ROW_PLACE                          \
+    "ldm r9, {r0, r1, r2, r3, r4, r5}\n\t"          \
+    "mla r2, r4, r8, r2\n\t"                        \
+    "mla r1, r5, r8, r1\n\t"                        \
+    "mla r2, r3, r6, r2\n\t"                        \
+    "add r1, r1, r6, lsl #1\n\t"
+
+#define FLAT_ARM_ROW_END                            \
+    "8: adds r8, r8, #1\n\t"                        \
+    "bne 1b\n\t"
+
 #define FLAT_LINES_ARM(PLACE, BREAK, PIXELS, ACROSS)                \
-    __asm__ volatile(".syntax unified\n\t"                          \
-                     "push {r0}\n\t"                                \
-                     "mov r8, r1\n\t"                               \
-                     "add r9, r0, #40\n\t"                          \
-                     "ldm r0, {r10, r11, r12, lr}\n"                \
-                     "1: ldmdb r9, {r0, r1, r2, r3, r6, r7}\n\t"    \
-                     "cmp r6, r11, asr #10\n\t"                     \
-                     "movlt r6, r11, asr #10\n\t"                   \
-                     "cmp r7, lr, asr #10\n\t"                      \
-                     "movgt r7, lr, asr #10\n\t"                    \
-                     "adds r10, r10, r0\n\t"                        \
-                     "adc r11, r11, r1\n\t"                         \
-                     "adds r12, r12, r2\n\t"                        \
-                     "adc lr, lr, r3\n\t"                           \
-                     "subs r7, r7, r6\n\t"                          \
-                     "ble 8f\n\t"                                   \
-                     "ldm r9, {r0, r1, r2, r3, r4, r5}\n\t"         \
-                     "mla r2, r4, r8, r2\n\t"                       \
-                     "mla r1, r5, r8, r1\n\t"                       \
-                     "mla r2, r3, r6, r2\n\t"                       \
-                     "add r1, r1, r6, lsl #1\n\t"                   \
+    __asm__ volatile(FLAT_ARM_ROW_START FLAT_ARM_ROW_PLACE          \
                      "ldr r6, [r9, #28]\n\t"                        \
                      PLACE BREAK PIXELS                             \
-                     "8: adds r8, r8, #1\n\t"                       \
-                     "bne 1b\n\t" ACROSS                            \
+                     FLAT_ARM_ROW_END ACROSS                        \
                      "9: pop {r0}\n\t"                              \
                      "stm r0, {r10, r11, r12, lr}"                  \
                      : "+r"(r0), "+r"(r1)                           \
                      :                                              \
                      : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-#define FLAT_ARM_NARROW FLAT_ARM_PIXELS("1", "strhhi", "2", "4", "6", "8", "10", "12", "14", "16")
-#define FLAT_ARM_WIDE FLAT_ARM_PIXELS("2", "strhi", "4", "8", "12", "16", "20", "24", "28", "32")
+#define FLAT_ARM_NARROW FLAT_ARM_PIXELS("1", "strhhi r6", "2", "4", "6", "8", "10", "12", "14", "16")
+#define FLAT_ARM_WIDE FLAT_ARM_PIXELS("2", "strhi r6", "4", "8", "12", "16", "20", "24", "28", "32")
 #define FLAT_ARM_PLACE_NARROW "add r0, r0, r1\n\t"
 #define FLAT_ARM_PLACE_WIDE "add r0, r0, r1, lsl #1\n\t"
 
@@ -119,14 +130,151 @@ static inline void flat_lines_arm(struct flat_lines *l, int32_t n, bool narrow)
     register struct flat_lines *r0 __asm__("r0") = l;
     register int32_t r1 __asm__("r1") = -n;
     if (narrow && l->breaks)
-        FLAT_LINES_ARM(FLAT_ARM_PLACE_NARROW, FLAT_ARM_BREAK, FLAT_ARM_NARROW, "b 9f\n" FLAT_ARM_ACROSS("strhhi", "2"));
+        FLAT_LINES_ARM(FLAT_ARM_PLACE_NARROW, FLAT_ARM_BREAK, FLAT_ARM_NARROW, "b 9f\n" FLAT_ARM_ACROSS("strhhi r6", "2", "8"));
     else if (narrow)
         FLAT_LINES_ARM(FLAT_ARM_PLACE_NARROW, "", FLAT_ARM_NARROW, "");
     else if (l->breaks)
-        FLAT_LINES_ARM(FLAT_ARM_PLACE_WIDE, FLAT_ARM_BREAK, FLAT_ARM_WIDE, "b 9f\n" FLAT_ARM_ACROSS("strhi", "4"));
+        FLAT_LINES_ARM(FLAT_ARM_PLACE_WIDE, FLAT_ARM_BREAK, FLAT_ARM_WIDE, "b 9f\n" FLAT_ARM_ACROSS("strhi r6", "4", "8"));
     else
         FLAT_LINES_ARM(FLAT_ARM_PLACE_WIDE, "", FLAT_ARM_WIDE, "");
 }
+
+#if SMEAR_LATE_BLOCKS
+SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, breaks) == 73, "the assembly knows struct flat_lines");
+
+/* In r11, LATE_CLEAR where whole blocks of the row may stay late (late_is_sure). */
+#define FLAT_ARM_LATE_SURE               \
+    "2: mov r11, #0\n\t"                 \
+    "cmp r7, #8\n\t"                     \
+    "blt 3f\n\t"                         \
+    "cmp r7, #255\n\t"                   \
+    "bgt 3f\n\t"                         \
+    "add r5, r3, #0x1000000\n\t"         \
+    "cmp r5, #0x2000000\n\t"             \
+    "bhs 3f\n\t"                         \
+    "sub r4, r7, #1\n\t"                 \
+    "mla r4, r3, r4, r2\n\t"             \
+    "cmp r3, #0\n\t"                     \
+    "movge r5, r4\n\t"                   \
+    "movge r12, r2\n\t"                  \
+    "movlt r5, r2\n\t"                   \
+    "movlt r12, r4\n\t"                  \
+    "cmp r5, r12\n\t"                    \
+    "cmphs r12, #0x10000\n\t"            \
+    "movhs r11, #0x40000000\n"
+
+/* Depth codes of two pixels. */
+#define FLAT_ARM_LATE_PAIR(TO)           \
+    "mov " TO ", r2, lsr #16\n\t"        \
+    "add r2, r2, r3\n\t"                 \
+    "mov r6, r2, lsr #16\n\t"            \
+    "orr " TO ", " TO ", r6, lsl #16\n\t" \
+    "add r2, r2, r3\n\t"
+
+/* Blocks of a row, of which the first has r6 pixels before the run's: r12 pixels a round. At 6, whole ones that stay late. */
+#define FLAT_ARM_LATE_PIXELS             \
+    "3: rsb r12, r6, #8\n\t"             \
+    "cmp r12, r7\n\t"                    \
+    "movgt r12, r7\n\t"                  \
+    "sub r8, r0, r6, lsl #2\n\t"         \
+    "ldr r4, [r8]\n\t"                   \
+    "cmp r4, #0\n\t"                     \
+    "bpl 32f\n\t"                        \
+    "cmp r12, #8\n\t"                    \
+    "bne 31f\n\t"                        \
+    "tst r4, r11\n\t"                    \
+    "bne 6f\n"                           \
+    "31: sub r5, r1, r6, lsl #1\n\t"     \
+    "bl 70f\n"                           \
+    "32: rsb r4, r12, #8\n\t"            \
+    "sub r0, r0, r4, lsl #2\n\t"         \
+    "sub r1, r1, r4, lsl #1\n\t"         \
+    "add r4, r4, r4, lsl #1\n\t"         \
+    "add pc, pc, r4, lsl #3\n\t"         \
+    "nop\n\t" FLAT_ARM_EIGHT("strhi r10", "4", "8", "12", "16", "20", "24", "28") \
+    "add r0, r0, #32\n\t"                \
+    "add r1, r1, #16\n\t"                \
+    "mov r6, #0\n\t"                     \
+    "subs r7, r7, r12\n\t"               \
+    "bgt 3b\n"                           \
+    "7: pop {r8, r10, r11, r12, lr}\n"
+
+#define FLAT_ARM_LATE_WHOLE              \
+    "6: orr r4, r10, #0x80000000\n\t"    \
+    "str r4, [r0]\n\t"                   \
+    "stmib r0, {r2, r3}\n\t"             \
+    "add r0, r0, #32\n\t"                \
+    "add r1, r1, #16\n\t"                \
+    "add r2, r2, r3, lsl #3\n\t"         \
+    "subs r7, r7, #8\n\t"                \
+    "ble 7b\n\t"                         \
+    "cmp r7, #8\n\t"                     \
+    "blt 3b\n\t"                         \
+    "ldr r4, [r0]\n\t"                   \
+    "tst r4, r11\n\t"                    \
+    "bne 6b\n\t"                         \
+    "b 3b\n"
+
+/* Settles the block at r8, whose depths are at r5 and whose first pixel is in r4. */
+#define FLAT_ARM_LATE_SETTLE             \
+    "70: push {r0, r1, r2, r3}\n\t"      \
+    "tst r4, #0x40000000\n\t"            \
+    "ldmibeq r8, {r2, r3}\n\t"           \
+    "bic r4, r4, #0xff000000\n\t"        \
+    "mov r6, r4\n\t"                     \
+    "stmia r8!, {r4, r6}\n\t"            \
+    "stmia r8!, {r4, r6}\n\t"            \
+    "stmia r8!, {r4, r6}\n\t"            \
+    "stmia r8!, {r4, r6}\n\t"            \
+    "sub r8, r8, #32\n\t"                \
+    "mov r0, #0\n\t"                     \
+    "mov r1, #0\n\t"                     \
+    "bne 71f\n\t"                        \
+    FLAT_ARM_LATE_PAIR("r0") FLAT_ARM_LATE_PAIR("r1") \
+    "stmia r5!, {r0, r1}\n\t"            \
+    FLAT_ARM_LATE_PAIR("r0") FLAT_ARM_LATE_PAIR("r1") \
+    "subs r4, r4, r4\n"                  \
+    "71: stmiane r5!, {r0, r1}\n\t"      \
+    "stmia r5!, {r0, r1}\n\t"            \
+    "sub r5, r5, #16\n\t"                \
+    "pop {r0, r1, r2, r3}\n\t"           \
+    "mov pc, lr\n"
+
+/* A row whose codes have their break within it. */
+#define FLAT_ARM_LATE_ACROSS             \
+    "5: add r12, r6, r7\n\t"             \
+    "sub r8, r0, r6, lsl #2\n\t"         \
+    "sub r5, r1, r6, lsl #1\n"           \
+    "51: ldr r4, [r8]\n\t"               \
+    "cmp r4, #0\n\t"                     \
+    "blmi 70b\n\t"                       \
+    "add r8, r8, #32\n\t"                \
+    "add r5, r5, #16\n\t"                \
+    "subs r12, r12, #8\n\t"              \
+    "bgt 51b\n" FLAT_ARM_ACROSS("strhi r10", "4", "7")
+
+/* Like flat_lines_late_reference. Depths lie at multiples of four bytes in each row. */
+static inline void flat_lines_late_arm(struct flat_lines *l, int32_t n)
+{
+    l->z += l->dz_down * (uint32_t)n;
+    l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes * n);
+    register struct flat_lines *r0 __asm__("r0") = l;
+    register int32_t r1 __asm__("r1") = -n;
+    __asm__ volatile(FLAT_ARM_ROW_START
+                     "push {r8, r10, r11, r12, lr}\n\t" FLAT_ARM_ROW_PLACE
+                     "ldr r10, [r9, #28]\n\t" FLAT_ARM_PLACE_WIDE
+                     "and r6, r6, #7\n\t"
+                     "ldrb r4, [r9, #33]\n\t"
+                     "cmp r4, #0\n\t"
+                     "beq 2f\n\t" FLAT_ARM_BREAK FLAT_ARM_LATE_SURE FLAT_ARM_LATE_PIXELS FLAT_ARM_ROW_END
+                     "b 9f\n" FLAT_ARM_LATE_WHOLE FLAT_ARM_LATE_SETTLE FLAT_ARM_LATE_ACROSS
+                     "9: pop {r0}\n\t"
+                     "stm r0, {r10, r11, r12, lr}"
+                     : "+r"(r0), "+r"(r1)
+                     :
+                     : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+}
+#endif
 
 #endif
 

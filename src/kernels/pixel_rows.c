@@ -190,6 +190,13 @@ SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blo
 }
 #endif
 
+#if SMEAR_ASM_ARM
+static SMEAR_NOINLINE void blocks_555_arm(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool late)
+{
+    dithered_blocks_arm(out, in, blocks, step, late);
+}
+#endif
+
 SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool is_555,
                                      bool swapped)
 {
@@ -198,7 +205,7 @@ SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t 
 #else
 #if SMEAR_ASM_ARM
     if (is_555) {
-        dithered_blocks_arm(out, in, blocks, step);
+        blocks_555_arm(out, in, blocks, step, false);
         return;
     }
 #endif
@@ -275,6 +282,12 @@ void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit fo
         const uint32_t turned[BLOCK_PAIRS] = { pair_of(step[0] & 0xffffu, step[0] >> 16), pair_of(step[1] & 0xffffu, step[1] >> 16),
                                                pair_of(step[2] & 0xffffu, step[2] >> 16), pair_of(step[3] & 0xffffu, step[3] >> 16) };
         step = turned;
+#endif
+#if SMEAR_ASM_ARM
+        if (SMEAR_WITH_RGB && format == ROW_555) {
+            blocks_555_arm(out, in, blocks, step, r->late);
+            continue;
+        }
 #endif
         fn(out, in, blocks, step);
     }

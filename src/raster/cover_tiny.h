@@ -93,6 +93,7 @@ SMEAR_INLINE void cover_tiny(const struct setup *s, int32_t area, const struct p
         if (ring_row >= t->window_rows.ring)
             ring_row -= t->window_rows.ring;
         int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0, end = at + (x1 - x);
+        target_settle(t, at - x, x, x1);
         do {
             uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
             uint32_t code = tiny_depth(q0, q1, q2, w1, w2);

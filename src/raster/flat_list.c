@@ -141,6 +141,9 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->color = target_pixel(t, color);
     if (l->narrow)
         l->color *= 0x10001u;
+#if SMEAR_LATE_BLOCKS
+    l->late = t->late;
+#endif
     l->depth_bytes = t->window_rows.stride * 2;
     l->to_pixels = l->narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
 }
@@ -149,8 +152,23 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
 /* One copy of each loop: fast memory has no room for more. */
 #define FLAT_COPY SMEAR_NOINLINE
 #define FLAT_ROWS_COPY static SMEAR_NOINLINE
+#if SMEAR_LATE_BLOCKS
+static FLAT_COPY void draw_late_lines(struct flat_lines *l, int32_t n) { flat_lines_late_arm(l, n); }
+
+void smear_target_settle(const struct smear_raster_target *t, int32_t at, int32_t a, int32_t b)
+{
+    late_settle_run(t->color + at, t->depth + at, max_i32(a, t->x0), min_i32(b, t->x1));
+}
+#endif
+
 static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
 {
+#if SMEAR_LATE_BLOCKS
+    if (l->late) {
+        draw_late_lines(l, n);
+        return;
+    }
+#endif
     flat_lines_arm(l, n, SMEAR_DIRECT && l->narrow);
 }
 #else
