@@ -169,11 +169,13 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     return SMEAR_OK;
 }
 
-/* An id may be submitted once in a frame. */
-static bool is_submitted(const struct smear_context *c, uint32_t id)
+/* An id may be submitted once in a frame; `at` is its place in the history. */
+static bool is_submitted(const struct smear_context *c, uint32_t id, int32_t at)
 {
-    bool knows, found = smear_history_has(&c->history, id, &knows);
-    for (uint32_t i = 0; !knows && !found && i < c->draw_count; i++)
+    if (at >= 0)
+        return smear_history_has(&c->history, at, id);
+    bool found = false;
+    for (uint32_t i = 0; id != 0 && !found && i < c->draw_count; i++)
         found = c->submitted[i].draw.id == id;
     return found;
 }
@@ -187,6 +189,23 @@ static void copy_pose(const smear_transform **given, smear_transform *own)
     *given = own;
 }
 
+/* Keeps where a draw is for frames to come, `at` being the place of its id, or -1; and finds where it was, unless the
+ * application has said so. Transforms have some 50 bytes: copies of them are much of what a draw costs on small machines, so
+ * contexts that are always sharp keep none. */
+static void recall(struct smear_context *c, struct smear_submitted *s, int32_t at)
+{
+    smear_transform unused[2];
+    const bool is_sharp = c->desc.methods == SMEAR_SET(SMEAR_NONE), is_told = s->draw.open != NULL || c->shot.shutter_poses;
+    const bool cut = s->draw.cut || c->shot.cut;
+    int known = 0;
+    if (at >= 0)
+        known = smear_history_keep(&c->history, at, s->draw.id, is_sharp ? NULL : s->draw.now, cut, is_told ? unused : &s->pose[1]);
+    if (is_told)
+        return;
+    s->draw.open = known > 0 ? &s->pose[1] : NULL;
+    s->draw.close = known > 1 ? &s->pose[2] : NULL;
+}
+
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
@@ -197,7 +216,8 @@ int smear_submit(smear_context *c, const smear_draw *draw)
         return result;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
-    if (is_submitted(c, draw->id))
+    const int32_t at = smear_history_find(&c->history, draw->id);
+    if (is_submitted(c, draw->id, at))
         return FAULT(DRAW_ID);
     if (c->draw_count == c->desc.max_draws)
         return SMEAR_ERR_FULL;
@@ -208,16 +228,7 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     copy_pose(&s->draw.now, &s->pose[0]);
     copy_pose(&s->draw.open, &s->pose[1]);
     copy_pose(&s->draw.close, &s->pose[2]);
-    smear_transform past[2] = { s->pose[0], s->pose[0] };
-    const bool cut = draw->cut || c->shot.cut;
-    const int known = smear_history_keep(&c->history, draw->id, s->draw.now, cut, past);
-    if (draw->open != NULL || c->shot.shutter_poses)
-        return SMEAR_OK;
-    for (int i = 0; i < 2; i++) {
-        const smear_transform **pose = i == 0 ? &s->draw.open : &s->draw.close;
-        s->pose[i + 1] = past[i];
-        *pose = i < known ? &s->pose[i + 1] : NULL;
-    }
+    recall(c, s, at);
     return SMEAR_OK;
 }
 

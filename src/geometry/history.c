@@ -21,10 +21,11 @@ void smear_history_clear(struct smear_history *h)
         h->older->has_camera = false;
 }
 
-/* Returns the place of an id: its own, else a free one, else one not seen in the last frame; or -1. */
-static int32_t find(const struct smear_history *h, uint32_t id)
+int32_t smear_history_find(const struct smear_history *h, uint32_t id)
 {
     int32_t spare = -1;
+    if (!SMEAR_BLURS || id == 0)
+        return -1;
     uint32_t at = id % h->room;
     for (uint32_t i = 0; i < h->room; i++, at = at + 1 == h->room ? 0 : at + 1) {
         const struct smear_kept_pose *k = &h->kept[at];
@@ -38,24 +39,21 @@ static int32_t find(const struct smear_history *h, uint32_t id)
     return spare;
 }
 
-bool smear_history_has(const struct smear_history *h, uint32_t id, bool *knows)
+bool smear_history_has(const struct smear_history *h, int32_t at, uint32_t id)
 {
-    *knows = SMEAR_BLURS || id == 0;
-    if (!SMEAR_BLURS || id == 0)
-        return false;
-    const int32_t at = find(h, id);
-    *knows = at >= 0;
-    return at >= 0 && h->kept[at].id == id && h->kept[at].frame == h->frame;
+    return SMEAR_BLURS && h->kept[at].id == id && h->kept[at].frame == h->frame;
 }
 
-int smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, bool cut,
+int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const smear_transform *pose, bool cut,
                        smear_transform past[2])
 {
-    const int32_t at = SMEAR_BLURS && id != 0 ? find(h, id) : -1;
-    if (at < 0)
-        return 0;
     struct smear_kept_pose *k = &h->kept[at];
     int count = k->id == id && k->frame + 1u == h->frame;
+    const uint32_t before = k->frame;
+    k->id = id;
+    k->frame = h->frame;
+    if (pose == NULL)
+        return 0;
     if (count != 0)
         past[0] = k->pose;
     if (SMEAR_WITH_CURVES && h->older != NULL) {
@@ -64,11 +62,9 @@ int smear_history_keep(struct smear_history *h, uint32_t id, const smear_transfo
             past[1] = o->pose;
             count = 2;
         }
-        o->frame = count != 0 && !cut ? k->frame : h->frame;        /* that of no frame to come is its own */
+        o->frame = count != 0 && !cut ? before : h->frame;          /* that of no frame to come is its own */
         o->pose = k->pose;
     }
-    k->id = id;
-    k->frame = h->frame;
     k->pose = *pose;
     return count;
 }

@@ -37,13 +37,16 @@ struct smear_history {
 void smear_history_lay_out(struct smear_history *h, struct smear_arena *a, uint32_t max_draws, bool one_pose);
 void smear_history_clear(struct smear_history *h);
 
-/* Whether an id was submitted in this frame already, as far as there was room to keep it. *knows: there was. */
-bool smear_history_has(const struct smear_history *h, uint32_t id, bool *knows);
+/* The place of an id: its own, else a free one, else one not seen in the last frame; -1: there is none, and id 0 has none. */
+int32_t smear_history_find(const struct smear_history *h, uint32_t id);
 
-/* Keeps the pose of an id, and writes those it had in the last frame and in the one before to past[0] and past[1].
- * Returns how many it had, without a frame left out: 0 to 2. `cut`: it jumped to the new one, from which no curve leads
- * back. */
-int smear_history_keep(struct smear_history *h, uint32_t id, const smear_transform *pose, bool cut,
+/* Whether the id, whose place is `at`, was submitted in this frame already. */
+bool smear_history_has(const struct smear_history *h, int32_t at, uint32_t id);
+
+/* Keeps the pose of an id at its place, and writes those it had in the last frame and in the one before to past[0] and
+ * past[1]. Returns how many it had, without a frame left out: 0 to 2. `cut`: it jumped to the new one, from which no curve
+ * leads back. pose null: the id alone is kept, as where no frame is blurred; then it is null always. */
+int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const smear_transform *pose, bool cut,
                        smear_transform past[2]);
 
 #endif

@@ -451,6 +451,34 @@ static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
     rig_end(&r);
 }
 
+/* In sharp contexts, which keep no poses, as in others; draws without an id may be many. */
+static void test_an_id_comes_once_in_a_frame(void)
+{
+    static const uint16_t methods[] = { SMEAR_SET(SMEAR_NONE), SMEAR_SET(SMEAR_AUTO) };
+    for (int i = 0; i < 2; i++) {
+        static const uint32_t id[] = { 5, 0, 6, 0, 7 };
+        smear_desc desc = small_desc(32, 32);
+        desc.methods = methods[i];
+        desc.max_draws = 7;
+        struct rig r;
+        if (!rig_begin(&r, &desc, false))
+            continue;
+        struct scene s;
+        make_scene(&s, 0, SMEAR_NONE);
+        for (int frame = 0; frame < 3; frame++) {
+            CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+            for (int k = 0; k < 5; k++) {
+                smear_draw d = s.draw[1];
+                d.id = id[k];
+                CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_OK);
+                CHECK_EQ(smear_error_kind(smear_submit(r.ctx, &d)), d.id == 0 ? SMEAR_OK : SMEAR_ERR_ARG);
+            }
+            CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        }
+        rig_end(&r);
+    }
+}
+
 /* ------------------------------------------------------------------ capacity */
 
 /* Frames 0 to 2 of the scene with ample room, then with `tight`: the same pictures, unless triangles are dropped.
@@ -2378,6 +2406,7 @@ void suite_api(void)
     RUN(test_what_is_submitted_may_change_before_it_is_drawn);
     RUN(test_statistics_say_how_full_each_list_was);
     RUN(test_draws_beyond_the_limit_are_refused_and_not_drawn);
+    RUN(test_an_id_comes_once_in_a_frame);
     RUN(test_a_full_triangle_list_changes_no_pixel);
     RUN(test_a_frame_in_many_parts_is_the_frame_in_one);
     RUN(test_a_row_that_does_not_fit_is_the_same_picture_by_every_method);

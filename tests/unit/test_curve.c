@@ -347,7 +347,7 @@ static int keep(struct smear_history *h, uint32_t id, int number, bool cut)
     smear_transform now = identity, past[2] = { identity, identity };
     h->frame++;
     now.origin[0] = number;
-    const int count = smear_history_keep(h, id, &now, cut, past);
+    const int count = smear_history_keep(h, smear_history_find(h, id), id, &now, cut, past);
     for (int i = 0; i < count; i++)
         CHECK_EQ(past[i].origin[0], number - 1 - i);
     return count;
@@ -389,10 +389,27 @@ static void test_a_frame_without_the_id_forgets_it(void)
     h.frame += 2;
     for (uint32_t id = 20; id < 24; id++) {
         smear_transform past[2], now = SMEAR_IDENTITY;
-        CHECK_EQ(smear_history_keep(&h, id, &now, false, past), 0);
+        CHECK_EQ(smear_history_keep(&h, smear_history_find(&h, id), id, &now, false, past), 0);
     }
     h.frame--;
     CHECK_EQ(keep(&h, 9, 7, false), 0);
+}
+
+static void test_the_id_alone_is_kept_where_no_pose_is_given(void)
+{
+    static uint64_t memory[256];
+    struct smear_history h = history_of(memory, false);
+    CHECK_EQ(smear_history_find(&h, 0), -1);
+    for (h.frame = 1; h.frame < 4; h.frame++)
+        for (uint32_t id = 20; id < 24; id++) {
+            smear_transform past[2];
+            const int32_t at = smear_history_find(&h, id);
+            CHECK(at >= 0 && !smear_history_has(&h, at, id));
+            CHECK_EQ(smear_history_keep(&h, at, id, NULL, false, past), 0);
+            CHECK(smear_history_find(&h, id) == at && smear_history_has(&h, at, id));
+        }
+    h.frame--;
+    CHECK_EQ(smear_history_find(&h, 24), -1);       /* all four places are in use */
 }
 
 void suite_curve(void)
@@ -412,4 +429,5 @@ void suite_curve(void)
     RUN(test_two_poses_are_kept_of_each_id);
     RUN(test_no_curve_leads_over_a_cut);
     RUN(test_a_frame_without_the_id_forgets_it);
+    RUN(test_the_id_alone_is_kept_where_no_pose_is_given);
 }
