@@ -46,23 +46,34 @@ static inline void flat_lines_side(struct flat_lines *l, int side, const struct 
     l->step[side][1] = (uint32_t)e->step_high;
 }
 
+/* What references walk by. */
+static inline void flat_lines_take_sides(const struct flat_lines *l, struct edge_fine side[2])
+{
+    for (int i = 0; i < 2; i++)
+        side[i] = (struct edge_fine){ l->x[i][0], (int32_t)l->x[i][1], l->step[i][0], (int32_t)l->step[i][1] };
+}
+
+static inline void flat_lines_go_down(struct flat_lines *l, struct edge_fine side[2])
+{
+    edge_fine_step(&side[0]);
+    edge_fine_step(&side[1]);
+    l->z += l->dz_down;
+    l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes);
+}
+
 /* Draws pixels of n rows, one at least, from one side to before the other, if there are any, like flat_run. The next row is then that
  * below. */
 static inline void flat_lines_reference(struct flat_lines *l, int32_t n)
 {
     struct edge_fine side[2];
-    for (int i = 0; i < 2; i++)
-        side[i] = (struct edge_fine){ l->x[i][0], (int32_t)l->x[i][1], l->step[i][0], (int32_t)l->step[i][1] };
+    flat_lines_take_sides(l, side);
     for (; n > 0; n--) {
         void *const pixels = (void *)((uintptr_t)l->depth * (l->narrow ? 1u : 2u) + l->to_pixels);
         const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
         for (int32_t x = a; x < b; x++)
             flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, l->breaks), l->narrow ? l->color & 0xffffu : l->color,
                        l->narrow);
-        edge_fine_step(&side[0]);
-        edge_fine_step(&side[1]);
-        l->z += l->dz_down;
-        l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes);
+        flat_lines_go_down(l, side);
     }
     flat_lines_side(l, 0, &side[0]);
     flat_lines_side(l, 1, &side[1]);
@@ -89,8 +100,7 @@ static inline void flat_late_block(uint32_t *pixels, uint16_t *depth, int32_t a,
 static inline void flat_lines_late_reference(struct flat_lines *l, int32_t n)
 {
     struct edge_fine side[2];
-    for (int i = 0; i < 2; i++)
-        side[i] = (struct edge_fine){ l->x[i][0], (int32_t)l->x[i][1], l->step[i][0], (int32_t)l->step[i][1] };
+    flat_lines_take_sides(l, side);
     for (; n > 0; n--) {
         uint32_t *const pixels = (uint32_t *)(void *)((uintptr_t)l->depth * 2u + l->to_pixels);
         const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
@@ -108,10 +118,7 @@ static inline void flat_lines_late_reference(struct flat_lines *l, int32_t n)
                 flat_late_block(pixels, l->depth, x, end, z + dz * (uint32_t)(x - a), l, dz, sure);
             }
         }
-        edge_fine_step(&side[0]);
-        edge_fine_step(&side[1]);
-        l->z += l->dz_down;
-        l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes);
+        flat_lines_go_down(l, side);
     }
     flat_lines_side(l, 0, &side[0]);
     flat_lines_side(l, 1, &side[1]);
