@@ -9,6 +9,7 @@
 #include "kernels/gradient.h"
 #include "raster/cover_tiny.h"
 #include "raster/gradient.h"
+#include "raster/kept_found.h"
 
 #if SMEAR_FLAT_LIST
 
@@ -195,9 +196,10 @@ static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t 
     draw_lines(l, n);
 }
 
-/* Draws rows [y, end), of which those before the knee lie at one short side. */
+/* Draws rows [y, end), of which those before the knee lie at one short side. `on`: the sides are those of row y already, as rows above
+ * have left them; but a side that begins with it is new. */
 FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
-                              int32_t end)
+                              int32_t end, bool on)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
     const int whole = c->whole_is_left ? 0 : 1;
@@ -205,11 +207,14 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
     if (left <= 0)
         left += w->ring;
     l->depth = t->depth + ((w->ring - left) * w->stride - w->x0);
-    line_start(l, whole, c->top, c->bottom, y - c->first);
-    while (y < end) {
+    if (!on)
+        line_start(l, whole, c->top, c->bottom, y - c->first);
+    for (on = on && y != c->knee; y < end; on = false) {
         const bool upper = y < c->knee;
         const int32_t n = (upper ? min_i32(c->knee, end) : end) - y;
-        if (upper)
+        if (on)
+            ;
+        else if (upper)
             line_start(l, 1 - whole, c->top, c->middle, y - c->first);
         else
             line_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
@@ -226,8 +231,45 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
 
 /* ------------------------------------------------------------------ triangles */
 
+/* What is kept of one that goes on in the rows below. */
+struct kept_flat {
+    struct kept kept;
+    uint32_t side[8], z, dz, dz_down, breaks;
+};
+
+/* In numbers of triangles: what is kept is a struct kept_flat. */
+#define FLAT_KEPT 0x80000000u
+
+/* Draws one whose rows reach beyond the target's. */
+static SMEAR_NOINLINE void draw_part(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c,
+                                     const int32_t *const v[3], uint32_t number, int32_t y, int32_t end)
+{
+    const bool goes_on = c->end > t->y1;
+    bool known;
+    struct kept_flat *const k = (struct kept_flat *)find_kept(t, number | FLAT_KEPT, c->first < t->y0, goes_on, &known);
+    if (known) {
+        kept_words((uint32_t *)l, k->side, sizeof k->side);
+        l->z = k->z;
+        l->dz = k->dz;
+        l->dz_down = k->dz_down;
+        l->breaks = k->breaks != 0;
+    } else {
+        depth_make(l, v, y);
+    }
+    draw_rows(t, l, c, y, end, known);
+    if (k == NULL)
+        return;
+    k->kept.triangle = goes_on ? number | FLAT_KEPT : SMEAR_NO_TRIANGLE;
+    k->kept.end = c->end;
+    kept_words(k->side, (const uint32_t *)l, sizeof k->side);
+    k->z = l->z;
+    k->dz = l->dz;
+    k->dz_down = l->dz_down;
+    k->breaks = l->breaks;
+}
+
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
-                         bool whole)
+                         bool whole, uint32_t number)
 {
     struct corners c;
     struct flat_lines l;
@@ -244,8 +286,12 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     if (y >= end)
         return true;
     lines_start(&l, t, color);
+    if (number != SMEAR_NO_TRIANGLE && (c.first < t->y0 || c.end > t->y1)) {
+        draw_part(t, &l, &c, v, number, y, end);
+        return true;
+    }
     depth_make(&l, v, y);
-    draw_rows(t, &l, &c, y, end);
+    draw_rows(t, &l, &c, y, end, false);
     return true;
 }
 
@@ -259,7 +305,7 @@ bool smear_flat_entry(const struct smear_raster_frame *frame, const struct smear
     const int32_t *const v[3] = { bins_vertex(bins, g, t->vertex[0]), bins_vertex(bins, g, t->vertex[1]),
                                   bins_vertex(bins, g, t->vertex[2]) };
     return segment_is_flat(frame, g)
-        && smear_flat_triangle(target, v, t->color, NULL, target->x0 <= 0 && target->x1 >= frame->width);
+        && smear_flat_triangle(target, v, t->color, NULL, target->x0 <= 0 && target->x1 >= frame->width, SMEAR_NO_TRIANGLE);
 }
 #endif
 
@@ -274,7 +320,7 @@ void smear_flat_cover(const struct setup *s)
         return;
     lines_start(&l, t, s->color);
     codes_make(&l, s->slope, plane_at(&s->depth, 0, y), s->depth.dx, s->depth.dy);
-    draw_rows(t, &l, &c, y, end);
+    draw_rows(t, &l, &c, y, end, false);
 }
 
 #endif

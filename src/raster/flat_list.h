@@ -33,7 +33,7 @@ static inline bool flat_list_suits(const struct smear_raster_frame *frame, const
  * tiny (cover_tiny.h): it is drawn there. `given`: the box of its vertices, or null. `whole`: the target has all columns of the
  * frame. */
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
-                         bool whole);
+                         bool whole, uint32_t number);
 
 /* Draws the target's rows of one that is ready: not small, without velocity. */
 void smear_flat_cover(const struct setup *s);

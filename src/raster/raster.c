@@ -552,7 +552,7 @@ static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *f
         /* After one that is large, some are not even looked at. */
         if (!loops)
             tiny = (tiny || (number & 3u) == 0) && tiny_draw(look, v, t->color);
-        if (!tiny && !smear_flat_triangle(target, v, t->color, NULL, whole))
+        if (!tiny && !smear_flat_triangle(target, v, t->color, NULL, whole, number))
             draw_triangle(frame, target, g, t->color, number, v, NULL, moved);
     }
     return head;
@@ -681,7 +681,7 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
 {
     bool moved = false;
 #if SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES
-    if (flat_list_suits(frame, target, segment) && smear_flat_triangle(target, v, color, bounds, false))
+    if (flat_list_suits(frame, target, segment) && smear_flat_triangle(target, v, color, bounds, false, SMEAR_NO_TRIANGLE))
         return;
 #endif
     if (HAS_LOOP_FOR_FOG && frame_has_fog(frame))
