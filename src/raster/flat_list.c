@@ -134,6 +134,11 @@ static inline void line_start(struct flat_lines *l, int side, const int32_t *a, 
 }
 #endif
 
+static inline uintptr_t to_pixels_of(const struct smear_raster_target *t, bool narrow)
+{
+    return narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
+}
+
 static inline void lines_start(struct flat_lines *l, const struct smear_raster_target *t, uint32_t color)
 {
     l->x0 = t->x0;
@@ -146,7 +151,7 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->late = t->late;
 #endif
     l->depth_bytes = t->window_rows.stride * 2;
-    l->to_pixels = l->narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
+    l->to_pixels = to_pixels_of(t, l->narrow);
 }
 
 #if SMEAR_ASM_ARM
@@ -212,11 +217,9 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
     for (on = on && y != c->knee; y < end; on = false) {
         const bool upper = y < c->knee;
         const int32_t n = (upper ? min_i32(c->knee, end) : end) - y;
-        if (on)
-            ;
-        else if (upper)
+        if (!on && upper)
             line_start(l, 1 - whole, c->top, c->middle, y - c->first);
-        else
+        else if (!on)
             line_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
         y += n;
         if (left >= n) {
@@ -231,48 +234,58 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
 
 /* ------------------------------------------------------------------ triangles */
 
-/* What is kept of one that goes on in the rows below. */
-struct kept_flat {
-    struct kept kept;
-    uint32_t side[8], z, dz, dz_down, breaks;
-};
-
-/* In numbers of triangles: what is kept is a struct kept_flat. */
+#if SMEAR_FLAT_KEPT
+/* In numbers of triangles that are kept: as a struct kept_flat. */
 #define FLAT_KEPT 0x80000000u
 
-/* Draws one whose rows reach beyond the target's. */
-static SMEAR_NOINLINE void draw_part(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c,
-                                     const int32_t *const v[3], uint32_t number, int32_t y, int32_t end)
+/* The only place where a triangle may be kept: one in ten finds another there, and is made ready again, which takes less than to look
+ * elsewhere does for all. */
+static inline struct kept_flat *flat_slot(const struct smear_raster_target *t, uint32_t number)
 {
-    const bool goes_on = c->end > t->y1;
-    bool known;
-    struct kept_flat *const k = (struct kept_flat *)find_kept(t, number | FLAT_KEPT, c->first < t->y0, goes_on, &known);
-    if (known) {
-        kept_words((uint32_t *)l, k->side, sizeof k->side);
-        l->z = k->z;
-        l->dz = k->dz;
-        l->dz_down = k->dz_down;
-        l->breaks = k->breaks != 0;
-    } else {
-        depth_make(l, v, y);
-    }
-    draw_rows(t, l, c, y, end, known);
-    if (k == NULL)
-        return;
-    k->kept.triangle = goes_on ? number | FLAT_KEPT : SMEAR_NO_TRIANGLE;
-    k->kept.end = c->end;
-    kept_words(k->side, (const uint32_t *)l, sizeof k->side);
-    k->z = l->z;
-    k->dz = l->dz;
-    k->dz_down = l->dz_down;
-    k->breaks = l->breaks;
+    return (struct kept_flat *)(void *)kept_at(&t->cache, (number * 40503u & 0xffffu) * t->cache.entries >> 16);
 }
+
+/* Draws the target's rows of one that is kept. False where it is not. */
+static inline bool draw_kept_rows(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t number)
+{
+    struct kept_flat *const k = flat_slot(t, number);
+    if (k->kept.triangle != (number | FLAT_KEPT))
+        return false;
+    const struct corners c = { NULL, v[k->middle], v[k->bottom], 0, k->knee, k->kept.end, k->whole_is_left };
+    k->lines.to_pixels = to_pixels_of(t, k->lines.narrow);      /* a band may have memory of its own */
+    draw_rows(t, &k->lines, &c, t->y0, min_i32(c.end, t->y1), true);
+    if (c.end <= t->y1)
+        k->kept.triangle = SMEAR_NO_TRIANGLE;
+    return true;
+}
+
+/* Where the lines of one that goes on below are drawn, to be kept; null where others are. */
+static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, const struct corners *c, const int32_t *const v[3],
+                                           uint32_t number)
+{
+    struct kept_flat *const k = flat_slot(t, number);
+    if (!entry_is_free(&k->kept, t))
+        return NULL;
+    k->kept = (struct kept){ number | FLAT_KEPT, c->end };
+    k->knee = c->knee;
+    k->middle = (uint8_t)(c->middle == v[0] ? 0 : c->middle == v[1] ? 1 : 2);
+    k->bottom = (uint8_t)(c->bottom == v[0] ? 0 : c->bottom == v[1] ? 1 : 2);
+    k->whole_is_left = c->whole_is_left;
+    return &k->lines;
+}
+#endif
 
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
                          bool whole, uint32_t number)
 {
     struct corners c;
-    struct flat_lines l;
+    struct flat_lines own, *l = &own;
+#if SMEAR_FLAT_KEPT
+    if (number != SMEAR_NO_TRIANGLE && draw_kept_rows(t, v, number))
+        return true;
+#else
+    (void)number;
+#endif
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
     const bool low = c.end - c.first <= SMALL_PX;
@@ -285,13 +298,15 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     }
     if (y >= end)
         return true;
-    lines_start(&l, t, color);
-    if (number != SMEAR_NO_TRIANGLE && (c.first < t->y0 || c.end > t->y1)) {
-        draw_part(t, &l, &c, v, number, y, end);
-        return true;
+#if SMEAR_FLAT_KEPT
+    if (number != SMEAR_NO_TRIANGLE && c.end > t->y1) {
+        struct flat_lines *const kept = keep_rows(t, &c, v, number);
+        l = kept != NULL ? kept : l;
     }
-    depth_make(&l, v, y);
-    draw_rows(t, &l, &c, y, end, false);
+#endif
+    lines_start(l, t, color);
+    depth_make(l, v, y);
+    draw_rows(t, l, &c, y, end, false);
     return true;
 }
 

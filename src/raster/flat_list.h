@@ -29,9 +29,9 @@ static inline bool flat_list_suits(const struct smear_raster_frame *frame, const
 }
 
 /* Draws an opaque triangle of this colour, clockwise on the screen, where pixels say nothing but colour and depth. The bits are
- * those of setup.c and cover.c. Nothing is kept of it for the next rows: to make it ready again takes less. False where it is
- * tiny (cover_tiny.h): it is drawn there. `given`: the box of its vertices, or null. `whole`: the target has all columns of the
- * frame. */
+ * those of setup.c and cover.c. False where it is tiny (cover_tiny.h): it is drawn there. `given`: the box of its vertices, or
+ * null. `whole`: the target has all columns of the frame. `number`: by which it is kept for the rows below (kept.h), or
+ * SMEAR_NO_TRIANGLE. */
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
                          bool whole, uint32_t number);
 

@@ -6,6 +6,7 @@
 #define SMEAR_RASTER_KEPT_H
 
 #include "kernels/flat_face.h"
+#include "raster/flat_list.h"
 #include "raster/lane_carried.h"
 
 /* They are a list where vectors draw (kept_list.h); else a table, which takes less code. */
@@ -47,6 +48,19 @@ struct kept_texels {
 #endif
 #endif
 
+/* Triangles of one colour that assembly draws are kept where lists have them one after the other, in lines that it goes on from. */
+#define SMEAR_FLAT_KEPT (SMEAR_RASTER_CACHE && SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES)
+
+#if SMEAR_FLAT_KEPT
+struct kept_flat {
+    struct kept kept;
+    struct flat_lines lines;    /* of the next row */
+    int32_t knee;               /* struct corners */
+    uint8_t middle, bottom;     /* corners' numbers */
+    bool whole_is_left;
+};
+#endif
+
 static inline uint32_t *kept_setup(struct kept *k) { return (uint32_t *)(void *)(k + 1); }
 
 /* Bytes of a setup's members from one to just before another. */
@@ -62,6 +76,10 @@ static inline size_t kept_bytes(const struct smear_segment *s)
         bytes += KEPT_BYTES(channel, area_recip);
     if (segment_moves(s) != 0)
         bytes += sizeof(struct setup) - offsetof(struct setup, area_recip);
+#if SMEAR_FLAT_KEPT
+    if (bytes < sizeof(struct kept_flat))
+        bytes = sizeof(struct kept_flat);
+#endif
 #if SMEAR_KEPT_LISTS
     bytes = ((bytes > sizeof(struct kept_face) ? bytes : sizeof(struct kept_face)) + 7) & ~(size_t)7;
 #if SMEAR_LANE_ROWS

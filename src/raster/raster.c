@@ -523,6 +523,7 @@ static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *f
     const uint32_t segment = bins_triangle(bins, head)->segment;
     const struct smear_segment *const g = &bins->segment[segment];
     const bool whole = target->x0 <= 0 && target->x1 >= frame->width, narrow = target_is_direct(target);
+    const bool keeps = SMEAR_FLAT_KEPT && target->cache.entries != 0;
     bool tiny = true;
 #if TINY_TRIANGLES
     struct tiny_triangles triangles;
@@ -552,7 +553,7 @@ static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *f
         /* After one that is large, some are not even looked at. */
         if (!loops)
             tiny = (tiny || (number & 3u) == 0) && tiny_draw(look, v, t->color);
-        if (!tiny && !smear_flat_triangle(target, v, t->color, NULL, whole, number))
+        if (!tiny && !smear_flat_triangle(target, v, t->color, NULL, whole, keeps ? number : SMEAR_NO_TRIANGLE))
             draw_triangle(frame, target, g, t->color, number, v, NULL, moved);
     }
     return head;
