@@ -25,37 +25,48 @@ struct smear_segment *smear_bins_open(struct smear_bins *g)
     return s;
 }
 
+/* What is asked of triangles of one segment after the other. */
+struct reach {
+    const int32_t *y;           /* of its vertices */
+    uint32_t segment;
+    bool path;
+};
+
 /* Whether the triangle covers a pixel centre at or below pixel row y. */
-static bool reaches(const struct smear_bins *g, uint32_t triangle, int32_t y)
+static inline bool reaches(const struct smear_bins *g, const struct smear_triangle *t, int32_t y, struct reach *r)
 {
-    const struct smear_triangle *t = bins_triangle(g, triangle);
-    if (t->segment == SMEAR_POINT)
-        return t->vertex[POINT_Y] >= y;
-    const struct smear_segment *s = &g->segment[t->segment];
-    if (s->path)
-        return bins_bounds(g, triangle)->y1 > y;
-    const int32_t end = y * 256 + 128 - bins_margin(g) * 256, *const v = bins_vertex(g, s, VERTEX_Y);
-    return v[t->vertex[0]] > end || v[t->vertex[1]] > end || v[t->vertex[2]] > end;
+    if (t->segment != r->segment) {
+        if (t->segment == SMEAR_POINT)
+            return t->vertex[POINT_Y] >= y;
+        const struct smear_segment *s = &g->segment[t->segment];
+        *r = (struct reach){ bins_vertex(g, s, VERTEX_Y), t->segment, s->path != 0 };
+    }
+    if (r->path)
+        return ((const struct smear_path_bounds *)(const void *)(t + 1))->y1 > y;
+    const int32_t end = y * 256 + 128 - bins_margin(g) * 256;
+    return r->y[t->vertex[0]] > end || r->y[t->vertex[1]] > end || r->y[t->vertex[2]] > end;
 }
 
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
                           int32_t y)
 {
+    struct smear_triangle *const top = bins_triangle(g, 0);
+    struct reach reach = { NULL, SMEAR_NO_TRIANGLE, false };
     uint32_t fresh = SMEAR_NO_TRIANGLE;
     if (last[row] != SMEAR_NO_TRIANGLE) {       /* open the ring: from here on it is a list */
-        struct smear_triangle *t = bins_triangle(g, last[row]);
+        struct smear_triangle *t = top - last[row];
         fresh = t->next;
         t->next = SMEAR_NO_TRIANGLE;
     }
     uint32_t first = SMEAR_NO_TRIANGLE;
     uint32_t *link = &first;
     while (head != SMEAR_NO_TRIANGLE) {
-        struct smear_triangle *t = bins_triangle(g, head);
-        uint32_t after = t->next;
-        if (reaches(g, head, y)) {
+        struct smear_triangle *t = top - head;
+        const uint32_t after = t->next;
+        if (reaches(g, t, y, &reach)) {
             while (fresh < head) {          /* none is the largest number */
                 *link = fresh;
-                link = &bins_triangle(g, fresh)->next;
+                link = &(top - fresh)->next;
                 fresh = *link;
             }
             *link = head;

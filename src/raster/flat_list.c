@@ -238,21 +238,25 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
 /* In numbers of triangles that are kept: as a struct kept_flat. */
 #define FLAT_KEPT 0x80000000u
 
-/* The only place where a triangle may be kept: one in ten finds another there, and is made ready again, which takes less than to look
- * elsewhere does for all. */
-static inline struct kept_flat *flat_slot(const struct smear_raster_target *t, uint32_t number)
+/* The two places where a triangle may be kept. Where both are others' it is made ready again, which takes less than to look elsewhere
+ * does for all. */
+static inline struct kept_flat *flat_slot(const struct smear_raster_target *t, uint32_t number, bool second)
 {
-    return (struct kept_flat *)(void *)kept_at(&t->cache, (number * 40503u & 0xffffu) * t->cache.entries >> 16);
+    const uint32_t n = t->cache.entries, at = (number * 40503u & 0xffffu) * n >> 16;
+    return (struct kept_flat *)(void *)kept_at(&t->cache, second ? n - 1 - at : at);
 }
 
-/* Draws the target's rows of one that is kept. False where it is not. */
+/* Draws the target's rows of one that is kept, of which rows just above were drawn last, in pixels of this kind. False for others. */
 static inline bool draw_kept_rows(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t number)
 {
-    struct kept_flat *const k = flat_slot(t, number);
+    struct kept_flat *k = flat_slot(t, number, false);
     if (k->kept.triangle != (number | FLAT_KEPT))
+        k = flat_slot(t, number, true);
+    if (k->kept.triangle != (number | FLAT_KEPT) || k->row != t->y0 || k->lines.narrow != target_is_direct(t))
         return false;
     const struct corners c = { NULL, v[k->middle], v[k->bottom], 0, k->knee, k->kept.end, k->whole_is_left };
     k->lines.to_pixels = to_pixels_of(t, k->lines.narrow);      /* a band may have memory of its own */
+    k->row = t->y1;
     draw_rows(t, &k->lines, &c, t->y0, min_i32(c.end, t->y1), true);
     if (c.end <= t->y1)
         k->kept.triangle = SMEAR_NO_TRIANGLE;
@@ -263,10 +267,13 @@ static inline bool draw_kept_rows(const struct smear_raster_target *t, const int
 static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, const struct corners *c, const int32_t *const v[3],
                                            uint32_t number)
 {
-    struct kept_flat *const k = flat_slot(t, number);
+    struct kept_flat *k = flat_slot(t, number, false);
+    if (!entry_is_free(&k->kept, t))
+        k = flat_slot(t, number, true);
     if (!entry_is_free(&k->kept, t))
         return NULL;
     k->kept = (struct kept){ number | FLAT_KEPT, c->end };
+    k->row = t->y1;
     k->knee = c->knee;
     k->middle = (uint8_t)(c->middle == v[0] ? 0 : c->middle == v[1] ? 1 : 2);
     k->bottom = (uint8_t)(c->bottom == v[0] ? 0 : c->bottom == v[1] ? 1 : 2);

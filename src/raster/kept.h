@@ -48,13 +48,14 @@ struct kept_texels {
 #endif
 #endif
 
-/* Triangles of one colour that assembly draws are kept where lists have them one after the other, in lines that it goes on from. */
+/* Of triangles of one colour that assembly draws in all of a row, the lines that it goes on from are kept. */
 #define SMEAR_FLAT_KEPT (SMEAR_RASTER_CACHE && SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES)
 
 #if SMEAR_FLAT_KEPT
 struct kept_flat {
     struct kept kept;
     struct flat_lines lines;    /* of the next row */
+    int32_t row;                /* that row */
     int32_t knee;               /* struct corners */
     uint8_t middle, bottom;     /* corners' numbers */
     bool whole_is_left;

@@ -523,7 +523,7 @@ static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *f
     const uint32_t segment = bins_triangle(bins, head)->segment;
     const struct smear_segment *const g = &bins->segment[segment];
     const bool whole = target->x0 <= 0 && target->x1 >= frame->width, narrow = target_is_direct(target);
-    const bool keeps = SMEAR_FLAT_KEPT && target->cache.entries != 0;
+    const bool keeps = SMEAR_FLAT_KEPT && whole && target->cache.entries != 0 && (target->y0 > 0 || target->y1 < frame->height);
     bool tiny = true;
 #if TINY_TRIANGLES
     struct tiny_triangles triangles;
