@@ -3,6 +3,7 @@
  * arithmetic; and that cutting the frame into columns and bands never shows. Needs neither libc nor
  * floating point. */
 #include "raster/front_order.h"
+#include "raster/kept.h"
 #include "raster/raster.h"
 
 #include "base/pixel.h"
@@ -1452,6 +1453,70 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
     }
 }
 
+#if SMEAR_RASTER_CACHE
+/* Triangles of one colour each, most of which reach over several bands. */
+static void random_flat_ones(void)
+{
+    list_begin();
+    set_layout(0, false, false, 0, SHADE_FLAT);
+    const int32_t most = between(1, 60);
+    for (int32_t n = 0; n < most && list_has_room(); n++) {
+        const int32_t size = 256 << between(2, 6), x = between(0, W * 256), y = between(0, H * 256);
+        int32_t p[3][2];
+        uint16_t v[3];
+        for (int i = 0; i < 3; i++) {
+            p[i][0] = x + between(-size, size);
+            p[i][1] = y + between(-size, size);
+        }
+        if (area_of(p) == 0)
+            continue;
+        for (int i = 0; i < 3; i++)
+            v[i] = add_vertex(0, p[i][0], p[i][1], between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX));
+        add_triangle(0, v[0], v[1], v[2], random_u32());
+    }
+}
+
+static void draw_band(struct planes *p, const struct smear_raster_cache *cache, int32_t y, int32_t end)
+{
+    struct smear_raster_target t = target_of(p);
+    t.velocity8 = NULL;
+    t.inspect = NULL;
+    t.cache = *cache;
+    t.y0 = y;
+    t.y1 = end;
+    t.color_rows.ring_row = t.window_rows.ring_row = y;
+    smear_raster_list(&frame, &t, 0);
+}
+
+/* Memory has room for all that may be kept, or for some. Where what is kept is looked up by numbers, bands may come twice, and late:
+ * jobs draw every second one. */
+static void test_what_bands_keep_of_triangles_changes_nothing(void)
+{
+    static uint64_t memory[2048];
+    const struct smear_raster_cache none = { NULL, 0, 0 };
+    random_state = 67;
+    for (int n = 0; n < 200; n++) {
+        random_flat_ones();
+        planes_clear(&full);
+        draw_band(&full, &none, 0, H);
+        planes_clear(&cut);
+        const size_t bytes = chance(2) ? sizeof memory : (size_t)between(0, 2048);
+        const struct smear_raster_cache cache = smear_raster_cache_make(memory, bytes, 1, &geometry);
+        const int32_t band = between(1, 16), late = SMEAR_KEPT_LISTS || chance(2) ? -1 : between(0, H / band) * band;
+        for (int32_t y = 0; y < H; y += band) {
+            if (y == late)
+                continue;
+            for (int times = !SMEAR_KEPT_LISTS && chance(4) ? 2 : 1; times > 0; times--)
+                draw_band(&cut, &cache, y, min_i32(y + band, H));
+        }
+        if (late >= 0 && late < H)
+            draw_band(&cut, &cache, late, min_i32(late + band, H));
+        if (!same_planes(&full, &cut))
+            return;
+    }
+}
+#endif
+
 #if SMEAR_FRONT_ORDER
 /* Textured triangles in two planes, in which many lie at the same depth; a few codes before each other; and of all distances. */
 static void random_planes(void)
@@ -1862,6 +1927,9 @@ void suite_raster(void)
     RUN(test_cutouts_leave_what_lies_behind_their_holes);
     RUN(test_blended_triangles_only_change_colour);
     RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
+#if SMEAR_RASTER_CACHE
+    RUN(test_what_bands_keep_of_triangles_changes_nothing);
+#endif
 #if SMEAR_FRONT_ORDER
     RUN(test_drawing_from_the_front_changes_nothing);
 #endif
