@@ -1346,6 +1346,16 @@ static void test_blended_triangles_only_change_colour(void)
 
 /* ------------------------------------------------------------------ cuts of the frame */
 
+/* Three corners around a place, no farther from it than `size` along x and y; false where they lie in a line. */
+static bool random_corners(int32_t (*p)[2], int32_t x, int32_t y, int32_t size)
+{
+    for (int i = 0; i < 3; i++) {
+        p[i][0] = x + between(-size, size);
+        p[i][1] = y + between(-size, size);
+    }
+    return area_of(p) != 0;
+}
+
 /* A list of everything there is: all kinds of vertices, poses, textures, alpha; large, small and huge. */
 static void random_list(void)
 {
@@ -1381,11 +1391,7 @@ static void random_list(void)
         int32_t x = size > 1 << 16 ? W << 7 : between(0, W * 256), y = size > 1 << 16 ? H << 7 : between(0, H * 256);
         int32_t level = between(0, 8);
         uint16_t v[3];
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-        }
-        if (area_of(p) == 0)
+        if (!random_corners(p, x, y, size))
             continue;
         for (int i = 0; i < 3; i++) {
             int32_t depth = SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
@@ -1464,11 +1470,7 @@ static void random_flat_ones(void)
         const int32_t size = 256 << between(2, 6), x = between(0, W * 256), y = between(0, H * 256);
         int32_t p[3][2];
         uint16_t v[3];
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-        }
-        if (area_of(p) == 0)
+        if (!random_corners(p, x, y, size))
             continue;
         for (int i = 0; i < 3; i++)
             v[i] = add_vertex(0, p[i][0], p[i][1], between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX));
@@ -1675,11 +1677,7 @@ static void random_kind(int level, int far)
     for (int k = 0; k < 6 && list_has_room(); k++) {
         int32_t extent = 256 << between(2, 7), x = between(0, W * 256), y = between(0, H * 256), p[3][2];
         uint16_t v[3];
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-extent, extent);
-            p[i][1] = y + between(-extent, extent);
-        }
-        if (area_of(p) == 0)
+        if (!random_corners(p, x, y, extent))
             continue;
         for (int i = 0; i < 3; i++) {
             int32_t depth = SMEAR_DEPTH_MAX >> far;
