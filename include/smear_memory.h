@@ -31,6 +31,7 @@
 #define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
 #define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window */
 #define SMEAR_DAMAGE_BYTES 64u              /* what is kept beside the window's rows or the display's tiles */
+#define SMEAR_DAMAGED_DRAW_BYTES 16u        /* what is kept of a draw where the display keeps tiles of sharp frames */
 #define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
 #define SMEAR_OLDER_BYTES 52u               /* the pose of an id before that: not with reuse.one_pose */
 #define SMEAR_OLDER_CAMERA_BYTES 80u
@@ -60,7 +61,7 @@
 #define SMEAR_HAS_TEMPORAL_(m) (((m) & SMEAR_SET_TEMPORAL) != 0)
 #define SMEAR_HAS_LAYERS_(m) (((m) & SMEAR_SET_LAYERS) != 0)
 #define SMEAR_HAS_REACH_(m) (((m) & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS)) != 0)
-#define SMEAR_HAS_TILES_(m) (((m) & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL)) != 0)
+#define SMEAR_HAS_TILES_(m, a) (((m) & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL)) != 0 || (a) != 0)
 
 #define SMEAR_REACH_OF_(m, h, r) \
     (SMEAR_HAS_REACH_(m) ? SMEAR_OR_(r, (h) < 40 ? 1 : (h) > 1299 ? 64 : (h) * 5 / 100) : 0)
@@ -74,8 +75,8 @@
                SMEAR_PARTS_(w, T) * (size_t)(T))
 
 /* Bands of sharp frames whose tile is the default, too. */
-#define SMEAR_BAND_ROWS_(m, w, h, r, T) \
-    ((T) != 0 || SMEAR_HAS_TILES_(m) || sizeof(void *) < 8 ? 0u : SMEAR_HIGH_BAND_(h, SMEAR_TILE_OF_(m, w, r, T)))
+#define SMEAR_BAND_ROWS_(m, w, h, r, T, a) \
+    ((T) != 0 || SMEAR_HAS_TILES_(m, a) || sizeof(void *) < 8 ? 0u : SMEAR_HIGH_BAND_(h, SMEAR_TILE_OF_(m, w, r, T)))
 #define SMEAR_HIGH_BAND_(h, T) SMEAR_MIN_(SMEAR_PARTS_(h, 4 * (T)) * (size_t)(T), 64u)
 
 #define SMEAR_MEMORY_OF_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, x, o, q, z, ...) \
@@ -84,25 +85,25 @@
                   SMEAR_OR_(v, 64u), c, a, p, o, q, z)
 #define SMEAR_MEMORY_1_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
     SMEAR_STEP_2_(w, h, t, d, m, SMEAR_TILE_OF_(m, w, r, T), r, s, \
-                  SMEAR_OR_((size_t)(b), SMEAR_BAND_ROWS_(m, w, h, r, T)), n, f, k, v, c, a, p, o, q, z)
+                  SMEAR_OR_((size_t)(b), SMEAR_BAND_ROWS_(m, w, h, r, T, a)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_2_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
     SMEAR_STEP_3_(w, h, t, d, m, T, r, SMEAR_STRIP_OF_(m, w, T, s), SMEAR_OR_(b, (size_t)(T)), n, f, k, v, c, a, p, o, q, z)
 #define SMEAR_MEMORY_3_(w, h, t, d, m, T, r, s, b, n, f, k, v, c, a, p, o, q, z) \
-    (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c), SMEAR_PARTS_(w, T), p) \
+    (SMEAR_UP8_(SMEAR_CONTEXT_BYTES) + SMEAR_ROWS_(w, m, r, SMEAR_RING_(w, h, m, T, r, b, c, a), SMEAR_PARTS_(w, T), p) \
      + SMEAR_WINDOW_(m, T, r, SMEAR_PARTS_(w, T)) + SMEAR_HALF_(m, w, T, r, k) \
      + SMEAR_SCRATCH_(m, T, SMEAR_COLUMNS_(m, w, T, s), b, k) \
      + SMEAR_TEMPORAL_(m, w, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
-     + SMEAR_DAMAGE_(d, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
-     + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, T, b)) + SMEAR_BANDS_(w, b, n, f, q, z) \
+     + SMEAR_DAMAGE_(d, m, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
+     + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, a, T, b)) + SMEAR_BANDS_(w, b, n, f, q, z) \
      + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
-     + 3u * SMEAR_UP8_((SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, T, b)) + 2u) * 4u) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
+     + 3u * SMEAR_UP8_((SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, a, T, b)) + 2u) * 4u) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
 
 /* Rows that are drawn at once, and rows that are kept. */
-#define SMEAR_ROW_PX_(m, T, b) (SMEAR_HAS_TILES_(m) ? (size_t)(T) : (size_t)(b))
-#define SMEAR_RING_(w, h, m, T, r, b, c) \
+#define SMEAR_ROW_PX_(m, a, T, b) (SMEAR_HAS_TILES_(m, a) ? (size_t)(T) : (size_t)(b))
+#define SMEAR_RING_(w, h, m, T, r, b, c, a) \
     SMEAR_MAX_((c) ? (size_t)(h) : 0u, \
                SMEAR_HAS_WINDOW_(m) ? (SMEAR_PARTS_(r, T) + 1u) * (size_t)(T) + (size_t)(r) \
-                                    : SMEAR_MIN_(SMEAR_ROW_PX_(m, T, b), (size_t)(h)))
+                                    : SMEAR_MIN_(SMEAR_ROW_PX_(m, a, T, b), (size_t)(h)))
 /* Colour and depth of the rows, velocity, what passes leave; which tiles move. */
 #define SMEAR_ROWS_(w, m, r, ring, columns, p) \
     (SMEAR_UP8_((size_t)(w) * (ring) * 4u) * (1u + SMEAR_PASSES_(m, p)) + SMEAR_UP8_((size_t)(w) * (ring) * 2u) \
@@ -137,8 +138,9 @@
                                   + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 10u) + 512u, \
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)
-#define SMEAR_DAMAGE_(d, c, a, columns, rows) \
-    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * 4u) + SMEAR_UP8_((columns) * (rows)) \
+#define SMEAR_DAMAGE_(d, m, c, a, columns, rows) \
+    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * (SMEAR_HAS_TEMPORAL_(m) ? 4u : SMEAR_DAMAGED_DRAW_BYTES)) \
+                                            + SMEAR_UP8_((columns) * (rows)) \
                                             + (SMEAR_WITH_OVERLAY ? SMEAR_UP8_((columns) * (rows) * 4u) : 0u) : 0u) : 0u)
 /* Rows of a layer with their margins; what groups leave for others they pass through; sums; groups. */
 #define SMEAR_LAYERS_(w, h, m, T, r, d, k) \

@@ -199,23 +199,6 @@ static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
     return !c->raster_draw[i].moves && c->raster_draw[i].alpha != SMEAR_BLEND;
 }
 
-void smear_draws_find_damage(struct smear_context *c)
-{
-    struct smear_damage *d = c->damage;
-    if (!SMEAR_WITH_DAMAGE || d == NULL)
-        return;
-    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, (uint8_t)(c->frame.light_space | c->frame.edges << 1), &c->sun);
-    for (uint32_t i = 0; i < c->draw_count; i++)
-        if (!c->raster_draw[i].moves)
-            smear_damage_add(d, &c->submitted[i].draw);
-    smear_damage_find(d, &c->rows, c->frame.refresh);
-    if (SMEAR_OVERLAY_MOST)
-        smear_damage_find_overlay(d, &c->rows);
-    c->assembler.path_static_count = 0;
-    if (damage_has_tiles(d))
-        c->assembler.damaged = &d->tiles;
-}
-
 /* Whether a static draw must be drawn: the tiles in which it was seen say so where the display keeps them, if all that are
  * damaged are known. *seen is the box of the static draw before, or null. */
 static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen, bool known)
@@ -290,6 +273,8 @@ static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool
 {
     if (kind == DRAWS_ALL)
         return true;
+    if (damage_compares(c->damage))
+        return smear_damage_wants(c->damage, i);
     if (draw_is_static(c, i))
         return is_damaged(c->damage, seen, known);
     c->damage->tiles.only = false;
@@ -328,7 +313,7 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
 {
     if (!assembler_has_damage(as))
         return assemble_kind(c, as, instant, f, DRAWS_ALL);
-    if (f == NULL) {
+    if (f == NULL && !damage_compares(c->damage)) {
         const uint32_t drawn = as->triangles_drawn, dropped = as->triangles_dropped, among = as->path_static_count,
                        beside = c->stats.draws_beside;
         if (!assemble_kind(c, as, instant, NULL, DRAWS_MOVING))
@@ -415,7 +400,7 @@ static bool assemble_range(const struct assembly_parts *all, struct smear_part *
     p->tiles.only = all->kind == DRAWS_STATIC;
     p->tiles.seen = seen;
     if (seen != NULL && first != 0) {           /* the part in which it begins writes to it */
-        p->rest = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
+        p->rest = TILE_BOX_NONE;
         p->rest_of = seen;
         p->tiles.seen = &p->rest;
     }
@@ -463,7 +448,8 @@ static bool has_parts(struct smear_context *c)
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
     c->in_parts = false;
-    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || c->stats.triangles_in < PART_TRIANGLES_LEAST
+    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || (assembler_has_damage(&c->assembler) && damage_compares(c->damage))
+        || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
             && g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows))))
         return false;

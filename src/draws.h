@@ -25,8 +25,9 @@ static inline void draws_place_points(struct smear_context *c, int32_t from, int
 /* Finds which draws are blurred as layers, and how they move. */
 void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);
 
-/* Finds out whether what is static is the last frame's. */
+/* Find out which of what is kept is not what the frame wants: of a temporal method, and of sharp frames alone. */
 void smear_draws_find_damage(struct smear_context *c);
+void smear_draws_find_changes(struct smear_context *c);
 
 /* Assembles as many tile rows of [first, end) as find room, at an instant; returns their end. Rows from `top` on, above
  * `first`, are included for what is finished a row late. When a single row is too much, rows.refill is `refill`, by which

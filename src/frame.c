@@ -20,7 +20,8 @@ static int render_temporal(struct smear_context *c)
 {
     const struct smear_instant middle = smear_instant_middle(&c->shot);
     int result = SMEAR_OK;
-    smear_draws_find_damage(c);
+    if (SMEAR_WITH_DAMAGE)
+        smear_draws_find_damage(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
         end = smear_draws_assemble(c, row, row, c->rows.window.rows, &middle, &refill);
@@ -36,11 +37,16 @@ static int render_temporal(struct smear_context *c)
 static int render_sharp(struct smear_context *c)
 {
     int result = SMEAR_OK;
+    if (SMEAR_WITH_DAMAGE)
+        smear_draws_find_changes(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
         end = smear_draws_assemble(c, row, row, c->rows.window.rows, &smear_instant_now, &refill);
-        result = smear_sharp_rows(&c->rows, c->direct, row, end);
+        result = damage_compares(c->damage) ? smear_sharp_damaged_rows(&c->rows, c->damage, row, end)
+                                            : smear_sharp_rows(&c->rows, c->direct, row, end);
     }
+    if (damage_compares(c->damage) && result == SMEAR_OK)
+        smear_damage_end(c->damage, &c->rows, false);
     return result;
 }
 
@@ -160,7 +166,7 @@ static void prepare_methods(struct smear_context *c)
     const struct smear_window *w = &c->rows.window;
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
-    if (!smear_method_is_temporal(method))
+    if (!smear_method_is_temporal(method) && !damage_compares(c->damage))
         damage_forget(c->damage);
     if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(method))
         smear_filtered_begin(&c->filtered, &c->rows, &c->frame, &c->shot.camera[0]);

@@ -14,6 +14,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_ports) <= SMEAR_FILTERING_BYTES, "SMEAR_
 SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
                + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_damage) <= SMEAR_DAMAGE_BYTES, "SMEAR_DAMAGE_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_damaged_draw) <= SMEAR_DAMAGED_DRAW_BYTES, "SMEAR_DAMAGED_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= SMEAR_LAYER_BYTES, "SMEAR_LAYER_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_");
@@ -129,7 +130,9 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
     const bool tiles = has_buffer_age(d);
     if (!caches_static(d) && !tiles)
         return;
-    struct smear_tile_box *seen = tiles ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
+    const bool compares = tiles && !is_temporal(d);
+    struct smear_damaged_draw *draw = compares ? arena_take(a, d->max_draws, sizeof *draw) : NULL;
+    struct smear_tile_box *seen = tiles && !compares ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
     uint32_t *over = SMEAR_OVERLAY_MOST && tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, sizeof *over) : NULL;
     const struct smear_damaged_tiles damaged = {
         tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, 1) : NULL,
@@ -138,7 +141,11 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
     c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage);
     if (c->damage == NULL)          /* only measured */
         return;
-    *c->damage = (struct smear_damage){ .caches = caches_static(d), .tiles = damaged, .seen = seen, .over = over };
+    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares, .tiles = damaged, .over = over };
+    if (compares)
+        c->damage->draw = draw;
+    else
+        c->damage->seen = seen;
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
 }

@@ -23,7 +23,7 @@ static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE
 /* Rows are drawn a tile at a time; else a band at a time. */
 static inline bool has_tiles(const smear_desc *d)
 {
-    return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL);
+    return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL) || has_buffer_age(d);
 }
 
 /* Pixel rows that are drawn together. */

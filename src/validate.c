@@ -102,8 +102,10 @@ static int resolve_methods(smear_desc *d)
         return FAULT(DESC_METHODS);
     if (d->debug.inspect != NULL && !SMEAR_INSPECT_MOST)
         return FAULT(DESC_INSPECT);
-    if (!is_temporal(d) && (d->reuse.cache_static || d->reuse.buffer_age))
-        return d->reuse.cache_static ? FAULT(DESC_CACHE_STATIC) : FAULT(DESC_BUFFER_AGE);
+    if (!is_temporal(d) && d->reuse.cache_static)
+        return FAULT(DESC_CACHE_STATIC);
+    if (!is_temporal(d) && d->reuse.buffer_age && (d->methods & ~SMEAR_SET(SMEAR_NONE)) != 0)
+        return FAULT(DESC_BUFFER_AGE);
     if (d->filter.scatter
         && (!has_window(d) || wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_PINGPONG) | SMEAR_SET(SMEAR_HALF))))
         return FAULT(DESC_SCATTER);
@@ -136,7 +138,8 @@ static int resolve_tile(smear_desc *d)
         if (HAS_HIGH_BANDS && !has_tiles(d) && d->band_rows == 0)
             d->band_rows = (int16_t)min_i32((d->height + 4 * d->tile - 1) / (4 * d->tile) * d->tile, 64);
     }
-    const bool may_be_4 = !d->filter.scatter && !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
+    const bool may_be_4 = !d->filter.scatter && !has_buffer_age(d)
+                       && !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
     if (!is_power_of_two((uint32_t)d->tile) || d->tile < (may_be_4 ? 4 : 8) || d->tile > 64
         || (d->tile < d->reach && !d->filter.scatter))
         return FAULT(DESC_TILE);
@@ -149,7 +152,7 @@ static int resolve_bands(smear_desc *d)
     if (d->band_rows == 0)
         d->band_rows = d->tile;
     /* Tiles may be finished in several bands by filters that read the window alone. */
-    const bool may_divide = !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
+    const bool may_divide = !has_buffer_age(d) && !wants(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
     if (d->band_rows < 2 || (d->format == SMEAR_L1_PAGES && d->band_rows % 8 != 0)
         || (has_tiles(d) && d->band_rows != d->tile && (!may_divide || d->tile % d->band_rows != 0)))
         return FAULT(DESC_BAND_ROWS);

@@ -214,18 +214,24 @@ static void convert_job(void *argument, int job, int worker)
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->rows, job, &x0, &x1);
-    smear_band_convert_window(r, x0, x1);
+    smear_band_convert_window(r, max_i32(x0, job_left(r)), min_i32(x1, job_right(r)));
+}
+
+int smear_band_finish(struct row_job *job)
+{
+    struct smear_rows *rows = job->rows;
+    int result = SMEAR_OK;
+    while (result == SMEAR_OK && smear_band_next(job)) {
+        uint32_t start = stage_start(rows);
+        smear_jobs_run(&rows->jobs, convert_job, job, rows->jobs.workers);
+        stage_end(rows, &rows->stats->time.convert, start);
+        result = smear_band_flush(job);
+    }
+    return result;
 }
 
 int smear_band_finish_row(struct smear_rows *rows, int row)
 {
     struct row_job job = { .rows = rows, .row = row };
-    int result = SMEAR_OK;
-    while (result == SMEAR_OK && smear_band_next(&job)) {
-        uint32_t start = stage_start(rows);
-        smear_jobs_run(&rows->jobs, convert_job, &job, rows->jobs.workers);
-        stage_end(rows, &rows->stats->time.convert, start);
-        result = smear_band_flush(&job);
-    }
-    return result;
+    return smear_band_finish(&job);
 }

@@ -95,14 +95,19 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
 }
 
 /* Takes in as much of a draw as its picture depends on. */
-void smear_damage_add(struct smear_damage *d, const smear_draw *draw)
+static void mix_draw(uint32_t h[2], const smear_draw *draw)
 {
     const int32_t look = (int32_t)draw->billboard << 1 | (draw->material != NULL);
-    mix_mesh(d->next, draw->mesh);
-    mix_transform(d->next, draw->now);
-    mix(d->next, &look, 1);
+    mix_mesh(h, draw->mesh);
+    mix_transform(h, draw->now);
+    mix(h, &look, 1);
     if (draw->material != NULL)
-        mix_material(d->next, draw->material);
+        mix_material(h, draw->material);
+}
+
+void smear_damage_add(struct smear_damage *d, const smear_draw *draw)
+{
+    mix_draw(d->next, draw);
 }
 
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh)
@@ -118,10 +123,55 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     d->scene[1] = d->next[1];
     if (!damage_has_tiles(d) || d->is_same)
         return;
-    for (uint32_t i = 0; i < rows->desc->max_draws; i++)
-        d->seen[i] = (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 };
+    for (uint32_t i = 0; !d->compares && i < rows->desc->max_draws; i++)
+        d->seen[i] = TILE_BOX_NONE;
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
         d->tiles.tile[i] = rows->desc->reuse.buffer_age;
+}
+
+/* ------------------------------------------------------------------ draws of sharp frames */
+
+void smear_damage_tiles(const struct smear_damaged_tiles *t, const struct smear_tile_box *box, uint8_t age)
+{
+    for (int row = box->y0; row <= box->y1; row++)
+        for (int column = box->x0; column <= box->x1; column++)
+            t->tile[row * (t->columns + 1) + column] = age;
+}
+
+/* A mesh whose vertices go elsewhere has written them. */
+static bool deforms(const smear_draw *draw)
+{
+    return draw->open_position != NULL || draw->close_position != NULL;
+}
+
+void smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i, uint8_t age)
+{
+    struct smear_damaged_draw *const r = &d->draw[i];
+    uint32_t look[2] = { 0, 0 };
+    mix_draw(look, draw);
+    r->changed = !d->is_same || deforms(draw) || look[0] != r->look[0] || look[1] != r->look[1];
+    if (!r->changed)
+        return;
+    if (d->is_same)
+        smear_damage_tiles(&d->tiles, &r->box, age);
+    *r = (struct smear_damaged_draw){ { look[0], look[1] }, TILE_BOX_NONE, true };
+}
+
+void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc *desc)
+{
+    for (uint32_t i = first; i < desc->max_draws; i++) {
+        if (d->is_same)
+            smear_damage_tiles(&d->tiles, &d->draw[i].box, desc->reuse.buffer_age);
+        d->draw[i] = (struct smear_damaged_draw){ { 0, 0 }, TILE_BOX_NONE, false };
+    }
+}
+
+bool smear_damage_wants(struct smear_damage *d, uint32_t i)
+{
+    struct smear_damaged_draw *const r = &d->draw[i];
+    d->tiles.only = d->is_same;
+    d->tiles.seen = r->changed ? &r->box : NULL;
+    return r->changed || tile_box_is_damaged(&d->tiles, r->box);
 }
 
 #if SMEAR_WITH_OVERLAY

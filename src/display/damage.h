@@ -1,22 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /* damage.h - what is static from frame to frame, and what shows it already: the window (desc.reuse.cache_static), or the
- * display (desc.reuse.buffer_age). Only what differs, the damage, is drawn. */
+ * display (desc.reuse.buffer_age). Only what differs, the damage, is drawn. Temporal methods know what moves. Where frames are
+ * sharp alone, each draw is compared with that of the last frame at its place in the order. */
 #ifndef SMEAR_DAMAGE_H
 #define SMEAR_DAMAGE_H
 
 #include "display/row.h"
 #include "geometry/vertex.h"
 
+/* A draw of the last frame, where frames are sharp. */
+struct smear_damaged_draw {
+    uint32_t look[2];               /* hash of all that its picture depends on */
+    struct smear_tile_box box;      /* where it is seen, at most */
+    bool changed;                   /* its look is not that of the frame before */
+};
+
 struct smear_damage {
     uint32_t scene[2];              /* hash of all that a picture of what is static depends on */
     uint32_t next[2];               /* hash of this frame's, so far */
     bool caches;                    /* desc.reuse.cache_static: the window has all rows of the frame */
     bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
-    bool is_same;                   /* and it is what this frame wants */
+    bool is_same;                   /* and it is what this frame wants; with `draw`: but for draws that changed */
+    bool compares;                  /* of the two below, `draw` is there */
     /* desc.reuse.buffer_age, else null: */
     struct smear_damaged_tiles tiles;   /* for how many frames each tile must still be drawn, this one included, or
                                          * TILE_DAMAGED_NOW */
-    struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
+    union {
+        struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
+        struct smear_damaged_draw *draw;    /* draws in their order; those that are not there are seen nowhere */
+    };
     uint32_t *over;                     /* sum of hashes of what lies over each tile; null without SMEAR_WITH_OVERLAY */
 };
 
@@ -35,6 +47,9 @@ static inline bool damage_has_tiles(const struct smear_damage *d)
     return SMEAR_WITH_DAMAGE && d != NULL && d->tiles.tile != NULL;
 }
 
+/* Whether draws are compared, as frames are sharp. */
+static inline bool damage_compares(const struct smear_damage *d) { return SMEAR_WITH_DAMAGE && d != NULL && d->compares; }
+
 /* Forgets what is shown: something else is drawn. */
 static inline void damage_forget(struct smear_damage *d)
 {
@@ -48,6 +63,19 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
                         const struct smear_sun *sun);
 void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
+
+/* Compares draw `i`. Where it changed, but nothing that all draws share, its box is what the last frame's draw had: what it was
+ * seen in is damaged. */
+void smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i, uint8_t age);
+
+/* As that, of draws that the last frame had and this one has not, from `first` on. */
+void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc *desc);
+
+/* Has tiles of a box drawn. */
+void smear_damage_tiles(const struct smear_damaged_tiles *t, const struct smear_tile_box *box, uint8_t age);
+
+/* Whether draw `i`, which has been compared, must be assembled; notes where its triangles are seen if it changed. */
+bool smear_damage_wants(struct smear_damage *d, uint32_t i);
 
 /* Has tiles drawn over which something else lies than in the last frame. */
 void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows);

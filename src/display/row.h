@@ -210,4 +210,8 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
 /* Draws blended triangles of the row straight over its rows in the window: where no filter will read them. */
 void smear_row_blend(struct smear_rows *rows, int row);
 
+/* The two parts of that: moves the list on; draws the job's columns. */
+void smear_row_advance_blended(struct smear_rows *rows, int row);
+void smear_row_blend_job(struct row_job *job);
+
 #endif

@@ -68,6 +68,38 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
     return sides != 0;
 }
 
+#if SMEAR_WITH_DAMAGE
+struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const smear_mesh *mesh, const struct smear_viewport *viewport,
+                                         const struct smear_damaged_tiles *tiles)
+{
+    enum { MARGIN = 2 << 8 };       /* q8 px: more than places of vertices are rounded by */
+    const int16_t *b = mesh->bounds;
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
+    bool known = (b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) != 0 && p->extra_count == 0 && p->position == mesh->position;
+    for (int i = 0; i < 8 && known; i++) {
+        const int16_t corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
+        struct smear_homogeneous h;
+        struct smear_screen s;
+        smear_transform_vertex(&h, &p->now, corner);
+        known = h.w > 0 && h.distance >= p->now.depths.near_distance;
+        if (!known)
+            break;
+        smear_project(&s, &p->now.depths, &h, viewport);
+        x0 = min_i32(x0, s.x);
+        x1 = max_i32(x1, s.x);
+        y0 = min_i32(y0, s.y);
+        y1 = max_i32(y1, s.y);
+    }
+    if (!known)
+        return tile_box_of(tiles, 0, viewport->width, 0, viewport->height);
+    x0 = max_i32((x0 - MARGIN) >> 8, 0);
+    y0 = max_i32((y0 - MARGIN) >> 8, 0);
+    x1 = min_i32((x1 + MARGIN) >> 8, viewport->width);
+    y1 = min_i32((y1 + MARGIN) >> 8, viewport->height);
+    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : TILE_BOX_NONE;
+}
+#endif
+
 struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct smear_segment *s = smear_bins_open(a->bins);

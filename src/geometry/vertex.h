@@ -36,6 +36,8 @@ struct smear_tile_box {
     uint8_t x0, x1, y0, y1;
 };
 
+#define TILE_BOX_NONE ((struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 })
+
 /* Which tiles are drawn at all, with smear_desc.buffer_age. */
 struct smear_damaged_tiles {
     uint8_t *tile;                  /* row by row; 0: the display shows it already */
@@ -247,6 +249,13 @@ bool smear_vertex_find_unready(struct smear_screen *screen, struct smear_homogen
 
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
+
+#if SMEAR_WITH_DAMAGE
+/* Finds the tiles in which something of the mesh may be seen, by its bounds: all where those are not given, or reach behind the
+ * near plane. */
+struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const smear_mesh *mesh, const struct smear_viewport *viewport,
+                                         const struct smear_damaged_tiles *tiles);
+#endif
 
 static inline bool assembly_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
 {

@@ -49,14 +49,19 @@ static void inspect_row(const struct smear_rows *rows, int row)
     }
 }
 
-void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth)
+static void advance(struct smear_rows *rows, int row)
 {
-    struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
-    const uint32_t start = stage_start(rows);
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     for (int32_t i = 0; i < rows->window.columns; i++)
         rows->window.moving[i] = 0;
+}
+
+void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth)
+{
+    struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
+    const uint32_t start = stage_start(rows);
+    advance(rows, row);
     smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
         inspect_row(rows, row);
@@ -159,6 +164,53 @@ static inline int draw_window_row(struct smear_rows *rows, int row)
 #endif
     return result;
 }
+
+/* ------------------------------------------------------------------ what the display lacks */
+
+#if SMEAR_WITH_DAMAGE
+/* Draws a run of tiles of a row whose lists have been moved on. */
+static int draw_run(struct smear_rows *rows, int row, const struct smear_damage_run *run)
+{
+    struct draw_job job = { .row = { .rows = rows, .row = row } };
+    const uint32_t start = stage_start(rows);
+    job.row.x0 = tile_left(rows, run->first);
+    job.row.x1 = tile_right(rows, run->end - 1);
+    smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
+    smear_row_blend_job(&job.row);
+    stage_end(rows, &rows->stats->time.raster, start);
+    return smear_band_finish(&job.row);
+}
+
+static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage, int row)
+{
+    struct smear_damage_run run = { 0, 0 };
+    int result = SMEAR_OK;
+    const uint32_t start = stage_start(rows);
+    advance(rows, row);
+    smear_row_advance_blended(rows, row);
+    stage_end(rows, &rows->stats->time.raster, start);
+#if SMEAR_LATE_BLOCKS
+    rows->late = may_be_late(rows, row);
+    if (rows->late)
+        SMEAR_ENTER_STAGE(SMEAR_STAGE_LATE);
+#endif
+    while (result == SMEAR_OK && smear_damage_next_run(damage, rows, row, &run))
+        result = draw_run(rows, row, &run);
+#if SMEAR_LATE_BLOCKS
+    rows->late = false;
+#endif
+    smear_damage_row_sent(damage, rows, row);
+    return result;
+}
+
+int smear_sharp_damaged_rows(struct smear_rows *rows, struct smear_damage *damage, int first, int end)
+{
+    int result = SMEAR_OK;
+    for (int row = first; row < end && result == SMEAR_OK; row++)
+        result = draw_damaged_row(rows, damage, row);
+    return result;
+}
+#endif
 
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
 {

@@ -3,7 +3,7 @@
 #ifndef SMEAR_SHARP_H
 #define SMEAR_SHARP_H
 
-#include "display/row.h"
+#include "display/damage.h"
 #include "ports/camera_velocity.h"
 
 /* How drawn rows get velocities for what does not move itself, from depth and two cameras; or null. */
@@ -19,6 +19,13 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
 /* Draws, converts and hands out the tile rows [first, end), a part of the frame that has been assembled. `direct`: as
  * the display's own pixels, straight into the band. Returns as smear_band_flush. */
 int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end);
+
+#if SMEAR_WITH_DAMAGE
+/* As that, of tiles that the display lacks (damage_compares), by way of the window. */
+int smear_sharp_damaged_rows(struct smear_rows *rows, struct smear_damage *damage, int first, int end);
+#else
+#define smear_sharp_damaged_rows(rows, damage, first, end) SMEAR_OK
+#endif
 
 /* Whether frames of the context can be drawn directly; draws may still forbid it. */
 bool smear_sharp_may_be_direct(const smear_desc *desc, bool has_window);

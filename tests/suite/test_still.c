@@ -2,8 +2,11 @@
 /* test_still.c - smear_desc.cache_static and smear_desc.buffer_age: the pictures are those of a context that draws and
  * sends everything in every frame, to the bit, and what stands still is drawn, and sent, only where it must be.
  * Host only. */
+#include "tests/random.h"
 #include "tests/rig.h"
 #include "tests/test.h"
+
+#include "smear_overlay.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -41,6 +44,13 @@ static void set_up(struct set *s, uint8_t method)
         s->draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &s->mesh[i], .material = &s->material[i],
                                    .now = &s->pose[i] };
     s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x305080 };
+}
+
+/* Sharp frames that are compared know what moved by these. */
+static void find_bounds(struct set *s)
+{
+    for (int i = 0; i < DRAWS; i++)
+        smear_mesh_find_bounds(&s->mesh[i]);
 }
 
 static void move_on(struct set *s, int frame)
@@ -517,19 +527,170 @@ static void yield(void *user)
     sched_yield();
 }
 
+/* ------------------------------------------------------------------ sharp frames alone */
+
+static smear_desc sharp_desc(uint32_t triangles)
+{
+    smear_desc desc = desc_of(triangles, true);
+    desc.methods = SMEAR_SET(SMEAR_NONE);
+    desc.strip = desc.reach = 0;
+    return desc;
+}
+
+static void test_a_display_is_sent_what_it_does_not_show_of_sharp_frames(void)
+{
+    for (uint8_t format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
+        for (int buffers = 1; buffers <= 3; buffers++) {
+            struct display d;
+            struct set s;
+            set_up(&s, SMEAR_NONE);
+            for (int k = 0; k < 9 && format % 2 == 0; k++)
+                s.pose[FLOOR].basis[k] *= 8;
+            smear_desc desc = sharp_desc(buffers == 2 ? 16 : 400);
+            desc.format = format;
+            desc.display.dither = format == SMEAR_RGB565 ? SMEAR_DITHER_NONE : format % 2 ? SMEAR_DITHER_BLUE : SMEAR_DITHER_ORDERED;
+            find_bounds(&s);
+            if (display_begin(&d, desc, buffers))
+                for (int i = 0; i < 14; i++) {
+                    move_on(&s, i < 10 ? i : 9);
+                    const uint32_t kept = shown(&d, &s);
+                    if (i < buffers)
+                        CHECK_EQ(kept, 0);
+                    else if (i < 9 + buffers)
+                        CHECK(kept >= 8 && kept < 20);
+                    else
+                        CHECK_EQ(kept, 20);
+                }
+            display_end(&d);
+        }
+}
+
+/* Anything that a frame may have otherwise than the last one had it. */
+static void change(struct set *s, smear_draw *draw, smear_overlay *overlay, smear_overlay_item *item)
+{
+    const int i = between(0, DRAWS - 1);
+    s->frame.refresh = 0;
+    switch (between(0, 16)) {
+    case 0:
+        s->pose[i] = pose_at(0.1 * between(-12, 12), 0.1 * between(-12, 12), -0.1 * between(12, 60), 0.1 * between(0, 60), 0);
+        break;
+    case 1:
+        s->pose[i].origin[0] += between(-2, 2);
+        break;
+    case 2:
+        s->material[i].color[between(0, 2)] ^= 64;
+        break;
+    case 3:
+        s->material[i].alpha = (uint8_t)(s->material[i].alpha == SMEAR_BLEND ? SMEAR_OPAQUE : SMEAR_BLEND);
+        break;
+    case 4:
+        s->count = between(0, DRAWS);
+        break;
+    case 5: {
+        const smear_draw other = draw[i];
+        draw[i] = draw[0];
+        draw[0] = other;
+        break;
+    }
+    case 6:
+        s->mesh[i] = chance(2) ? cube : square;
+        if (chance(2))
+            smear_mesh_find_bounds(&s->mesh[i]);
+        break;
+    case 7:
+        s->camera.pose.origin[1] += between(-1, 1) * 2000;
+        break;
+    case 8:
+        s->frame.clear ^= chance(2) ? 0x101010u : 0u;
+        break;
+    case 9:
+        s->frame.refresh = 1;
+        break;
+    case 10:
+        item->x = (int16_t)between(-4, WIDTH);
+        item->y = (int16_t)between(-4, HEIGHT);
+        s->frame.overlay = chance(3) ? NULL : overlay;
+        break;
+    case 11:
+        s->frame.light_space = (uint8_t)(s->frame.light_space == SMEAR_LIGHT_LINEAR ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR);
+        break;
+    case 12:
+        s->pose[i].origin[2] = -between(0, 3) * 16384;      /* through the near plane, or behind the eye */
+        break;
+    default:
+        break;
+    }
+}
+
+static void test_sharp_frames_are_right_whatever_changes(void)
+{
+    uint32_t kept = 0;
+    random_state = 71;
+    for (int run = 0; run < 60; run++) {
+        struct display d;
+        struct set s;
+        smear_overlay_item item = { .width = 9, .height = 7, .color = { 20, 90, 200, 255 } };
+        smear_overlay overlay = { &item, 1, NULL };
+        set_up(&s, SMEAR_NONE);
+        smear_desc desc = sharp_desc(chance(3) ? 8 : 400);
+        desc.tile = (int16_t)(8 << between(0, 2));
+        desc.format = (uint8_t)between(0, SMEAR_L1);
+        desc.vertex_cache = 16;
+        desc.display.dither = SMEAR_DITHER_ORDERED;
+        if (display_begin(&d, desc, between(1, 3)))
+            for (int i = 0; i < 60; i++) {
+                for (int changes = between(0, 2); changes > 0; changes--)
+                    change(&s, s.draw, &overlay, &item);
+                if (chance(16)) {
+                    d.sends.fail_at = between(0, 3);
+                    d.sends.fail_with = -9;
+                    write_frame(&d, &s);
+                    d.sends.fail_at = -1;
+                }
+                kept += shown(&d, &s);
+            }
+        display_end(&d);
+    }
+    CHECK(kept > 20000);
+}
+
+/* Its vertices are elsewhere in every frame, at the same place in memory. */
+static void test_a_mesh_that_deforms_is_sent(void)
+{
+    struct display d;
+    struct set s;
+    int16_t corner[8 * 3];
+    set_up(&s, SMEAR_NONE);
+    memcpy(corner, cube.position, sizeof corner);
+    s.mesh[MOVER].position = s.draw[MOVER].open_position = corner;
+    move_on(&s, 4);
+    if (display_begin(&d, sharp_desc(400), 2))
+        for (int i = 0; i < 12; i++) {
+            corner[3 * (i % 8)] = (int16_t)(corner[3 * (i % 8)] / 2);
+            shown(&d, &s);
+        }
+    display_end(&d);
+}
+
 /* So many triangles that cores assemble parts of them; in the end some that moved stand still. */
 static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
 {
+    static const uint8_t methods[] = { SMEAR_AUTO, SMEAR_SUBFRAMES, SMEAR_NONE, SMEAR_NONE };
     for (int workers = 2; workers <= 5; workers++)
-        for (int buffers = 1; buffers <= 2; buffers++) {
+        for (int way = 0; way < 4; way++) {
+            const int buffers = 1 + way % 2;
             struct display d;
             struct set s;
-            set_up(&s, buffers == 2 ? SMEAR_SUBFRAMES : SMEAR_AUTO);
+            set_up(&s, methods[way]);
             s.material[FLOOR].texture = NULL;
             s.mesh[FLOOR] = grid_of(&s.pose[FLOOR]);
             smear_desc desc = desc_of(workers == 5 ? 500 : 2000, true);
             desc.workers = (uint8_t)workers;
             desc.idle = yield;
+            if (methods[way] == SMEAR_NONE) {
+                desc.methods = SMEAR_SET(SMEAR_NONE);
+                find_bounds(&s);
+            }
             if (display_begin(&d, desc, buffers)) {
                 struct core core[8];
                 for (int i = 1; i < workers; i++) {
@@ -538,8 +699,10 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
                 }
                 for (int i = 0; i < CORE_FRAMES; i++) {
                     move_on(&s, i < 10 ? i : 9);
-                    if (i == 12)
+                    if (i == 12) {
                         s.mesh[MOVER] = grid_of(&s.pose[MOVER]);
+                        find_bounds(&s);
+                    }
                     const uint32_t kept = shown(&d, &s);
                     if (i > 1 + buffers && i < 10)
                         CHECK(kept >= 8);
@@ -564,6 +727,9 @@ void suite_still(void)
     RUN(test_what_creeps_is_sent_all_the_same);
     RUN(test_what_creeps_stays_behind_what_came_before_it);
     RUN(test_the_display_is_right_after_other_methods_and_failures);
+    RUN(test_a_display_is_sent_what_it_does_not_show_of_sharp_frames);
+    RUN(test_sharp_frames_are_right_whatever_changes);
+    RUN(test_a_mesh_that_deforms_is_sent);
     RUN(test_cores_assemble_parts_of_what_a_display_is_sent);
     RUN(test_only_contexts_with_temporal_methods_reuse);
 }

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/* draws_damage.c - what of a frame is damaged (damage.h), by its draws, before they are assembled. */
+#include "draws.h"
+
+#include "geometry/pose.h"
+
+#if SMEAR_WITH_DAMAGE
+
+/* Finds out whether all that the frame's draws share is the last frame's; with what `adds` says of draws. */
+static void begin(struct smear_context *c, bool adds)
+{
+    struct smear_damage *d = c->damage;
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, (uint8_t)(c->frame.light_space | c->frame.edges << 1), &c->sun);
+    for (uint32_t i = 0; adds && i < c->draw_count; i++)
+        if (!c->raster_draw[i].moves)
+            smear_damage_add(d, &c->submitted[i].draw);
+    smear_damage_find(d, &c->rows, c->frame.refresh);
+    if (SMEAR_OVERLAY_MOST)
+        smear_damage_find_overlay(d, &c->rows);
+    if (damage_has_tiles(d))
+        c->assembler.damaged = &d->tiles;
+}
+
+void smear_draws_find_damage(struct smear_context *c)
+{
+    if (c->damage == NULL)
+        return;
+    begin(c, true);
+    c->assembler.path_static_count = 0;
+}
+
+static struct smear_tile_box tiles_of(const struct smear_context *c, uint32_t i)
+{
+    const smear_draw *draw = &c->submitted[i].draw;
+    struct smear_draw_poses poses;
+    struct smear_placement at;
+    smear_draw_poses_make(&poses, &c->shot, draw, NULL);
+    smear_draw_poses_place(&at, &poses, &c->shot, draw->mesh, &smear_instant_now);
+    return smear_vertex_tiles(&at, draw->mesh, &c->assembler.viewport, &c->damage->tiles);
+}
+
+/* Where tiles are kept, all damaged ones are known before the first draw is assembled: draws that changed are seen within their
+ * bounds. What is assembled says where exactly, for the next frame; but cores that assemble parts of whole frames don't. */
+void smear_draws_find_changes(struct smear_context *c)
+{
+    struct smear_damage *d = c->damage;
+    const uint8_t age = c->desc.reuse.buffer_age;
+    if (!damage_compares(d))
+        return;
+    begin(c, false);
+    const bool in_parts = !d->is_same && c->rows.jobs.workers > 1;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        smear_damage_compare(d, &c->submitted[i].draw, i, age);
+        if (in_parts) {
+            d->draw[i].box = tiles_of(c, i);
+        } else if (d->is_same && d->draw[i].changed) {
+            const struct smear_tile_box box = tiles_of(c, i);
+            smear_damage_tiles(&d->tiles, &box, age);
+        }
+    }
+    smear_damage_drop(d, c->draw_count, &c->desc);
+    if (in_parts)
+        c->assembler.damaged = NULL;
+}
+
+#endif
