@@ -23,11 +23,11 @@ const struct demo_screen demo_screens[] = {
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
                     .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 64, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
     { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
                     .max_triangles = 500, .reuse.buffer_age = 1 },
@@ -92,7 +92,9 @@ void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *scre
     desc->methods = (uint16_t)SMEAR_SET(blur->method);
     if (smear_method_is_temporal(blur->method))
         return;
-    desc->reuse.buffer_age = 0;
+    /* Where pages flip, twice as much of a sharp frame is damaged, and little is saved. */
+    if (blur->method != SMEAR_NONE || desc->reuse.buffer_age != 1)
+        desc->reuse.buffer_age = 0;
     /* Sums of whole frames where small boards have the memory, else of bands. */
     if (blur->method == SMEAR_ACCUMULATE && desc->width * desc->height > 10000)
         desc->methods = SMEAR_SET_ACCUMULATE_BANDS;

@@ -203,7 +203,7 @@ static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
  * damaged are known. *seen is the box of the static draw before, or null. */
 static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen, bool known)
 {
-    *seen = *seen == NULL ? d->seen : *seen + 1;
+    *seen = *seen == NULL ? d->of.seen : *seen + 1;
     d->tiles.only = d->is_same && known;
     d->tiles.seen = d->is_same ? NULL : *seen;
     return !d->tiles.only || tile_box_is_damaged(&d->tiles, **seen);
@@ -268,13 +268,21 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     return done;
 }
 
+/* Whether a sharp frame of which the display shows a part lacks a draw. */
+static bool is_lacking(struct smear_damage *d, uint32_t i)
+{
+    struct smear_damaged_draw *const r = &d->of.draw[i];
+    d->tiles.seen = r->changed ? &r->box : NULL;
+    return r->changed || tile_box_is_damaged(&d->tiles, r->box);
+}
+
 /* Whether a draw of the kind must be drawn. */
 static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool known, struct smear_tile_box **seen)
 {
     if (kind == DRAWS_ALL)
         return true;
     if (damage_compares(c->damage))
-        return smear_damage_wants(c->damage, i);
+        return is_lacking(c->damage, i);
     if (draw_is_static(c, i))
         return is_damaged(c->damage, seen, known);
     c->damage->tiles.only = false;
@@ -400,7 +408,7 @@ static bool assemble_range(const struct assembly_parts *all, struct smear_part *
     p->tiles.only = all->kind == DRAWS_STATIC;
     p->tiles.seen = seen;
     if (seen != NULL && first != 0) {           /* the part in which it begins writes to it */
-        p->rest = TILE_BOX_NONE;
+        p->rest = (struct smear_tile_box)TILE_BOX_NONE;
         p->rest_of = seen;
         p->tiles.seen = &p->rest;
     }
@@ -415,7 +423,7 @@ static void assemble_job(void *argument, int job, int worker)
     const struct smear_context *c = all->c;
     struct smear_part *p = &all->part[job];
     const bool notes = assembler_has_damage(&c->assembler) && !c->damage->is_same;
-    struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
+    struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->of.seen : NULL;
     uint32_t at = 0;
     (void)worker;
     for (uint32_t i = 0; i < c->draw_count && at < p->end && p->done; i++) {
@@ -448,7 +456,7 @@ static bool has_parts(struct smear_context *c)
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
     c->in_parts = false;
-    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || (assembler_has_damage(&c->assembler) && damage_compares(c->damage))
+    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
             && g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows))))
@@ -463,7 +471,7 @@ static void cut_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
     all->kind = kind;
     all->cut = (struct smear_parts_cut){ .parts = n };
     for (int cuts = 0; cuts < 2; cuts++) {
-        const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
+        const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->of.seen : NULL;
         for (uint32_t i = 0; i < c->draw_count; i++) {
             smear_parts_cut(&all->cut, i, part_triangles(all, i, seen), cuts);
             seen = seen != NULL && draw_is_static(c, i) ? seen + 1 : seen;

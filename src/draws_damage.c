@@ -6,12 +6,12 @@
 
 #if SMEAR_WITH_DAMAGE
 
-/* Finds out whether all that the frame's draws share is the last frame's; with what `adds` says of draws. */
-static void begin(struct smear_context *c, bool adds)
+/* Finds out whether all that the frame's draws share is the last frame's; `with_static`: and what does not move. */
+static void begin_damage(struct smear_context *c, bool with_static)
 {
     struct smear_damage *d = c->damage;
     smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, (uint8_t)(c->frame.light_space | c->frame.edges << 1), &c->sun);
-    for (uint32_t i = 0; adds && i < c->draw_count; i++)
+    for (uint32_t i = 0; with_static && i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)
             smear_damage_add(d, &c->submitted[i].draw);
     smear_damage_find(d, &c->rows, c->frame.refresh);
@@ -25,11 +25,11 @@ void smear_draws_find_damage(struct smear_context *c)
 {
     if (c->damage == NULL)
         return;
-    begin(c, true);
+    begin_damage(c, true);
     c->assembler.path_static_count = 0;
 }
 
-static struct smear_tile_box tiles_of(const struct smear_context *c, uint32_t i)
+static struct smear_tile_box tiles_of_draw(const struct smear_context *c, uint32_t i)
 {
     const smear_draw *draw = &c->submitted[i].draw;
     struct smear_draw_poses poses;
@@ -39,26 +39,24 @@ static struct smear_tile_box tiles_of(const struct smear_context *c, uint32_t i)
     return smear_vertex_tiles(&at, draw->mesh, &c->assembler.viewport, &c->damage->tiles);
 }
 
-/* Where tiles are kept, all damaged ones are known before the first draw is assembled: draws that changed are seen within their
- * bounds. What is assembled says where exactly, for the next frame; but cores that assemble parts of whole frames don't. */
+/* All damaged tiles are known before the first draw is assembled: draws that changed are seen within their bounds. Where exactly,
+ * their triangles tell for the next frame, but not where cores assemble parts of whole frames. */
 void smear_draws_find_changes(struct smear_context *c)
 {
     struct smear_damage *d = c->damage;
-    const uint8_t age = c->desc.reuse.buffer_age;
     if (!damage_compares(d))
         return;
-    begin(c, false);
+    begin_damage(c, false);
     const bool in_parts = !d->is_same && c->rows.jobs.workers > 1;
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        smear_damage_compare(d, &c->submitted[i].draw, i, age);
-        if (in_parts) {
-            d->draw[i].box = tiles_of(c, i);
-        } else if (d->is_same && d->draw[i].changed) {
-            const struct smear_tile_box box = tiles_of(c, i);
-            smear_damage_tiles(&d->tiles, &box, age);
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (smear_damage_compare(d, &c->submitted[i].draw, i)) {
+            const struct smear_tile_box none = TILE_BOX_NONE, box = d->is_same || in_parts ? tiles_of_draw(c, i) : none;
+            smear_damage_move(d, i, &box, c->desc.reuse.buffer_age);
+            if (!in_parts)
+                d->of.draw[i].box = none;
         }
-    }
     smear_damage_drop(d, c->draw_count, &c->desc);
+    d->tiles.only = d->is_same;
     if (in_parts)
         c->assembler.damaged = NULL;
 }

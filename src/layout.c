@@ -143,9 +143,9 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
         return;
     *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares, .tiles = damaged, .over = over };
     if (compares)
-        c->damage->draw = draw;
+        c->damage->of.draw = draw;
     else
-        c->damage->seen = seen;
+        c->damage->of.seen = seen;
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
 }

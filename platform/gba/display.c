@@ -60,7 +60,10 @@ bool display_open(smear_desc *desc)
     if (desc->format != SMEAR_RGB555 || (!is_half && !is_whole))
         return false;
     desc->bands = 1;
-    desc->reuse.buffer_age = (desc->methods & SMEAR_SET_TEMPORAL) != 0 ? (uint8_t)(is_half + 1) : 0;
+    /* Where pages flip, twice as much of a sharp frame is damaged, and nothing is saved. */
+    desc->reuse.buffer_age = (desc->methods & SMEAR_SET_TEMPORAL) != 0 ? (uint8_t)(is_half + 1)
+                           : desc->methods == SMEAR_SET(SMEAR_NONE)    ? !is_half
+                                                                       : 0;
     desc->flush = flush;
     screen.is_paged = is_half;
     screen.hidden = is_half;

@@ -26,15 +26,14 @@ static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
     h[1] = h1;
 }
 
-/* Return the two words of a pointer. */
-static int32_t low(const void *p)
-{
-    return (int32_t)(uint32_t)(uintptr_t)p;
-}
+/* Words of a pointer. */
+enum { POINTER_WORDS = sizeof(void *) > 4 ? 2 : 1 };
 
-static int32_t high(const void *p)
+static void put_pointer(int32_t *word, const void *p)
 {
-    return (int32_t)(uint32_t)((uint64_t)(uintptr_t)p >> 32);
+    word[0] = (int32_t)(uint32_t)(uintptr_t)p;
+    if (POINTER_WORDS == 2)
+        word[POINTER_WORDS - 1] = (int32_t)(uint32_t)((uint64_t)(uintptr_t)p >> 32);
 }
 
 static int32_t bytes(int a, int b, int c, int d)
@@ -50,31 +49,32 @@ static void mix_transform(uint32_t h[2], const smear_transform *t)
 
 static void mix_mesh(uint32_t h[2], const smear_mesh *m)
 {
-    const void *const part[6] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
-    int32_t word[24];
-    for (int i = 0; i < 6; i++) {
-        word[2 * i] = low(part[i]);
-        word[2 * i + 1] = high(part[i]);
-        word[12 + i] = m->bounds[i];
+    enum { PARTS = 6, WORDS = PARTS * POINTER_WORDS };
+    const void *const part[PARTS] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
+    int32_t word[WORDS + 9];
+    for (int i = 0; i < PARTS; i++)
+        put_pointer(word + i * POINTER_WORDS, part[i]);
+    for (int i = 0; i < 3; i++) {
+        word[WORDS + i] = (int32_t)((uint32_t)m->bounds[i] << 16 | (uint16_t)m->bounds[3 + i]);
+        word[WORDS + 3 + i] = m->offset[i];
     }
-    word[18] = (int32_t)m->triangle_count;
-    word[19] = bytes(m->vertex_count >> 8, m->vertex_count & 255, (uint8_t)m->shift, m->uv_shift);
-    word[20] = m->scale;
-    for (int i = 0; i < 3; i++)
-        word[21 + i] = m->offset[i];
-    mix(h, word, 24);
+    word[WORDS + 6] = (int32_t)m->triangle_count;
+    word[WORDS + 7] = bytes(m->vertex_count >> 8, m->vertex_count & 255, (uint8_t)m->shift, m->uv_shift);
+    word[WORDS + 8] = m->scale;
+    mix(h, word, WORDS + 9);
 }
 
 static void mix_material(uint32_t h[2], const smear_material *m)
 {
     static const smear_texture none = { 0 };
     const smear_texture *t = m->texture != NULL ? m->texture : &none;
-    const int32_t word[] = {
+    int32_t word[4 + 2 * POINTER_WORDS] = {
         bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
         bytes(m->alpha, m->cutoff, m->unlit, m->double_sided << 1 | m->bilinear),
-        low(t->texels), high(t->texels), low(t->palette), high(t->palette),
         (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v)
     };
+    put_pointer(word + 4, t->texels);
+    put_pointer(word + 4 + POINTER_WORDS, t->palette);
     mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
@@ -124,14 +124,15 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     if (!damage_has_tiles(d) || d->is_same)
         return;
     for (uint32_t i = 0; !d->compares && i < rows->desc->max_draws; i++)
-        d->seen[i] = TILE_BOX_NONE;
+        d->of.seen[i] = (struct smear_tile_box)TILE_BOX_NONE;
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
         d->tiles.tile[i] = rows->desc->reuse.buffer_age;
 }
 
 /* ------------------------------------------------------------------ draws of sharp frames */
 
-void smear_damage_tiles(const struct smear_damaged_tiles *t, const struct smear_tile_box *box, uint8_t age)
+/* Has tiles of a box drawn. */
+static void damage_box(const struct smear_damaged_tiles *t, const struct smear_tile_box *box, uint8_t age)
 {
     for (int row = box->y0; row <= box->y1; row++)
         for (int column = box->x0; column <= box->x1; column++)
@@ -144,34 +145,34 @@ static bool deforms(const smear_draw *draw)
     return draw->open_position != NULL || draw->close_position != NULL;
 }
 
-void smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i, uint8_t age)
+bool smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i)
 {
-    struct smear_damaged_draw *const r = &d->draw[i];
+    struct smear_damaged_draw *const r = &d->of.draw[i];
     uint32_t look[2] = { 0, 0 };
     mix_draw(look, draw);
     r->changed = !d->is_same || deforms(draw) || look[0] != r->look[0] || look[1] != r->look[1];
-    if (!r->changed)
-        return;
-    if (d->is_same)
-        smear_damage_tiles(&d->tiles, &r->box, age);
-    *r = (struct smear_damaged_draw){ { look[0], look[1] }, TILE_BOX_NONE, true };
+    r->look[0] = look[0];
+    r->look[1] = look[1];
+    return r->changed;
+}
+
+void smear_damage_move(struct smear_damage *d, uint32_t i, const struct smear_tile_box *box, uint8_t age)
+{
+    struct smear_damaged_draw *const r = &d->of.draw[i];
+    if (d->is_same) {
+        damage_box(&d->tiles, &r->box, age);
+        damage_box(&d->tiles, box, age);
+    }
+    r->box = *box;
 }
 
 void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc *desc)
 {
+    static const struct smear_tile_box none = TILE_BOX_NONE;
     for (uint32_t i = first; i < desc->max_draws; i++) {
-        if (d->is_same)
-            smear_damage_tiles(&d->tiles, &d->draw[i].box, desc->reuse.buffer_age);
-        d->draw[i] = (struct smear_damaged_draw){ { 0, 0 }, TILE_BOX_NONE, false };
+        smear_damage_move(d, i, &none, desc->reuse.buffer_age);
+        d->of.draw[i].look[0] = d->of.draw[i].look[1] = 0;
     }
-}
-
-bool smear_damage_wants(struct smear_damage *d, uint32_t i)
-{
-    struct smear_damaged_draw *const r = &d->draw[i];
-    d->tiles.only = d->is_same;
-    d->tiles.seen = r->changed ? &r->box : NULL;
-    return r->changed || tile_box_is_damaged(&d->tiles, r->box);
 }
 
 #if SMEAR_WITH_OVERLAY
@@ -181,12 +182,13 @@ static void mix_item(uint32_t h[2], const smear_overlay_item *item, int32_t i)
 {
     static const smear_image none = { 0 };
     const smear_image *m = item->text != NULL ? &item->font->glyph : item->image != NULL ? item->image : &none;
-    const int32_t word[] = {
+    int32_t word[8 + 2 * POINTER_WORDS] = {
         i, bytes(item->color[0], item->color[1], item->color[2], item->color[3]), item->x, item->y,
         (int32_t)((uint32_t)item->width << 16 | item->height), (int32_t)((uint32_t)item->scale << 16 | item->cell),
-        low(m->pixels), high(m->pixels), low(m->palette), high(m->palette),
         (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, item->text != NULL, 0)
     };
+    put_pointer(word + 8, m->pixels);
+    put_pointer(word + 8 + POINTER_WORDS, m->palette);
     h[0] = h[1] = 0;
     mix(h, word, (int)(sizeof word / sizeof *word));
 }

@@ -20,15 +20,15 @@ struct smear_damage {
     uint32_t next[2];               /* hash of this frame's, so far */
     bool caches;                    /* desc.reuse.cache_static: the window has all rows of the frame */
     bool is_whole;                  /* all that the last frame drew of it is in the window, or on the display */
-    bool is_same;                   /* and it is what this frame wants; with `draw`: but for draws that changed */
-    bool compares;                  /* of the two below, `draw` is there */
+    bool is_same;                   /* and it is what this frame wants; if it compares, but for draws that changed */
+    bool compares;                  /* draws, so `of` has them */
     /* desc.reuse.buffer_age, else null: */
     struct smear_damaged_tiles tiles;   /* for how many frames each tile must still be drawn, this one included, or
                                          * TILE_DAMAGED_NOW */
     union {
         struct smear_tile_box *seen;        /* where each static draw is seen, in their order */
         struct smear_damaged_draw *draw;    /* draws in their order; those that are not there are seen nowhere */
-    };
+    } of;
     uint32_t *over;                     /* sum of hashes of what lies over each tile; null without SMEAR_WITH_OVERLAY */
 };
 
@@ -64,18 +64,14 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
 void smear_damage_add(struct smear_damage *d, const smear_draw *draw);
 void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bool refresh);
 
-/* Compares draw `i`. Where it changed, but nothing that all draws share, its box is what the last frame's draw had: what it was
- * seen in is damaged. */
-void smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i, uint8_t age);
+/* Compares draw `i`; true where it changed, or something that all draws share. */
+bool smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i);
 
-/* As that, of draws that the last frame had and this one has not, from `first` on. */
+/* It is seen in other tiles than in the last frame: these and those are damaged. */
+void smear_damage_move(struct smear_damage *d, uint32_t i, const struct smear_tile_box *box, uint8_t age);
+
+/* Draws from `first` on, which the last frame had and this one has not, are seen nowhere. */
 void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc *desc);
-
-/* Has tiles of a box drawn. */
-void smear_damage_tiles(const struct smear_damaged_tiles *t, const struct smear_tile_box *box, uint8_t age);
-
-/* Whether draw `i`, which has been compared, must be assembled; notes where its triangles are seen if it changed. */
-bool smear_damage_wants(struct smear_damage *d, uint32_t i);
 
 /* Has tiles drawn over which something else lies than in the last frame. */
 void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows);

@@ -69,34 +69,59 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
 }
 
 #if SMEAR_WITH_DAMAGE
+/* What the corners of the mesh's bounds have of a row of the projection: the least one's, and how much more others have along x, y
+ * and z. What is lost by rounding these apart is far below a pixel. */
+static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6])
+{
+    part[0] = transform_row(m, b);
+    for (int i = 0; i < 3; i++) {
+        const int16_t other[3] = { b[i == 0 ? 3 : 0], b[i == 1 ? 4 : 1], b[i == 2 ? 5 : 2] };
+        part[1 + i] = transform_row(m, other) - part[0];
+    }
+}
+
+static inline int32_t corner_of(const int32_t part[4], int i)
+{
+    return part[0] + (i & 1 ? part[1] : 0) + (i & 2 ? part[2] : 0) + (i & 4 ? part[3] : 0);
+}
+
+/* Finds the box of the corners of the bounds, in q8 px. False where one lies before the near plane. */
+static bool find_box(struct smear_screen *least, struct smear_screen *most, const struct smear_projection *p, const int16_t b[6],
+                     const struct smear_viewport *viewport)
+{
+    const bool even = is_orthographic(p);
+    int32_t row[4][4];
+    for (int k = 0; k < (even ? 4 : 3); k++)
+        row_of_bounds(row[k], p->m[k], b);
+    *least = (struct smear_screen){ .x = INT32_MAX, .y = INT32_MAX };
+    *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
+    for (int i = 0; i < 8; i++) {
+        const int32_t w = corner_of(row[2], i);
+        const struct smear_homogeneous h = { corner_of(row[0], i), corner_of(row[1], i), w, even ? corner_of(row[3], i) : w };
+        struct smear_screen s;
+        if (w <= 0 || h.distance < p->depths.near_distance)
+            return false;
+        smear_project(&s, &p->depths, &h, viewport);
+        least->x = min_i32(least->x, s.x);
+        least->y = min_i32(least->y, s.y);
+        most->x = max_i32(most->x, s.x);
+        most->y = max_i32(most->y, s.y);
+    }
+    return true;
+}
+
 struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const smear_mesh *mesh, const struct smear_viewport *viewport,
                                          const struct smear_damaged_tiles *tiles)
 {
     enum { MARGIN = 2 << 8 };       /* q8 px: more than places of vertices are rounded by */
     const int16_t *b = mesh->bounds;
-    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN;
-    bool known = (b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) != 0 && p->extra_count == 0 && p->position == mesh->position;
-    for (int i = 0; i < 8 && known; i++) {
-        const int16_t corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
-        struct smear_homogeneous h;
-        struct smear_screen s;
-        smear_transform_vertex(&h, &p->now, corner);
-        known = h.w > 0 && h.distance >= p->now.depths.near_distance;
-        if (!known)
-            break;
-        smear_project(&s, &p->now.depths, &h, viewport);
-        x0 = min_i32(x0, s.x);
-        x1 = max_i32(x1, s.x);
-        y0 = min_i32(y0, s.y);
-        y1 = max_i32(y1, s.y);
-    }
-    if (!known)
+    struct smear_screen least, most;
+    if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0 || p->extra_count != 0 || p->position != mesh->position
+        || !find_box(&least, &most, &p->now, b, viewport))
         return tile_box_of(tiles, 0, viewport->width, 0, viewport->height);
-    x0 = max_i32((x0 - MARGIN) >> 8, 0);
-    y0 = max_i32((y0 - MARGIN) >> 8, 0);
-    x1 = min_i32((x1 + MARGIN) >> 8, viewport->width);
-    y1 = min_i32((y1 + MARGIN) >> 8, viewport->height);
-    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : TILE_BOX_NONE;
+    const int32_t x0 = max_i32((least.x - MARGIN) >> 8, 0), x1 = min_i32((most.x + MARGIN) >> 8, viewport->width);
+    const int32_t y0 = max_i32((least.y - MARGIN) >> 8, 0), y1 = min_i32((most.y + MARGIN) >> 8, viewport->height);
+    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : (struct smear_tile_box)TILE_BOX_NONE;
 }
 #endif
 

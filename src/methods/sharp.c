@@ -49,7 +49,7 @@ static void inspect_row(const struct smear_rows *rows, int row)
     }
 }
 
-static void advance(struct smear_rows *rows, int row)
+static void advance_lists(struct smear_rows *rows, int row)
 {
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
@@ -61,7 +61,7 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_d
 {
     struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
     const uint32_t start = stage_start(rows);
-    advance(rows, row);
+    advance_lists(rows, row);
     smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
         inspect_row(rows, row);
@@ -169,7 +169,7 @@ static inline int draw_window_row(struct smear_rows *rows, int row)
 
 #if SMEAR_WITH_DAMAGE
 /* Draws a run of tiles of a row whose lists have been moved on. */
-static int draw_run(struct smear_rows *rows, int row, const struct smear_damage_run *run)
+static int draw_damaged_run(struct smear_rows *rows, int row, const struct smear_damage_run *run)
 {
     struct draw_job job = { .row = { .rows = rows, .row = row } };
     const uint32_t start = stage_start(rows);
@@ -186,7 +186,7 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
     struct smear_damage_run run = { 0, 0 };
     int result = SMEAR_OK;
     const uint32_t start = stage_start(rows);
-    advance(rows, row);
+    advance_lists(rows, row);
     smear_row_advance_blended(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 #if SMEAR_LATE_BLOCKS
@@ -195,7 +195,7 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
         SMEAR_ENTER_STAGE(SMEAR_STAGE_LATE);
 #endif
     while (result == SMEAR_OK && smear_damage_next_run(damage, rows, row, &run))
-        result = draw_run(rows, row, &run);
+        result = draw_damaged_run(rows, row, &run);
 #if SMEAR_LATE_BLOCKS
     rows->late = false;
 #endif
