@@ -13,7 +13,7 @@ struct demo_screen {
     uint32_t sky;                   /* 0xRRGGBB */
     const char *level;              /* of detail, in demo_props.c */
     uint8_t path;                   /* smear_path */
-    uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE, which has none to keep; 0: desc's, for all ways to blur */
+    uint8_t sharp_tile;             /* desc.tile of SMEAR_NONE; 0: desc's, for all ways to blur */
     uint16_t target;                /* of SMEAR_AUTO; 0: the default */
 };
 

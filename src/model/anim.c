@@ -10,6 +10,7 @@
 #include "smear_model.h"
 
 #include "base/arena.h"
+#include "base/compiled.h"
 #include "base/fixmath.h"
 #include "model/skin.h"
 
@@ -468,8 +469,9 @@ int smear_actor_draw(smear_actor *a, int index, smear_draw *draw)
     mesh->position = a->pose[SMEAR_POSE_NOW].position + 3 * d->vertex_first;
     __builtin_memset(mesh->bounds, 0, sizeof mesh->bounds);
     draw->mesh = mesh;
-    if (has_open)
-        draw->open_position = a->pose[SMEAR_POSE_OPEN].position + 3 * d->vertex_first;
+    /* Where no other is known that of now: its vertices are not those of the last frame, in the same memory (damage.h). */
+    if (has_open || SMEAR_DEFORM_MOST)
+        draw->open_position = has_open ? a->pose[SMEAR_POSE_OPEN].position + 3 * d->vertex_first : mesh->position;
     if (has_close)
         draw->close_position = a->pose[SMEAR_POSE_CLOSE].position + 3 * d->vertex_first;
     return SMEAR_OK;

@@ -893,6 +893,11 @@ usage --budget render "$plate" --budget 0
 usage --budget render "$plate" --budget 10 --method subframes
 usage --keep-still render "$plate" --keep-still --method reconstruct
 usage --keep-display render "$plate" --keep-display --method reconstruct
+sharp="builtin:demo/drone --method none --size 96x64 --frames 0-5"
+claim "sharp frames that are sent whole" render $sharp -o drawn%d.png
+claim "and where a display keeps its picture" render $sharp --keep-display --stats kept.json -o kept%d.png
+claim "show the same" same drawn5.png kept5.png
+claim "for less" grep -q '"kept":[1-9]' kept.json
 
 usage --time render "$plate" --time 1 --frames 0-0
 usage --exact render "$plate" --exact

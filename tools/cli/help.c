@@ -102,9 +102,9 @@ static const char *const render_help[] = {
     "                        what moves (work of --stats), but not coarser than draft\n"
     "  --keep-still          auto, subframes, timemask: what does not move is kept from frame to\n"
     "                        frame, for memory of the whole frame; the same pictures\n"
-    "  --keep-display        likewise: the display keeps what it is sent, and only tiles that it\n"
-    "                        does not show are drawn and sent (tiles kept of --stats); the same\n"
-    "                        pictures\n"
+    "  --keep-display        likewise, and none: the display keeps what it is sent, and only tiles\n"
+    "                        that it does not show are drawn and sent (tiles kept of --stats); the\n"
+    "                        same pictures\n"
     "  --scale LIST          turn=1,way=1,objects=1: of the camera's rotation, its translation and\n"
     "                        the motion of objects, 0 to 63\n",
     "  --quality draft|balanced|fine, --target CODES\n"

@@ -520,8 +520,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--budget", "goes with --method auto");
     if (o->cache_static && !smear_method_is_temporal(o->method))
         return say_bad_usage("--keep-still", "goes with --method auto, subframes and timemask");
-    if (o->keep_display && !smear_method_is_temporal(o->method))
-        return say_bad_usage("--keep-display", "goes with --method auto, subframes and timemask");
+    if (o->keep_display && !method_keeps_display(o->method))
+        return say_bad_usage("--keep-display", "goes with --method none, auto, subframes and timemask");
     if (o->dither == SMEAR_DITHER_DIFFUSE && (o->format < SMEAR_L4 || o->keep_display))
         return say_bad_usage("--dither", "diffuse goes with --format l4, l1 and l1pages, without --keep-display");
     if (o->edges != SMEAR_EDGES_HARD && !o->exact && !method_smooths_edges(o->method))

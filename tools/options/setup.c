@@ -108,7 +108,7 @@ struct device_setup setup_device(const struct setup *s, const struct render_opti
         .width = s->width, .height = s->height, .reach = s->reach, .tile = s->tile,
         .format = o->format, .dither = o->dither, .doubled = o->doubled, .methods = method_set(o),
         .cache_static = o->cache_static && is_temporal_method(o),
-        .keep_display = o->keep_display && is_temporal_method(o),
+        .keep_display = o->keep_display && (is_temporal_method(o) || method_set(o) == SMEAR_SET(SMEAR_NONE)),
         .scatter = o->scatter && (method_set(o) & SMEAR_SET_FILTERS) != 0, .threads = o->threads, .arena = o->arena,
     };
 }

@@ -31,6 +31,12 @@ static inline bool method_smooths_edges(smear_method method)
     return method == SMEAR_AUTO || method == SMEAR_SUBFRAMES;
 }
 
+/* Whether a display may keep what it is sent. */
+static inline bool method_keeps_display(smear_method method)
+{
+    return method == SMEAR_NONE || smear_method_is_temporal(method);
+}
+
 /* "NAME, NAME or NAME" of all, in a text that stays. */
 const char *method_names(void);
 

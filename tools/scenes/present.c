@@ -423,7 +423,7 @@ static bool add_part(struct presenter *p, const struct converted *c, const struc
             if (pose[i] != NULL)
                 quantise_positions(slot->position[i], pose[i]->position, part, &plan->grid);
         slot->mesh.position = slot->position[NOW];
-        draw->open_position = pose[OPEN] != NULL ? slot->position[OPEN] : NULL;
+        draw->open_position = slot->position[pose[OPEN] != NULL ? OPEN : NOW];
         draw->close_position = pose[CLOSE] != NULL ? slot->position[CLOSE] : NULL;
         slot->mesh.normal = NULL;
         if (pose[NOW]->normal != NULL) {

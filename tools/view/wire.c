@@ -126,7 +126,7 @@ static bool moves(const smear_draw *d)
     for (int i = 0; i < 2; i++)
         if (other[i] != NULL && d->now != NULL && memcmp(other[i], d->now, sizeof *d->now) != 0)
             return true;
-    return d->open_position != NULL || d->close_position != NULL;
+    return (d->open_position != NULL && d->open_position != d->mesh->position) || d->close_position != NULL;
 }
 
 void wire_draw(const struct presented *presented, uint32_t *picture, int width, int height)
