@@ -16,7 +16,7 @@ arm-none-eabi-objdump -r "$1" | cat "$1.roots" "$1.symbols" - | awk '
         return section
     }
     BEGIN { assembles["assemble_rows"]; assembles["assemble_fill"]; assembles["smear_draws_find_layers"]; assembles["smear_draws_find_damage"]; assembles["prepare"]
-            assembles["smear_draws_place_points"] }
+            assembles["smear_draws_find_changes"]; assembles["smear_draws_place_points"] }
     function walk(from, mark, seen,    stack, top, n, i, next_one) {
         stack[top = 1] = from
         while (top > 0) {

@@ -214,10 +214,14 @@ static void convert_job(void *argument, int job, int worker)
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->rows, job, &x0, &x1);
-    smear_band_convert_window(r, max_i32(x0, job_left(r)), min_i32(x1, job_right(r)));
+    if (SMEAR_WITH_DAMAGE) {
+        x0 = max_i32(x0, job_left(r));
+        x1 = min_i32(x1, job_right(r));
+    }
+    smear_band_convert_window(r, x0, x1);
 }
 
-int smear_band_finish(struct row_job *job)
+static int finish_bands(struct row_job *job)
 {
     struct smear_rows *rows = job->rows;
     int result = SMEAR_OK;
@@ -233,5 +237,9 @@ int smear_band_finish(struct row_job *job)
 int smear_band_finish_row(struct smear_rows *rows, int row)
 {
     struct row_job job = { .rows = rows, .row = row };
-    return smear_band_finish(&job);
+    return finish_bands(&job);
 }
+
+#if SMEAR_WITH_DAMAGE
+int smear_band_finish_columns(struct row_job *job) { return finish_bands(job); }
+#endif

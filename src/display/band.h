@@ -50,7 +50,7 @@ void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile);
 
 /* Convert and hand out a tile row that lies finished in the window, or the job's columns of it, band after band. */
-int smear_band_finish(struct row_job *job);
+int smear_band_finish_columns(struct row_job *job);
 int smear_band_finish_row(struct smear_rows *rows, int row);
 
 #endif

@@ -179,27 +179,27 @@ static void blend_job(void *argument, int job, int worker)
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(r->rows, r->row, &t);
-    t.x0 = job_left(r);
-    t.x1 = job_right(r);
+    if (SMEAR_WITH_DAMAGE) {
+        t.x0 = job_left(r);
+        t.x1 = job_right(r);
+    }
     if ((r->steps & ROW_DRAW) && smear_job_area(r->rows, job, &t))
         smear_raster_list(&r->rows->raster, &t, r->rows->blend);
 }
 
-void smear_row_advance_blended(struct smear_rows *rows, int row)
+void smear_row_blend(struct smear_rows *rows, int row)
 {
-    if (SMEAR_WITH_ALPHA && rows->blends && rows->refill == NULL)
-        rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+    if (!SMEAR_WITH_ALPHA || !rows->blends)
+        return;
+    struct row_job job = { .rows = rows, .row = row };
+    row_advance_blended(rows, row);
+    smear_row_run(rows, blend_job, &job, FILL_BLENDED);
 }
 
-void smear_row_blend_job(struct row_job *job)
+#if SMEAR_WITH_DAMAGE
+void smear_row_blend_columns(struct row_job *job)
 {
     if (SMEAR_WITH_ALPHA && job->rows->blends)
         smear_row_run(job->rows, blend_job, job, FILL_BLENDED);
 }
-
-void smear_row_blend(struct smear_rows *rows, int row)
-{
-    struct row_job job = { .rows = rows, .row = row };
-    smear_row_advance_blended(rows, row);
-    smear_row_blend_job(&job);
-}
+#endif

@@ -189,6 +189,13 @@ static inline uint32_t row_advance(const struct smear_rows *rows, const uint32_t
     return smear_bins_advance(&rows->bins, last, head, row);
 }
 
+/* Moves the list of blended triangles on to a row that is not refilled. */
+static inline void row_advance_blended(struct smear_rows *rows, int row)
+{
+    if (SMEAR_WITH_ALPHA && rows->blends && rows->refill == NULL)
+        rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
+}
+
 /* Fills the store with triangles of a row that is refilled, and begins their lists: from the first one on; with the next
  * ones, if there are any left.
  *
@@ -210,8 +217,7 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
 /* Draws blended triangles of the row straight over its rows in the window: where no filter will read them. */
 void smear_row_blend(struct smear_rows *rows, int row);
 
-/* The two parts of that: moves the list on; draws the job's columns. */
-void smear_row_advance_blended(struct smear_rows *rows, int row);
-void smear_row_blend_job(struct row_job *job);
+/* Draws the job's columns, of a list that has been moved on. */
+void smear_row_blend_columns(struct row_job *job);
 
 #endif

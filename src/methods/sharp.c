@@ -176,9 +176,9 @@ static int draw_damaged_run(struct smear_rows *rows, int row, const struct smear
     job.row.x0 = tile_left(rows, run->first);
     job.row.x1 = tile_right(rows, run->end - 1);
     smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
-    smear_row_blend_job(&job.row);
+    smear_row_blend_columns(&job.row);
     stage_end(rows, &rows->stats->time.raster, start);
-    return smear_band_finish(&job.row);
+    return smear_band_finish_columns(&job.row);
 }
 
 static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage, int row)
@@ -187,7 +187,7 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
     int result = SMEAR_OK;
     const uint32_t start = stage_start(rows);
     advance_lists(rows, row);
-    smear_row_advance_blended(rows, row);
+    row_advance_blended(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 #if SMEAR_LATE_BLOCKS
     rows->late = may_be_late(rows, row);
