@@ -527,9 +527,10 @@ typedef void smear_inspect_fn(void *user, int y, const uint32_t *color, const ui
                               const int32_t *velocity);
 
 /* What is kept from frame to frame. Pictures may be so for SMEAR_AUTO, SMEAR_SUBFRAMES and SMEAR_TIMEMASK, and are the
- * same; frames of other methods are drawn and sent whole. Where desc.methods is SMEAR_SET(SMEAR_NONE), buffer_age is for sharp
- * frames: each draw is compared with that of the last frame at the same place in their order, so those that stand still come
- * first; a mesh without bounds that moves damages all tiles. 16 bytes for each of max_draws. See smear_frame.refresh. */
+ * same; frames of other methods are drawn and sent whole. Where SMEAR_SET(SMEAR_NONE) is in desc.methods, alone or beside those, and
+ * cache_static is not, buffer_age is for sharp frames, too: each draw is compared with that of the last one at the same place in
+ * their order, so those that stand still come first; a mesh without bounds that moves damages all tiles. 16 bytes for each of
+ * max_draws. See smear_frame.refresh. */
 typedef struct smear_reuse {
     uint8_t cache_static;       /* 1: what does not move is kept from frame to frame, and drawn again only where
                                  * camera, background or a static draw is another: 6 bytes per pixel of the whole frame

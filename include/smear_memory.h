@@ -139,7 +139,8 @@
                                                              (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
                             : 0u)
 #define SMEAR_DAMAGE_(d, m, c, a, columns, rows) \
-    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * (SMEAR_HAS_TEMPORAL_(m) ? 4u : SMEAR_DAMAGED_DRAW_BYTES)) \
+    ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * (SMEAR_HAS_TEMPORAL_(m) ? 4u : 0u)) \
+                                            + ((m) & SMEAR_SET(SMEAR_NONE) ? (size_t)(d) * SMEAR_DAMAGED_DRAW_BYTES : 0u) \
                                             + SMEAR_UP8_((columns) * (rows)) \
                                             + (SMEAR_WITH_OVERLAY ? SMEAR_UP8_((columns) * (rows) * 4u) : 0u) : 0u) : 0u)
 /* Rows of a layer with their margins; what groups leave for others they pass through; sums; groups. */

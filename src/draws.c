@@ -203,7 +203,7 @@ static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
  * damaged are known. *seen is the box of the static draw before, or null. */
 static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen, bool known)
 {
-    *seen = *seen == NULL ? d->of.seen : *seen + 1;
+    *seen = *seen == NULL ? d->seen : *seen + 1;
     d->tiles.only = d->is_same && known;
     d->tiles.seen = d->is_same ? NULL : *seen;
     return !d->tiles.only || tile_box_is_damaged(&d->tiles, **seen);
@@ -271,7 +271,7 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
 /* Whether a sharp frame of which the display shows a part lacks a draw. */
 static bool is_lacking(struct smear_damage *d, uint32_t i)
 {
-    struct smear_damaged_draw *const r = &d->of.draw[i];
+    struct smear_damaged_draw *const r = &damage_draws(d)[i];
     d->tiles.seen = r->changed ? &r->box : NULL;
     return r->changed || tile_box_is_damaged(&d->tiles, r->box);
 }
@@ -423,7 +423,7 @@ static void assemble_job(void *argument, int job, int worker)
     const struct smear_context *c = all->c;
     struct smear_part *p = &all->part[job];
     const bool notes = assembler_has_damage(&c->assembler) && !c->damage->is_same;
-    struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->of.seen : NULL;
+    struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
     uint32_t at = 0;
     (void)worker;
     for (uint32_t i = 0; i < c->draw_count && at < p->end && p->done; i++) {
@@ -471,7 +471,7 @@ static void cut_parts(struct assembly_parts *all, enum draws kind, uint32_t n)
     all->kind = kind;
     all->cut = (struct smear_parts_cut){ .parts = n };
     for (int cuts = 0; cuts < 2; cuts++) {
-        const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->of.seen : NULL;
+        const struct smear_tile_box *seen = assembler_has_damage(&c->assembler) ? c->damage->seen : NULL;
         for (uint32_t i = 0; i < c->draw_count; i++) {
             smear_parts_cut(&all->cut, i, part_triangles(all, i, seen), cuts);
             seen = seen != NULL && draw_is_static(c, i) ? seen + 1 : seen;

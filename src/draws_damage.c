@@ -10,7 +10,8 @@
 static void begin_damage(struct smear_context *c, bool with_static)
 {
     struct smear_damage *d = c->damage;
-    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, (uint8_t)(c->frame.light_space | c->frame.edges << 1), &c->sun);
+    const uint8_t kind = (uint8_t)(c->frame.light_space | c->frame.edges << 1 | damage_compares(d) << 7);
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, kind, &c->sun);
     for (uint32_t i = 0; with_static && i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)
             smear_damage_add(d, &c->submitted[i].draw);
@@ -53,7 +54,7 @@ void smear_draws_find_changes(struct smear_context *c)
             const struct smear_tile_box none = TILE_BOX_NONE, box = d->is_same || in_parts ? tiles_of_draw(c, i) : none;
             smear_damage_move(d, i, &box, c->desc.reuse.buffer_age);
             if (!in_parts)
-                d->of.draw[i].box = none;
+                damage_draws(d)[i].box = none;
         }
     smear_damage_drop(d, c->draw_count, &c->desc);
     d->tiles.only = d->is_same;

@@ -166,6 +166,8 @@ static void prepare_methods(struct smear_context *c)
     const struct smear_window *w = &c->rows.window;
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
+    if (SMEAR_WITH_DAMAGE && c->damage != NULL && c->damage->compares != COMPARES_NEVER)
+        c->damage->compares = method == SMEAR_NONE ? COMPARES_THIS : COMPARES_OTHERS;
     if (!smear_method_is_temporal(method) && !damage_compares(c->damage))
         damage_forget(c->damage);
     if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(method))

@@ -130,22 +130,18 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
     const bool tiles = has_buffer_age(d);
     if (!caches_static(d) && !tiles)
         return;
-    const bool compares = tiles && !is_temporal(d);
-    struct smear_damaged_draw *draw = compares ? arena_take(a, d->max_draws, sizeof *draw) : NULL;
-    struct smear_tile_box *seen = tiles && !compares ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
+    const bool compares = compares_sharp(d);
+    struct smear_tile_box *seen = tiles && is_temporal(d) ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
     uint32_t *over = SMEAR_OVERLAY_MOST && tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, sizeof *over) : NULL;
     const struct smear_damaged_tiles damaged = {
         tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, 1) : NULL,
         (uint8_t)(w->columns - 1), (uint8_t)w->tile_shift, false, NULL
     };
-    c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage);
+    c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage + (compares ? d->max_draws : 0u) * sizeof(struct smear_damaged_draw));
     if (c->damage == NULL)          /* only measured */
         return;
-    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares, .tiles = damaged, .over = over };
-    if (compares)
-        c->damage->of.draw = draw;
-    else
-        c->damage->of.seen = seen;
+    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares ? COMPARES_OTHERS : COMPARES_NEVER, .tiles = damaged,
+                                        .seen = seen, .over = over };
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
 }

@@ -20,6 +20,12 @@ static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FI
 static inline bool caches_static(const smear_desc *d) { return SMEAR_CACHE_STATIC_MOST && d->reuse.cache_static; }
 static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE_MOST != 0 && d->reuse.buffer_age; }
 
+/* What a display keeps of sharp frames is known: SMEAR_NONE is in the set, and the window is free for them. */
+static inline bool compares_sharp(const smear_desc *d)
+{
+    return has_buffer_age(d) && wants(d, SMEAR_SET(SMEAR_NONE)) && !caches_static(d);
+}
+
 /* Rows are drawn a tile at a time; else a band at a time. */
 static inline bool has_tiles(const smear_desc *d)
 {

@@ -123,8 +123,8 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     d->scene[1] = d->next[1];
     if (!damage_has_tiles(d) || d->is_same)
         return;
-    for (uint32_t i = 0; !d->compares && i < rows->desc->max_draws; i++)
-        d->of.seen[i] = (struct smear_tile_box)TILE_BOX_NONE;
+    for (uint32_t i = 0; !damage_compares(d) && i < rows->desc->max_draws; i++)
+        d->seen[i] = (struct smear_tile_box)TILE_BOX_NONE;
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
         d->tiles.tile[i] = rows->desc->reuse.buffer_age;
 }
@@ -147,7 +147,7 @@ static bool deforms(const smear_draw *draw)
 
 bool smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32_t i)
 {
-    struct smear_damaged_draw *const r = &d->of.draw[i];
+    struct smear_damaged_draw *const r = &damage_draws(d)[i];
     uint32_t look[2] = { 0, 0 };
     mix_draw(look, draw);
     r->changed = !d->is_same || deforms(draw) || look[0] != r->look[0] || look[1] != r->look[1];
@@ -158,7 +158,7 @@ bool smear_damage_compare(struct smear_damage *d, const smear_draw *draw, uint32
 
 void smear_damage_move(struct smear_damage *d, uint32_t i, const struct smear_tile_box *box, uint8_t age)
 {
-    struct smear_damaged_draw *const r = &d->of.draw[i];
+    struct smear_damaged_draw *const r = &damage_draws(d)[i];
     if (d->is_same) {
         damage_box(&d->tiles, &r->box, age);
         damage_box(&d->tiles, box, age);
@@ -171,7 +171,7 @@ void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc 
     static const struct smear_tile_box none = TILE_BOX_NONE;
     for (uint32_t i = first; i < desc->max_draws; i++) {
         smear_damage_move(d, i, &none, desc->reuse.buffer_age);
-        d->of.draw[i].look[0] = d->of.draw[i].look[1] = 0;
+        damage_draws(d)[i].look[0] = damage_draws(d)[i].look[1] = 0;
     }
 }
 

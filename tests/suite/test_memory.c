@@ -70,6 +70,10 @@ static smear_desc pick_desc(uint16_t methods)
     d.filter.scatter = has_window && is_plain && !has_ports && pick(0, 2) == 0;
     pick_geometry(&d, has_window || has_layers, is_temporal,
                   has_window && is_plain && (all & SMEAR_SET(SMEAR_HALF)) == 0 && !d.filter.scatter);
+    if (methods == SMEAR_SET(SMEAR_NONE) && d.display.dither != SMEAR_DITHER_DIFFUSE && d.tile != 4) {
+        d.reuse.buffer_age = (uint8_t)(pick(0, 1) * pick(1, 7));
+        d.band_rows = d.reuse.buffer_age != 0 ? 0 : d.band_rows;
+    }
     return d;
 }
 

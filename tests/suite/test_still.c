@@ -26,6 +26,7 @@ struct set {
     smear_draw draw[DRAWS];
     smear_camera camera;
     smear_frame frame;
+    uint8_t blurred;                /* a method that frames may have in turn with SMEAR_NONE */
     int count;
 };
 
@@ -617,6 +618,9 @@ static void change(struct set *s, smear_draw *draw, smear_overlay *overlay, smea
     case 12:
         s->pose[i].origin[2] = -between(0, 3) * 16384;      /* through the near plane, or behind the eye */
         break;
+    case 13:
+        s->frame.method = s->frame.method == SMEAR_NONE ? s->blurred : (uint8_t)SMEAR_NONE;
+        break;
     default:
         break;
     }
@@ -637,6 +641,10 @@ static void test_sharp_frames_are_right_whatever_changes(void)
         desc.format = (uint8_t)between(0, SMEAR_L1);
         desc.vertex_cache = 16;
         desc.display.dither = SMEAR_DITHER_ORDERED;
+        if (chance(2)) {
+            s.blurred = chance(2) ? SMEAR_AUTO : SMEAR_SUBFRAMES;
+            desc.methods |= (uint16_t)SMEAR_SET(s.blurred);
+        }
         if (display_begin(&d, desc, between(1, 3)))
             for (int i = 0; i < 60; i++) {
                 for (int changes = between(0, 2); changes > 0; changes--)
@@ -646,6 +654,7 @@ static void test_sharp_frames_are_right_whatever_changes(void)
                     d.sends.fail_with = -9;
                     write_frame(&d, &s);
                     d.sends.fail_at = -1;
+                    rig_frame(&d.all, &s.frame, s.draw, s.count);       /* poses are those of one more frame */
                 }
                 kept += shown(&d, &s);
             }
