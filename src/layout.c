@@ -137,11 +137,12 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
         tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, 1) : NULL,
         (uint8_t)(w->columns - 1), (uint8_t)w->tile_shift, false, NULL
     };
-    c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage + (compares ? d->max_draws : 0u) * sizeof(struct smear_damaged_draw));
+    const size_t draws = compares ? d->max_draws * sizeof(struct smear_damaged_draw) : 0;
+    c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage + draws);
     if (c->damage == NULL)          /* only measured */
         return;
-    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares ? COMPARES_OTHERS : COMPARES_NEVER, .tiles = damaged,
-                                        .seen = seen, .over = over };
+    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares ? COMPARES_OTHERS : COMPARES_NEVER,
+                                        .tiles = damaged, .seen = seen, .over = over };
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
 }
