@@ -408,7 +408,7 @@ static bool assemble_range(const struct assembly_parts *all, struct smear_part *
     p->tiles.only = all->kind == DRAWS_STATIC;
     p->tiles.seen = seen;
     if (seen != NULL && first != 0) {           /* the part in which it begins writes to it */
-        p->rest = (struct smear_tile_box)TILE_BOX_NONE;
+        p->rest = tile_box_none();
         p->rest_of = seen;
         p->tiles.seen = &p->rest;
     }

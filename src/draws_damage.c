@@ -51,7 +51,7 @@ void smear_draws_find_changes(struct smear_context *c)
     const bool in_parts = !d->is_same && c->rows.jobs.workers > 1;
     for (uint32_t i = 0; i < c->draw_count; i++)
         if (smear_damage_compare(d, &c->submitted[i].draw, i)) {
-            const struct smear_tile_box none = TILE_BOX_NONE, box = d->is_same || in_parts ? tiles_of_draw(c, i) : none;
+            const struct smear_tile_box none = tile_box_none(), box = d->is_same || in_parts ? tiles_of_draw(c, i) : none;
             smear_damage_move(d, i, &box, c->desc.reuse.buffer_age);
             if (!in_parts)
                 damage_draws(d)[i].box = none;

@@ -124,7 +124,7 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     if (!damage_has_tiles(d) || d->is_same)
         return;
     for (uint32_t i = 0; !damage_compares(d) && i < rows->desc->max_draws; i++)
-        d->seen[i] = (struct smear_tile_box)TILE_BOX_NONE;
+        d->seen[i] = tile_box_none();
     for (int32_t i = 0; i < rows->window.columns * rows->window.rows; i++)
         d->tiles.tile[i] = rows->desc->reuse.buffer_age;
 }
@@ -168,7 +168,7 @@ void smear_damage_move(struct smear_damage *d, uint32_t i, const struct smear_ti
 
 void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc *desc)
 {
-    static const struct smear_tile_box none = TILE_BOX_NONE;
+    const struct smear_tile_box none = tile_box_none();
     for (uint32_t i = first; i < desc->max_draws; i++) {
         smear_damage_move(d, i, &none, desc->reuse.buffer_age);
         damage_draws(d)[i].look[0] = damage_draws(d)[i].look[1] = 0;

@@ -121,7 +121,7 @@ struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const 
         return tile_box_of(tiles, 0, viewport->width, 0, viewport->height);
     const int32_t x0 = max_i32((least.x - MARGIN) >> 8, 0), x1 = min_i32((most.x + MARGIN) >> 8, viewport->width);
     const int32_t y0 = max_i32((least.y - MARGIN) >> 8, 0), y1 = min_i32((most.y + MARGIN) >> 8, viewport->height);
-    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : (struct smear_tile_box)TILE_BOX_NONE;
+    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : tile_box_none();
 }
 #endif
 

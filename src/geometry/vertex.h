@@ -36,7 +36,7 @@ struct smear_tile_box {
     uint8_t x0, x1, y0, y1;
 };
 
-#define TILE_BOX_NONE { UINT8_MAX, 0, UINT8_MAX, 0 }
+static inline struct smear_tile_box tile_box_none(void) { return (struct smear_tile_box){ UINT8_MAX, 0, UINT8_MAX, 0 }; }
 
 /* Which tiles are drawn at all, with smear_desc.buffer_age. */
 struct smear_damaged_tiles {
