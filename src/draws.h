@@ -26,8 +26,19 @@ static inline void draws_place_points(struct smear_context *c, int32_t from, int
 void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);
 
 /* Find out which of what is kept is not what the frame wants: of a temporal method, and of sharp frames alone. */
+#if SMEAR_WITH_DAMAGE
 void smear_draws_find_damage(struct smear_context *c);
 void smear_draws_find_changes(struct smear_context *c);
+
+/* Before and after all of that: a method that knows nothing of what is shown forgets it. `result` of the frame's rows. */
+void smear_draws_begin_damage(struct smear_context *c);
+void smear_draws_end_damage(struct smear_context *c, int result);
+#else
+#define smear_draws_find_damage(c) ((void)0)
+#define smear_draws_find_changes(c) ((void)0)
+#define smear_draws_begin_damage(c) ((void)0)
+#define smear_draws_end_damage(c, result) ((void)0)
+#endif
 
 /* Assembles as many tile rows of [first, end) as find room, at an instant; returns their end. Rows from `top` on, above
  * `first`, are included for what is finished a row late. When a single row is too much, rows.refill is `refill`, by which

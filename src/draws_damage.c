@@ -6,6 +6,21 @@
 
 #if SMEAR_WITH_DAMAGE
 
+void smear_draws_begin_damage(struct smear_context *c)
+{
+    struct smear_damage *d = c->damage;
+    if (d != NULL && d->compares != COMPARES_NEVER)
+        d->compares = c->frame.method == SMEAR_NONE ? COMPARES_THIS : COMPARES_OTHERS;
+    if (!smear_method_is_temporal(c->frame.method) && !damage_compares(d))
+        damage_forget(d);
+}
+
+void smear_draws_end_damage(struct smear_context *c, int result)
+{
+    if (result == SMEAR_OK && c->damage != NULL && (c->frame.method != SMEAR_NONE || damage_compares(c->damage)))
+        smear_damage_end(c->damage, &c->rows, c->frame.method != SMEAR_NONE && c->assembler.path_static_count != 0);
+}
+
 /* Finds out whether all that the frame's draws share is the last frame's; `with_static`: and what does not move. */
 static void begin_damage(struct smear_context *c, bool with_static)
 {

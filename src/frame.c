@@ -20,15 +20,13 @@ static int render_temporal(struct smear_context *c)
 {
     const struct smear_instant middle = smear_instant_middle(&c->shot);
     int result = SMEAR_OK;
-    if (SMEAR_WITH_DAMAGE)
-        smear_draws_find_damage(c);
+    smear_draws_find_damage(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
         end = smear_draws_assemble(c, row, row, c->rows.window.rows, &middle, &refill);
         result = smear_temporal_rows(&c->temporal, &c->rows, row, end);
     }
-    if (SMEAR_WITH_DAMAGE && c->damage != NULL && result == SMEAR_OK)
-        smear_damage_end(c->damage, &c->rows, c->assembler.path_static_count != 0);
+    smear_draws_end_damage(c, result);
     return result;
 }
 
@@ -37,16 +35,13 @@ static int render_temporal(struct smear_context *c)
 static int render_sharp(struct smear_context *c)
 {
     int result = SMEAR_OK;
-    if (SMEAR_WITH_DAMAGE)
-        smear_draws_find_changes(c);
+    smear_draws_find_changes(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
         end = smear_draws_assemble(c, row, row, c->rows.window.rows, &smear_instant_now, &refill);
-        result = damage_compares(c->damage) ? smear_sharp_damaged_rows(&c->rows, c->damage, row, end)
-                                            : smear_sharp_rows(&c->rows, c->direct, row, end);
+        result = smear_sharp_rows(&c->rows, c->damage, c->direct, row, end);
     }
-    if (damage_compares(c->damage) && result == SMEAR_OK)
-        smear_damage_end(c->damage, &c->rows, false);
+    smear_draws_end_damage(c, result);
     return result;
 }
 
@@ -166,10 +161,7 @@ static void prepare_methods(struct smear_context *c)
     const struct smear_window *w = &c->rows.window;
     if (SMEAR_WITH_LAYERS && c->layers != NULL)
         c->layers->on = false;
-    if (SMEAR_WITH_DAMAGE && c->damage != NULL && c->damage->compares != COMPARES_NEVER)
-        c->damage->compares = method == SMEAR_NONE ? COMPARES_THIS : COMPARES_OTHERS;
-    if (!smear_method_is_temporal(method) && !damage_compares(c->damage))
-        damage_forget(c->damage);
+    smear_draws_begin_damage(c);
     if (SMEAR_WITH_RECONSTRUCT && smear_method_is_filter(method))
         smear_filtered_begin(&c->filtered, &c->rows, &c->frame, &c->shot.camera[0]);
     if (!SMEAR_WITH_SUBFRAMES)

@@ -141,7 +141,7 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
     c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage + draws);
     if (c->damage == NULL)          /* only measured */
         return;
-    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = compares ? COMPARES_OTHERS : COMPARES_NEVER,
+    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = (uint8_t)(compares ? COMPARES_OTHERS : COMPARES_NEVER),
                                         .tiles = damaged, .seen = seen, .over = over };
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);

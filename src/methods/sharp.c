@@ -203,18 +203,18 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
     return result;
 }
 
-int smear_sharp_damaged_rows(struct smear_rows *rows, struct smear_damage *damage, int first, int end)
-{
-    int result = SMEAR_OK;
-    for (int row = first; row < end && result == SMEAR_OK; row++)
-        result = draw_damaged_row(rows, damage, row);
-    return result;
-}
+#else
+#define draw_damaged_row(rows, damage, row) ((void)(damage), SMEAR_OK)
 #endif
 
-int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end)
+int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool direct, int first, int end)
 {
     int result = SMEAR_OK;
+    if (damage_compares(damage)) {
+        for (int row = first; row < end && result == SMEAR_OK; row++)
+            result = draw_damaged_row(rows, damage, row);
+        return result;
+    }
     if (smear_sharp_may_be_apart(rows, direct, first, end) && smear_sharp_rows_apart(rows, first, end, &result))
         return result;
     for (int row = first; row < end && result == SMEAR_OK; row++) {

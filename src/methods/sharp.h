@@ -17,15 +17,9 @@ struct smear_depth_velocity {
 void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth);
 
 /* Draws, converts and hands out the tile rows [first, end), a part of the frame that has been assembled. `direct`: as
- * the display's own pixels, straight into the band. Returns as smear_band_flush. */
-int smear_sharp_rows(struct smear_rows *rows, bool direct, int first, int end);
-
-#if SMEAR_WITH_DAMAGE
-/* As that, of tiles that the display lacks (damage_compares), by way of the window. */
-int smear_sharp_damaged_rows(struct smear_rows *rows, struct smear_damage *damage, int first, int end);
-#else
-#define smear_sharp_damaged_rows(rows, damage, first, end) SMEAR_OK
-#endif
+ * the display's own pixels, straight into the band. Of frames that `damage` compares, tiles that the display lacks, by way of the
+ * window. Returns as smear_band_flush. */
+int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool direct, int first, int end);
 
 /* Whether frames of the context can be drawn directly; draws may still forbid it. */
 bool smear_sharp_may_be_direct(const smear_desc *desc, bool has_window);

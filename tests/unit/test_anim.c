@@ -442,9 +442,11 @@ static uint32_t crc_of(smear_actor *actor, const smear_model *model)
     for (int i = 0; i < model->draw_count; i++) {
         smear_draw d;
         CHECK_EQ(smear_actor_draw(actor, i, &d), SMEAR_OK);
+        /* What deforms says so, even where no other pose is known. */
+        CHECK(d.open != NULL || d.open_position == NULL || d.open_position == d.mesh->position);
         for (int k = 0; k < 3 * d.mesh->vertex_count; k++) {
             crc = add_value(crc, d.mesh->position[k]);
-            crc = add_value(crc, d.open_position != NULL ? d.open_position[k] : 0);
+            crc = add_value(crc, d.open != NULL && d.open_position != NULL ? d.open_position[k] : 0);
             crc = add_value(crc, d.mesh->normal != NULL ? d.mesh->normal[k] : 0);
         }
         for (int k = 0; k < 9; k++) {
