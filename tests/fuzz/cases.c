@@ -366,14 +366,14 @@ static const unsigned sets[] = {
     SMEAR_SET(SMEAR_AUTO), SMEAR_SET(SMEAR_TIMEMASK), SMEAR_SET(SMEAR_SUBFRAMES), SMEAR_SET(SMEAR_PINGPONG),
     SMEAR_SET(SMEAR_HALF) | SMEAR_SET(SMEAR_PINGPONG), SMEAR_SET(SMEAR_CAMERA), SMEAR_SET(SMEAR_OBJECT),
     SMEAR_SET(SMEAR_LAYERED), SMEAR_SET_TEMPORAL, SMEAR_SET_FILTERS, SMEAR_SET_LAYERS,
-    SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_ACCUMULATE)
+    SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_NONE), SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL | SMEAR_SET(SMEAR_ACCUMULATE)
 };
 
 /* Tiles, strips and bands that go with the methods and the reach. */
 static void make_tiles(struct source *s, smear_desc *d)
 {
     const bool reaches = has(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS);
-    const bool four = !d->filter.scatter && !has(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
+    const bool four = !d->filter.scatter && !d->reuse.buffer_age && !has(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
     d->reach = (int16_t)(source_chance(s, 2) ? source_range(s, 0, 16) : source_range(s, 1, 64));
     if (!reaches)
         d->reach = (int16_t)source_range(s, 0, 64);
@@ -397,9 +397,9 @@ static void make_band_rows(struct source *s, smear_desc *d)
         d->format = SMEAR_L1;
     if (source_chance(s, 2))
         return;
-    if (!has(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL))
+    if (!d->reuse.buffer_age && !has(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_TEMPORAL))
         d->band_rows = (int16_t)(d->format == SMEAR_L1_PAGES ? 8 * source_range(s, 1, 6) : source_range(s, 2, 40));
-    else if (!has(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF)) && d->format != SMEAR_L1_PAGES)
+    else if (!d->reuse.buffer_age && !has(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF)) && d->format != SMEAR_L1_PAGES)
         d->band_rows = (int16_t)(d->tile >> source_range(s, 0, 1));
 }
 
@@ -434,8 +434,8 @@ static void make_desc(struct fuzz_case *c)
         d->width = (int16_t)source_range(s, 1, 2048);
         d->height = (int16_t)source_range(s, 1, 65536 / d->width < 2048 ? 65536 / d->width : 2048);
     }
-    if (has(d, SMEAR_SET_TEMPORAL)) {
-        d->reuse.cache_static = source_chance(s, 3);
+    if (has(d, SMEAR_SET_TEMPORAL) || d->methods == SMEAR_SET(SMEAR_NONE)) {
+        d->reuse.cache_static = has(d, SMEAR_SET_TEMPORAL) && source_chance(s, 3);
         d->reuse.buffer_age = (uint8_t)option(s, 3, 1, 7);
         if (d->display.dither == SMEAR_DITHER_DIFFUSE)
             d->reuse.buffer_age = 0;
