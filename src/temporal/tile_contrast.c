@@ -9,6 +9,7 @@
 struct look {
     const struct smear_tile_travel *tile;
     int32_t x, y, x1, y1;
+    int32_t first; /* row: every other one is looked at from there on */
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
     bool at_border; /* the tiles end above or below */
@@ -32,10 +33,10 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
 {
     const struct smear_raster_target *s = &f->t->background;
     const struct smear_plane_rows *c = &s->color_rows;
-    const int32_t pitch = f->t->pitch, last = l->y + ((l->y1 - 1 - l->y) & ~1);
+    const int32_t pitch = f->t->pitch, last = l->first + ((l->y1 - 1 - l->first) & ~1);
     const bool round = c->ring_row + (s->y1 - s->y0) > c->ring;
     uint32_t sum = 0;
-    for (int32_t y = l->y, end; y < l->y1; y = end) {
+    for (int32_t y = l->first, end; y < l->y1; y = end) {
         const int32_t way = way_to(s, y, dy), x = way * dx, down = way * dy;
         end = !round && way_to(s, last, dy) == way ? last + 2 : y + 2;
         const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
@@ -57,7 +58,7 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
     const struct smear_raster_target *s = &f->t->background;
     const int32_t pitch = f->t->pitch;
     uint32_t sum = 0;
-    for (int32_t y = l->y; y < l->y1; y += 2) {
+    for (int32_t y = l->first; y < l->y1; y += 2) {
         int32_t x = dx, down = dy;
         if (y + down < s->y0 || y + down >= s->y1) {
             x = -x;
@@ -159,6 +160,14 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
         b->last = (uint8_t)add_block(c, l, &d, &closing);
 }
 
+/* Returns the first row of a block that is looked at: of the rows that end the tiles, above or below, none is left out, as an edge
+ * may reach just one of them. Blocks that are all of a tile's height take turns. */
+static int32_t first_row(const struct look *l, int32_t y0, int32_t y1)
+{
+    const bool is_last = l->y1 == y1 && (l->y != y0 || (l->x & BLOCK_PX) != 0);
+    return l->y + (is_last ? (y1 - 1 - l->y) & 1 : 0);
+}
+
 void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
                          const struct subframe_box *box)
 {
@@ -172,6 +181,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
         look.tile = plan->travel;
         for (look.x = t->x0; look.x < t->x1; look.x = look.x1) {
             look.x1 = min_i32(look.x + BLOCK_PX, t->x1);
+            look.first = first_row(&look, y0, y1);
             c->blocks++;
             look_at_block(c, f, plan, &look,
                           look.x < box->x1 && look.x1 > box->x0 && look.y < box->y1 && look.y1 > box->y0);
