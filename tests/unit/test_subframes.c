@@ -439,15 +439,15 @@ static void test_tiles_are_the_mean_of_whole_frames(void)
     CHECK(seen > 200);
 }
 
-/* A white square that travels over black and grey, `px` pixels. */
-static void square_scene(bool linear, int32_t px)
+/* A white square that travels over black and grey, `px` pixels; its first row is `row`, of ten. */
+static void square_scene_at(bool linear, int32_t px, int32_t row)
 {
     scene_begin(linear);
     set_path_layout(3, false, false, true, SHADE_FLAT);
     for (int half = 0; half < 2; half++) {
         struct corners c;
         for (int pose = 0; pose < 3; pose++) {
-            int32_t x = 20 * 256 + (pose - 1) * px * 128, y = 10 * 256 + 77;
+            int32_t x = 20 * 256 + (pose - 1) * px * 128, y = row * 256 + 77;
             const int32_t corner[4][2] = { { x, y }, { x + 2560, y }, { x + 2560, y + 2560 }, { x, y + 2560 } };
             for (int k = 0; k < 3; k++) {
                 int at = k == 0 ? 0 : half + k;
@@ -459,6 +459,8 @@ static void square_scene(bool linear, int32_t px)
         add_mover(3, &c, 0xffffffffu);
     }
 }
+
+static void square_scene(bool linear, int32_t px) { square_scene_at(linear, px, 10); }
 
 static void test_every_number_of_instants_divides_exactly(void)
 {
@@ -875,6 +877,47 @@ static void test_movers_that_are_hidden_cost_nothing(void)
     CHECK(samples != 0);
 }
 
+/* Returns how many instants a row of tiles is given where SMEAR_AUTO says so, of a square that goes 9 px. */
+static int32_t planned(int32_t tile, int32_t row)
+{
+    static struct smear_moving_triangle movers[MOVERS];
+    static const struct smear_chooser chooser = { .method = SMEAR_AUTO, .target = SMEAR_BALANCED };
+    struct smear_tile_travel travel[W / 8 + 1];
+    struct smear_shares before = { 0, 0 }, own = { 0, 0 };
+    const int32_t tiles = 64 / tile;
+    struct smear_tile_plan plan = *plan_of(9, 0, 16);
+    plan.chooser = &chooser;
+    plan.travel = travel;
+    plan.before = &before;
+    plan.own = &own;
+    for (int i = 0; i < tiles; i++)
+        travel[i] = (struct smear_tile_travel){ 9 * 16, 9 * 16, 0, 0, 9 * 16, 0, 1, 0, 0, TILE_MOVES };
+    for (uint32_t i = 0; i < mover_count; i++) {
+        movers[i] = mover[i];
+        movers[i].first = (uint8_t)(mover[i].first * 8 / tile);
+        movers[i].last = (uint8_t)(mover[i].last * 8 / tile);
+    }
+    draw_still();
+    const struct smear_tile_run t = tiles_at(tile, 0, tiles, row, movers);
+    smear_subframes_tiles(&t, 1, &plan);
+    return travel[0].instants;
+}
+
+static void test_an_edge_in_any_one_row_of_a_tile_is_given_instants(void)
+{
+    /* The square ends in the first row of the second row of tiles, or begins in its last. */
+    for (int32_t tile = 8; tile <= 16; tile *= 2) {
+        mover_count = 0;
+        const int32_t nothing = planned(tile, 1);
+        square_scene_at(false, 9, tile - 9);
+        const int32_t upper = planned(tile, 1);
+        square_scene_at(false, 9, 2 * tile - 1);
+        CHECK_EQ(nothing, 0);
+        CHECK(upper > 3);
+        CHECK_EQ(planned(tile, 1), upper);
+    }
+}
+
 static void test_samples_are_the_pixels_near_movers(void)
 {
     /* 10 x 10 px: boxes of 10 or 11 pixels each way. */
@@ -914,6 +957,7 @@ void suite_subframes(void)
     RUN(test_more_panes_than_a_tile_remembers);
     RUN(test_movers_of_the_background_s_colour_hide_panes);
     RUN(test_movers_that_are_hidden_cost_nothing);
+    RUN(test_an_edge_in_any_one_row_of_a_tile_is_given_instants);
     RUN(test_samples_are_the_pixels_near_movers);
     RUN(test_work_memory_of_small_tiles_is_small);
 }
