@@ -49,7 +49,7 @@ void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile
 /* Draws blended triangles of the row (rows->blend) over the job's rows of a tile, finished pixels. */
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile);
 
-/* Convert and hand out a tile row that lies finished in the window, or the job's columns of it, band after band. */
+/* Convert and hand out what lies finished in the window, band after band: the job's columns of a tile row, or all of one. */
 int smear_band_finish_columns(struct row_job *job);
 int smear_band_finish_row(struct smear_rows *rows, int row);
 
