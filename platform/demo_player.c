@@ -95,7 +95,7 @@ void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *scre
     desc->methods = (uint16_t)SMEAR_SET(blur->method);
     if (smear_method_is_temporal(blur->method))
         return;
-    /* Where pages flip, twice as much of a sharp frame is damaged, and little is saved. */
+    /* Where pages flip, twice as much of a sharp frame is damaged, and nothing is saved. */
     if (blur->method != SMEAR_NONE || desc->reuse.buffer_age != 1)
         desc->reuse.buffer_age = 0;
     /* Sums of whole frames where small boards have the memory, else of bands. */
