@@ -160,7 +160,7 @@ static bool circling_pose(struct scene *scene, double time, struct scene_instant
                           struct failure *f)
 {
     struct wrapped *w = scene->data;
-    if (!scene_pose(&w->inner, time, out, f))
+    if (!scene_pose_joined(&w->inner, time, out->now, out, f))
         return false;
     struct scene_camera *camera = &out->camera;
     double far_plane = camera->zfar > 0.0 ? camera->zfar : 8.0 * camera->znear;
@@ -480,8 +480,8 @@ static bool pose_and_draw(struct subject *s, const struct present_options *prese
     if (present->shutter_poses)
         present_exposure(s->time, present, &open, &close);
     if (!scene_pose(&s->scene, s->time, &instant[0], f)
-        || !scene_pose(&s->scene, open, &instant[1], f)
-        || !scene_pose(&s->scene, close, &instant[2], f))
+        || !scene_pose_joined(&s->scene, open, s->time, &instant[1], f)
+        || !scene_pose_joined(&s->scene, close, s->time, &instant[2], f))
         return false;
     return ref_draw(&instant[0], &instant[1], &instant[2], o, out, f);
 }

@@ -265,6 +265,10 @@ claim "to whole ones" same rounded.ppm out.ppm
 claim "a longer shutter" render $moving --shutter 360 -o longer.ppm
 claim "blurs more" differ longer.ppm out.ppm
 
+sed 's/"input":2,"output":3}/"input":2,"output":3,"interpolation":"STEP"}/' "$plate" >"$base/in/held.gltf"
+claim "a held key" render "$base/in/held.gltf" $small --frames 4-4 -o held.ppm
+claim "the same frame, cut" render "$base/in/held.gltf" $small --frames 4-4 --cut 4 -o cut.ppm
+claim "is joined by no path" same held.ppm cut.ppm
 exact="--method accumulate --exact --samples 16 --clip slide"
 claim "an exposure around t" render $moving $exact -o centred.ppm
 claim "one that ends at t" render "$plate" $small $exact --exposure trailing --time 0.5625 \

@@ -47,7 +47,7 @@ static bool pose(struct scene *scene, double time, struct scene_instant *out, st
     if (out->store == NULL && (out->store = calloc(1, sizeof(struct remade_instant))) == NULL)
         return fail(f, "no memory for a pose");
     struct remade_instant *own = out->store;
-    if (!scene_pose(remade->inner, time, &own->inner, f))
+    if (!scene_pose_joined(remade->inner, time, out->now, &own->inner, f))
         return false;
     int count = own->inner.draw_count;
     if (count > own->capacity) {

@@ -75,7 +75,10 @@ static const char *const render_help[] = {
     "                        straight; the turn about the axis that leads from pose to pose [curve]\n"
     "  --poses previous|shutter\n"
     "                        what the library is told: the poses of one and two frames ago, or those\n"
-    "                        at shutter open, centre and close [previous]\n",
+    "                        at shutter open, centre and close. What jumps in between (STEP keys; two\n"
+    "                        keys within half a millisecond; with --loop, an end that does not meet\n"
+    "                        the start) is in all of them where it is at the frame's instant; what\n"
+    "                        moves behind a jump goes on before it as it does there [previous]\n",
     method_lines,
     "  --samples N           taps, or instants of accumulate; 1 to 1024 [8]; instants of subframes\n"
     "                        at most, slots of timemask (8, 16 or 32) [32]\n"

@@ -72,6 +72,13 @@ static void put_actor(const struct part *part, const struct diorama_place *place
     }
 }
 
+static void find_places(struct diorama *d, double time)
+{
+    for (int i = 0; i < d->kind->cast_count; i++)
+        d->place[i] = (struct diorama_place){ .world = xform_identity() };
+    d->kind->place(time, d->place);
+}
+
 static bool diorama_pose(struct scene *scene, double time, struct scene_instant *out,
                          struct failure *f)
 {
@@ -80,14 +87,15 @@ static bool diorama_pose(struct scene *scene, double time, struct scene_instant 
     struct scene_instant *from = instants_of(d, out);
     if (from == NULL)
         return fail(f, "out of memory");
+    find_places(d, out->now);
     for (int i = 0; i < count; i++)
-        d->place[i] = (struct diorama_place){ .world = xform_identity() };
-    d->kind->place(time, d->place);
-    if (!scene_pose(&d->set, time, &from[0], f))
+        from[i + 1].now = d->place[i].clip_time;
+    find_places(d, time);
+    if (!scene_pose_joined(&d->set, time, out->now, &from[0], f))
         return false;
     for (int i = 0; i < count; i++) {
         struct part *part = &d->part[d->kind->file_of(i)];
-        if (!scene_pose(&part->scene, d->place[i].clip_time, &from[i + 1], f))
+        if (!scene_pose_joined(&part->scene, d->place[i].clip_time, from[i + 1].now, &from[i + 1], f))
             return false;
     }
     if (!gather_room(from, count + 1, out, f))

@@ -175,6 +175,10 @@ struct model_pose {
  * leaves +-1e30. */
 bool model_pose(const struct model *model, int clip, double time, bool loop,
                 struct model_pose *pose, struct failure *f);
+/* The pose at `time` that a path may join with the pose at `now`: what jumps on the way (held keys, the end of a loop that does
+ * not meet its start, two keys at almost the same time) has not jumped. Without a jump it is the pose at `time`, to the bit. */
+bool model_pose_joined(const struct model *model, int clip, double time, double now, bool loop,
+                       struct model_pose *pose, struct failure *f);
 void model_pose_free(struct model_pose *pose);
 
 /* World bounds of everything drawn in this pose; false when nothing is drawn. */

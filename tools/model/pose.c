@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* pose.c - a model at an instant: channels to node transforms, transforms to the world, then morphs
- * and skins. Equations are those of glTF 2.0 (3.7 meshes and skins, appendix C interpolation). */
+ * and skins. Equations are those of glTF 2.0 (3.7 meshes and skins). */
+#include "tools/model/channel.h"
 #include "tools/model/matrix.h"
-#include "tools/model/model.h"
 
 #include <float.h>
 #include <math.h>
@@ -142,114 +142,6 @@ static bool prepare(const struct model *model, struct model_pose *pose, struct f
 
 /* --- channels --- */
 
-static void normalize4(double q[4])
-{
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 0)) {
-        q[0] = q[1] = q[2] = 0;
-        q[3] = length = 1;
-    }
-    for (int i = 0; i < 4; i++)
-        q[i] /= length;
-}
-
-/* The shorter way from a to b; both have length 1. */
-static void slerp(double out[4], const double a[4], const double b[4], double t)
-{
-    double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-    double sign = dot < 0 ? -1 : 1, apart = 0, together = 0;
-    for (int i = 0; i < 4; i++) {
-        double minus = a[i] - sign * b[i], plus = a[i] + sign * b[i];
-        apart += minus * minus;
-        together += plus * plus;
-    }
-    /* The angle between them from both chords: exact for small angles, where acos(dot) is not. */
-    double angle = 2 * atan2(sqrt(apart), sqrt(together));
-    double from = 1 - t, to = t;
-    if (angle > 1e-9) {
-        from = sin((1 - t) * angle) / sin(angle);
-        to = sin(t * angle) / sin(angle);
-    }
-    for (int i = 0; i < 4; i++)
-        out[i] = from * a[i] + sign * to * b[i];
-    normalize4(out);
-}
-
-/* The last key at or before t, which lies within the keys. */
-static int find_key(const struct model_channel *c, double t)
-{
-    int low = 0, high = c->key_count - 1;
-    while (low < high) {
-        int middle = low + (high - low + 1) / 2;
-        if ((double)c->time[middle] <= t)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
-
-/* A key's value; CUBICSPLINE keys are in-tangent, value, out-tangent. */
-static const float *key_value(const struct model_channel *c, int key)
-{
-    size_t width = (size_t)c->width, index = (size_t)key;
-    return c->interpolation == MODEL_CUBICSPLINE ? c->value + (3 * index + 1) * width :
-                                                   c->value + index * width;
-}
-
-static void hermite(const struct model_channel *c, int key, double t, double seconds, double *out)
-{
-    const float *from = key_value(c, key), *to = key_value(c, key + 1);
-    const float *leave = from + c->width, *arrive = to - c->width;
-    double t2 = t * t, t3 = t2 * t;
-    for (int i = 0; i < c->width; i++)
-        out[i] = (2 * t3 - 3 * t2 + 1) * (double)from[i] +
-                 seconds * (t3 - 2 * t2 + t) * (double)leave[i] +
-                 (3 * t2 - 2 * t3) * (double)to[i] + seconds * (t3 - t2) * (double)arrive[i];
-}
-
-static void read_quaternion(double out[4], const float *value)
-{
-    for (int i = 0; i < 4; i++)
-        out[i] = (double)value[i];
-    normalize4(out);
-}
-
-/* The channel's `width` values at t; rotations come out with length 1. */
-static void sample(const struct model_channel *c, double t, double *out)
-{
-    int last = c->key_count - 1, key = 0;
-    bool hold = true;
-    if (t >= (double)c->time[last]) {
-        key = last;
-    } else if (t > (double)c->time[0]) {
-        key = find_key(c, t);
-        hold = c->interpolation == MODEL_STEP;
-    }
-    const float *from = key_value(c, key);
-    if (hold) {
-        for (int i = 0; i < c->width; i++)
-            out[i] = (double)from[i];
-    } else {
-        double start = (double)c->time[key], seconds = (double)c->time[key + 1] - start;
-        double part = (t - start) / seconds;
-        const float *to = key_value(c, key + 1);
-        if (c->interpolation == MODEL_CUBICSPLINE) {
-            hermite(c, key, part, seconds, out);
-        } else if (c->path == MODEL_ROTATION) {
-            double a[4], b[4];
-            read_quaternion(a, from);
-            read_quaternion(b, to);
-            slerp(out, a, b, part);
-        } else {
-            for (int i = 0; i < c->width; i++)
-                out[i] = (1 - part) * (double)from[i] + part * (double)to[i];
-        }
-    }
-    if (c->path == MODEL_ROTATION)
-        normalize4(out);
-}
-
 static void set_rest(const struct model *model, struct pose_scratch *s)
 {
     for (int i = 0; i < model->node_count; i++) {
@@ -265,7 +157,7 @@ static void set_rest(const struct model *model, struct pose_scratch *s)
     }
 }
 
-static void apply_clip(const struct model_clip *clip, double t, struct pose_scratch *s)
+static void apply_clip(const struct model_clip *clip, const struct channel_way *way, struct pose_scratch *s)
 {
     for (int i = 0; i < clip->channel_count; i++) {
         const struct model_channel *c = &clip->channel[i];
@@ -273,11 +165,27 @@ static void apply_clip(const struct model_clip *clip, double t, struct pose_scra
         double *out = c->path == MODEL_TRANSLATION ? trs->translation :
                       c->path == MODEL_ROTATION ? trs->rotation :
                       c->path == MODEL_SCALE ? trs->scale : s->weight + s->weight_at[c->node];
-        sample(c, t, out);
+        channel_join(c, way, out);
     }
 }
 
-static bool apply_clips(const struct model *model, int clip, double time, bool loop,
+/* The way from `now` to `time` in a clip that starts again after `duration` seconds, or, at 0, never does. */
+static struct channel_way way_between(double time, double now, double duration)
+{
+    struct channel_way way = { .time = time, .now = now, .along = time, .end = duration };
+    if (!(duration > 0))
+        return way;
+    way.time = fmod(time, duration);
+    way.now = fmod(now, duration);
+    way.time += way.time < 0 ? duration : 0;
+    way.now += way.now < 0 ? duration : 0;
+    const double laps = nearbyint(((now - way.now) - (time - way.time)) / duration);
+    way.along = way.time - laps * duration;
+    way.starts_again = laps != 0;
+    return way;
+}
+
+static bool apply_clips(const struct model *model, int clip, double time, double now, bool loop,
                         struct pose_scratch *s, struct failure *f)
 {
     int first = clip, last = clip;
@@ -292,13 +200,9 @@ static bool apply_clips(const struct model *model, int clip, double time, bool l
     double duration = 0;
     for (int i = first; i <= last; i++)
         duration = fmax(duration, model->clip[i].duration);
-    if (loop && duration > 0) {
-        time = fmod(time, duration);
-        if (time < 0)
-            time += duration;
-    }
+    const struct channel_way way = way_between(time, now, loop ? duration : 0);
     for (int i = first; i <= last; i++)
-        apply_clip(&model->clip[i], time, s);
+        apply_clip(&model->clip[i], &way, s);
     return true;
 }
 
@@ -438,12 +342,18 @@ static bool deform(const struct model *model, struct model_pose *pose, const str
 bool model_pose(const struct model *model, int clip, double time, bool loop,
                 struct model_pose *pose, struct failure *f)
 {
-    if (!isfinite(time))
+    return model_pose_joined(model, clip, time, time, loop, pose, f);
+}
+
+bool model_pose_joined(const struct model *model, int clip, double time, double now, bool loop,
+                       struct model_pose *pose, struct failure *f)
+{
+    if (!isfinite(time) || !isfinite(now))
         return fail(f, "the time of a pose is not finite");
     if (!prepare(model, pose, f))
         return false;
     set_rest(model, pose->scratch);
-    if (!apply_clips(model, clip, time, loop, pose->scratch, f) || !place_nodes(model, pose, f))
+    if (!apply_clips(model, clip, time, now, loop, pose->scratch, f) || !place_nodes(model, pose, f))
         return false;
     int owned = 0;
     for (int i = 0; i < pose->draw_count; i++) {

@@ -131,7 +131,7 @@ static bool id_pose(struct scene *scene, double time, struct scene_instant *out,
     if (out->store == NULL && (out->store = calloc(1, sizeof(struct id_instant))) == NULL)
         return fail(f, "no memory for a pose");
     struct id_instant *own = out->store;
-    if (!scene_pose(ids->inner, time, &own->inner, f))
+    if (!scene_pose_joined(ids->inner, time, out->now, &own->inner, f))
         return false;
     int count = own->inner.draw_count;
     if (count > own->draw_capacity) {

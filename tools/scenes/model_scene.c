@@ -76,7 +76,7 @@ static bool model_scene_pose(struct scene *scene, double time, struct scene_inst
     struct model_pose *pose = out->store;
     if (pose == NULL)
         return fail(f, "out of memory");
-    if (!model_pose(m->model, m->clip, time, m->loop, pose, f))
+    if (!model_pose_joined(m->model, m->clip, time, out->now, m->loop, pose, f))
         return false;
 
     if (out->draw == NULL && pose->draw_count > 0) {

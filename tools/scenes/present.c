@@ -515,15 +515,17 @@ static bool pose_all(struct presenter *p, double time, const struct present_opti
     present_exposure(time, &whole, &open, &close);
     /* With poses of the shutter, what is "now" for a blur is the middle of the exposure. */
     bool middle = frame->shutter.poses && frame->method != SMEAR_NONE;
-    if (!scene_pose(p->scene, middle ? (open + close) / 2 : time, &p->instant[NOW], f))
+    const double now = middle ? (open + close) / 2 : time;
+    if (!scene_pose(p->scene, now, &p->instant[NOW], f))
         return false;
     if (o->instant_only)
         return true;
-    if (!frame->shutter.poses)
-        return scene_pose(p->scene, time - 1.0 / o->fps, &p->instant[OPEN], f) &&
-               scene_pose(p->scene, time - 2.0 / o->fps, &p->instant[CLOSE], f);
-    return scene_pose(p->scene, open, &p->instant[OPEN], f) &&
-           scene_pose(p->scene, close, &p->instant[CLOSE], f);
+    if (!frame->shutter.poses) {
+        open = time - 1.0 / o->fps;
+        close = time - 2.0 / o->fps;
+    }
+    return scene_pose_joined(p->scene, open, now, &p->instant[OPEN], f) &&
+           scene_pose_joined(p->scene, close, now, &p->instant[CLOSE], f);
 }
 
 static bool per_draw_room(struct presenter *p, int count, struct failure *f)

@@ -6,9 +6,15 @@
 
 bool scene_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f)
 {
-    if (!isfinite(time))
+    return scene_pose_joined(scene, time, time, out, f);
+}
+
+bool scene_pose_joined(struct scene *scene, double time, double now, struct scene_instant *out, struct failure *f)
+{
+    if (!isfinite(time) || !isfinite(now))
         return fail(f, "time is not a finite number");
     out->time = time;
+    out->now = now;
     return scene->pose(scene, time, out, f);
 }
 

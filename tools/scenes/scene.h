@@ -66,6 +66,7 @@ struct scene_camera {
  * instant of a scene has the same draws in the same order. */
 struct scene_instant {
     double time;
+    double now;                     /* the instant that a path joins this one with; else `time` */
     struct scene_camera camera;
     int draw_count;
     struct scene_draw *draw;
@@ -86,6 +87,8 @@ struct scene {
 
 /* `time` in seconds, any finite number. On failure `out` still wants scene_instant_free. */
 bool scene_pose(struct scene *scene, double time, struct scene_instant *out, struct failure *f);
+/* The same, of an instant that a blur joins with `now` by a path: what the file says jumps in between has not jumped. */
+bool scene_pose_joined(struct scene *scene, double time, double now, struct scene_instant *out, struct failure *f);
 void scene_instant_free(struct scene *scene, struct scene_instant *instant);
 void scene_free(struct scene *scene);
 

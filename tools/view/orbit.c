@@ -42,7 +42,7 @@ static bool pose_turned(struct scene *scene, double time, struct scene_instant *
                         struct failure *f)
 {
     const struct orbit *orbit = scene->data;
-    if (!scene_pose(orbit->inner, time, out, f))
+    if (!scene_pose_joined(orbit->inner, time, out->now, out, f))
         return false;
     if (orbit_is_turned(orbit))
         turn_camera(orbit, time, &out->camera);
