@@ -114,7 +114,8 @@ typedef struct smear_model_clip {
 
 enum { SMEAR_PATH_TRANSLATION, SMEAR_PATH_ROTATION, SMEAR_PATH_SCALE, SMEAR_PATH_WEIGHTS };
 
-/* Key k is at key_time[time_first + k] ticks and has `width` values from key_value[value_first + k width] on.
+/* Key k is at key_time[time_first + k] ticks and has `width` values from key_value[value_first + k width] on. Held keys jump, and
+ * so do two at the same time: no path leads from one to the other.
  * Rotations: x y z w in 1/32767, mixed and normalised. Else:
  * key x factor / 2^32 x 2^(shift + 14) + offset. */
 typedef struct smear_model_channel {
@@ -226,10 +227,16 @@ int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, v
 
 /* Now becomes a frame ago (with 2 poses or more), what was a frame ago (SMEAR_POSE_OPEN) two frames ago (with 3:
  * SMEAR_POSE_CLOSE), and `play` is now. SMEAR_ERR_ARG, and nothing has changed,
- * when the model has clips, but not this one. Not between smear_actor_submit and smear_render. */
+ * when the model has clips, but not this one. Not between smear_actor_submit and smear_render.
+ *
+ * No blur joins what has jumped since: held keys, two keys at one time, the end of a clip that starts again and does not meet its
+ * start, another clip. Then the other poses are made anew, as if it had not jumped: what is held is as it is now, other channels
+ * go on before the jump as they do behind it, another clip has not moved yet. The place is what it was; nodes that the program
+ * moves are in all of them where `play` has them. A clip starts again by `loop`, or when time goes back by more than half of it. */
 int smear_actor_advance(smear_actor *actor, const smear_play *play);
 
-/* Sets one pose alone. SMEAR_ERR_ARG also when the actor has no room for that pose. */
+/* Sets one pose alone; what jumps between it and now is seen to as above. SMEAR_ERR_ARG also when the actor has no room for
+ * that pose. */
 int smear_actor_set(smear_actor *actor, smear_pose pose, const smear_play *play);
 
 /* All poses but the one now are forgotten: in this frame the actor has no motion of its own. */
@@ -243,7 +250,7 @@ int smear_actor_draw(smear_actor *actor, int index, smear_draw *draw);
 int smear_actor_submit(smear_actor *actor, smear_context *ctx);
 
 /* smear_actor_memory() as a constant. Headers define NAME_ACTOR_BYTES(poses) by it. */
-#define SMEAR_ACTOR_HEAD_BYTES 104u
+#define SMEAR_ACTOR_HEAD_BYTES 128u
 #define SMEAR_ACTOR_ALIGN8(bytes) (((size_t)(bytes) + 7u) & ~(size_t)7u)
 #define SMEAR_ACTOR_MEMORY(nodes, joints, weights, transforms, deformed, vertices, normals, poses) \
     (SMEAR_ACTOR_HEAD_BYTES \

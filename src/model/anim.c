@@ -16,11 +16,18 @@
 
 #if SMEAR_WITH_MODEL
 
-enum { POSES = 3, FACTOR_LIMIT = (1 << 27) - 1 };
+enum { POSES = 3, FACTOR_LIMIT = (1 << 27) - 1, JUMP_HELD = 1, JUMP_MIXED = 2 };
 
 struct actor_pose {
     smear_transform *transform;         /* 0: where the model is placed */
     int16_t *position;                  /* of deformed draws */
+};
+
+/* What of a play its clip is sampled by. */
+struct clip_time {
+    int32_t time;
+    uint16_t clip;
+    uint8_t rest, loop;
 };
 
 struct smear_actor {
@@ -33,6 +40,9 @@ struct smear_actor {
     struct actor_pose pose[POSES];
     uint8_t pose_count;
     uint8_t known;                      /* bit p: pose p has been set */
+    uint8_t bent;                       /* bit p: and is not what its play alone would make of it, as the clip jumps up to now */
+    uint8_t jumps;                      /* which channels of the model may: JUMP_HELD, JUMP_MIXED */
+    struct clip_time when[POSES];
 };
 
 SMEAR_STATIC_ASSERT(sizeof(struct smear_actor) <= SMEAR_ACTOR_HEAD_BYTES,
@@ -115,7 +125,7 @@ static struct between find_keys(const uint16_t *time, uint32_t count, uint32_t n
     uint32_t low = 0, high = count - 1, tick = now >> tick_shift;
     if (tick >= time[high])
         return (struct between){ high, 0 };
-    if (now <= (uint32_t)time[0] << tick_shift)
+    if (now < (uint32_t)time[0] << tick_shift)
         return (struct between){ 0, 0 };
     while (high - low > 1) {            /* time[low] <= tick < time[high] */
         uint32_t middle = (low + high) >> 1;
@@ -138,53 +148,196 @@ static int32_t mix_keys(const int16_t *from, uint32_t width, uint32_t k, int32_t
     return part == 0 ? value : value + (from[width + k] - from[k]) * part;
 }
 
-/* Returns value k of a channel: rotations in Q2.30, others in the unit of the channel's path. */
-static int32_t channel_value(const smear_model *m, const smear_model_channel *c, struct between b, uint32_t k)
+/* Where a channel is sampled. Reflected: as far from the value of key `about` as what is found there, on the other side. */
+struct sampled {
+    struct between at;
+    uint32_t about;
+    bool is_reflected;
+};
+
+/* Returns value k of a channel that is no rotation, in the unit of its path. */
+static int32_t channel_value(const smear_model *m, const smear_model_channel *c, const struct sampled *s, uint32_t k)
 {
-    const int16_t *from = m->key_value + c->value_first + b.key * c->width;
-    int32_t value = mix_keys(from, c->width, k, c->step ? 0 : b.part);
-    if (c->path == SMEAR_PATH_ROTATION)
-        return value * 2;
+    const int16_t *keys = m->key_value + c->value_first;
+    int32_t value = mix_keys(keys + s->at.key * c->width, c->width, k, s->at.part);
+    if (s->is_reflected)
+        value = keys[s->about * c->width + k] * (1 << 15) - value;
     return within_factor(within_factor(scale_sat(mulh_i32(value, c->factor), c->shift))
                          + c->offset[c->path == SMEAR_PATH_WEIGHTS ? 0 : k]);
 }
 
-/* Returns the time within the clip, Q16.16 seconds. */
-static uint32_t time_in_clip(const smear_model_clip *clip, const smear_play *play)
+/* Finds the quaternion of a rotation, Q2.30; that on the other side of a is 2 (a b) a - b, and half of it does. Keys of a blob
+ * that nobody made may wrap, but stay as small. */
+static void channel_turn(const smear_model *m, const smear_model_channel *c, const struct sampled *s, int32_t out[4])
 {
-    int32_t duration = (int32_t)clip->duration, rest = play->time;
-    if (play->loop && duration > 0) {
-        divide_floor(play->time, duration, &rest);
-        return (uint32_t)rest;
+    const int16_t *keys = m->key_value + c->value_first, *about = keys + 4 * s->about;
+    int32_t dot = 0;                    /* q28 */
+    for (uint32_t k = 0; k < 4; k++)
+        out[k] = mix_keys(keys + 4 * s->at.key, 4, k, s->at.part) * 2;
+    if (!s->is_reflected)
+        return;
+    for (int k = 0; k < 4; k++)
+        dot = add_wrap(dot, mulh_i32(about[k] * (1 << 15), out[k]));
+    for (int k = 0; k < 4; k++)
+        out[k] = clamp_i32(sub_wrap(shl_wrap(mulh_i32(shl_wrap(dot, 2), about[k] * (1 << 15)), 2), out[k] >> 1), -(1 << 30),
+                           1 << 30);
+}
+
+/* ------------------------------------------------------------------ jumps */
+
+/* The clip's channels that have not been used yet, sorted by node, and the way from the pose `now` to the pose that is made:
+ * Q16.16 seconds within the clip. */
+struct cursor {
+    const smear_model_channel *channel, *end;
+    uint32_t time, now, duration, tick_shift;
+    int32_t along;              /* `time` counted from the start that `now` is counted from */
+    bool starts_again;          /* the clip does, on this way */
+};
+
+/* Sets both times and what lies between. A program that counts time anew with each turn of the clip goes back by most of it. */
+static void find_way(struct cursor *c, const struct clip_time *pose, const struct clip_time *now)
+{
+    const int32_t duration = (int32_t)c->duration, ahead = sub_wrap(pose->time, now->time);
+    int32_t time = clamp_i32(pose->time, 0, duration), at = clamp_i32(now->time, 0, duration);
+    c->along = time;
+    if (now->loop && duration > 0) {
+        divide_floor(now->time, duration, &at);
+        divide_floor(pose->time, duration, &time);
+        c->along = add_wrap(at, ahead);
     }
-    return (uint32_t)clamp_i32(rest, 0, duration);
+    if ((now->loop ? ahead : time - at) > duration >> 1)
+        c->along = time - duration;
+    c->time = (uint32_t)time;
+    c->now = (uint32_t)at;
+    c->starts_again = c->along != time;
+}
+
+static struct cursor start_clip(const smear_model *m, const struct clip_time *pose, const struct clip_time *now)
+{
+    struct cursor c = { 0 };
+    if (now->rest || m->clip_count == 0)
+        return c;
+    const smear_model_clip *clip = m->clip + now->clip;
+    c.channel = m->channel + clip->channel_first;
+    c.end = c.channel + clip->channel_count;
+    c.duration = clip->duration;
+    c.tick_shift = clip->tick_shift;
+    find_way(&c, pose->rest || pose->clip != now->clip ? now : pose, now);
+    return c;
+}
+
+enum { NO_KEY = -1 };
+
+static int32_t key_time(const uint16_t *time, int32_t key, uint32_t tick_shift)
+{
+    return (int32_t)((uint32_t)time[key] << tick_shift);
+}
+
+/* The first key on the way from key `from` towards `goal` behind which the channel jumps: to another key at the same time. */
+static int32_t find_jump(const uint16_t *time, uint32_t count, uint32_t tick_shift, uint32_t from, int32_t goal)
+{
+    int32_t key = (int32_t)from;
+    for (; key > 0 && key_time(time, key, tick_shift) > goal; key--)
+        if (time[key] == time[key - 1])
+            return key;
+    for (; key + 1 < (int32_t)count && key_time(time, key, tick_shift) <= goal; key++)
+        if (time[key] == time[key + 1])
+            return key;
+    return NO_KEY;
+}
+
+/* Whether the last key is the first one, to 1/1024 of what the keys range over. */
+static bool ends_meet(const smear_model *m, const smear_model_channel *c)
+{
+    const int16_t *first = m->key_value + c->value_first, *last = first + (c->key_count - 1u) * c->width;
+    int32_t apart = 0, opposed = 0;
+    for (uint32_t k = 0; k < c->width; k++) {
+        apart = max_i32(apart, abs_i32(last[k] - first[k]));
+        opposed = max_i32(opposed, abs_i32(last[k] + first[k]));
+    }
+    return c->path == SMEAR_PATH_ROTATION ? min_i32(apart, opposed) <= 32 : apart <= 64;
+}
+
+/* What is so long before `at` (or behind it, where that is negative) beyond the key `about`, as if nothing jumped there. */
+static struct sampled reflect(const smear_model *m, const struct cursor *c, uint32_t about, int32_t at, int32_t before)
+{
+    const uint16_t *time = m->key_time + c->channel->time_first;
+    const uint32_t count = c->channel->key_count;
+    const int32_t goal = at + clamp_i32(before, -at, (int32_t)c->duration - at);
+    const int32_t next = find_jump(time, count, c->tick_shift, about, goal);
+    return (struct sampled){ next != NO_KEY ? (struct between){ (uint32_t)next, 0 }
+                                            : find_keys(time, count, (uint32_t)goal, c->tick_shift),
+                             about, true };
+}
+
+/* Where a path starts that ends in the values of now: on their side of what jumps between. */
+static struct sampled find_in(const smear_model *m, const struct cursor *c)
+{
+    const smear_model_channel *channel = c->channel;
+    const uint16_t *time = m->key_time + channel->time_first;
+    const uint32_t count = channel->key_count;
+    const int32_t along = c->along;
+    struct between now = find_keys(time, count, c->now, c->tick_shift);
+    if (channel->step)
+        now.part = 0;
+    if (channel->step || along == (int32_t)c->now)
+        return (struct sampled){ now, 0, false };
+    int32_t near = find_jump(time, count, c->tick_shift, now.key, along), goal = along;
+    if (near == NO_KEY && c->starts_again) {
+        const bool is_past = along < (int32_t)c->now;
+        if (!ends_meet(m, channel)) {
+            const int32_t end = is_past ? 0 : (int32_t)c->duration;
+            return reflect(m, c, is_past ? 0 : count - 1, end, sub_wrap(end, along));
+        }
+        goal = (int32_t)c->time;
+        near = find_jump(time, count, c->tick_shift, is_past ? count - 1 : 0, goal);
+    }
+    if (near == NO_KEY)
+        return (struct sampled){ find_keys(time, count, c->time, c->tick_shift), 0, false };
+    const int32_t at = key_time(time, near, c->tick_shift);
+    return reflect(m, c, (uint32_t)near, at, sub_wrap(at, goal));
+}
+
+/* Whether the actor's pose is another one for a path up to now than by itself. */
+static bool jumps_up_to_now(const struct smear_actor *a, uint32_t which)
+{
+    const smear_model *m = a->model;
+    const struct clip_time *pose = &a->when[which], *now = &a->when[SMEAR_POSE_NOW];
+    if (pose->rest != now->rest || (!now->rest && pose->clip != now->clip))
+        return true;
+    struct cursor c = start_clip(m, pose, now);
+    const uint8_t jumps = c.starts_again ? a->jumps | JUMP_MIXED : a->jumps;
+    for (; jumps != 0 && c.channel != c.end; c.channel++) {
+        if ((jumps & (c.channel->step ? JUMP_HELD : JUMP_MIXED)) == 0)
+            continue;
+        const struct sampled s = find_in(m, &c);
+        if (s.is_reflected)
+            return true;
+        if (c.channel->step && s.at.key != find_keys(m->key_time + c.channel->time_first, c.channel->key_count, c.time,
+                                                     c.tick_shift).key)
+            return true;
+    }
+    return false;
+}
+
+/* Most models have no jumps but where clips start again: then nothing is looked for in between. */
+static uint8_t find_jumps(const smear_model *m)
+{
+    unsigned jumps = 0;
+    for (uint32_t i = 0; i < m->clip_count; i++)
+        for (uint32_t k = 0; k < m->clip[i].channel_count; k++) {
+            const smear_model_channel *c = m->channel + m->clip[i].channel_first + k;
+            const uint16_t *time = m->key_time + c->time_first;
+            if (c->step)
+                jumps |= JUMP_HELD;
+            for (uint32_t key = 1; !c->step && key < c->key_count; key++)
+                if (time[key] == time[key - 1])
+                    jumps |= JUMP_MIXED;
+        }
+    return (uint8_t)jumps;
 }
 
 /* ------------------------------------------------------------------ nodes */
-
-/* The clip's channels that have not been used yet, sorted by node. */
-struct cursor {
-    const smear_model_channel *channel, *end;
-    uint32_t now, tick_shift;
-};
-
-static struct between find_in(const smear_model *m, const struct cursor *c)
-{
-    return find_keys(m->key_time + c->channel->time_first, c->channel->key_count, c->now, c->tick_shift);
-}
-
-static struct cursor start_clip(const smear_model *m, const smear_play *play)
-{
-    struct cursor c = { 0 };
-    if (play->rest || m->clip_count == 0)
-        return c;
-    const smear_model_clip *clip = m->clip + play->clip;
-    c.channel = m->channel + clip->channel_first;
-    c.end = c.channel + clip->channel_count;
-    c.now = time_in_clip(clip, play);
-    c.tick_shift = clip->tick_shift;
-    return c;
-}
 
 static void local_of(smear_transform *out, const smear_model *m, uint32_t index, struct cursor *c)
 {
@@ -203,18 +356,21 @@ static void local_of(smear_transform *out, const smear_model *m, uint32_t index,
         if (c->channel->path == SMEAR_PATH_WEIGHTS)
             break;
         static const uint8_t first[3] = { 0, 6, 3 };        /* of translation, rotation, scale */
-        struct between b = find_in(m, c);
-        for (uint32_t k = 0; k < c->channel->width; k++)
-            trs[first[c->channel->path] + k] = channel_value(m, c->channel, b, k);
+        const struct sampled s = find_in(m, c);
+        int32_t *value = trs + first[c->channel->path];
+        if (c->channel->path == SMEAR_PATH_ROTATION)
+            channel_turn(m, c->channel, &s, value);
+        else
+            for (uint32_t k = 0; k < 3; k++)
+                value[k] = channel_value(m, c->channel, &s, k);
     }
     transform_from(out, trs);
 }
 
 /* Finds where all nodes are, and the weights of morph targets. */
-static void pose_nodes(struct smear_actor *a, const smear_play *play)
+static void pose_nodes(struct smear_actor *a, const smear_play *play, struct cursor c)
 {
     const smear_model *m = a->model;
-    struct cursor c = start_clip(m, play);
     for (uint32_t i = 0; i < m->node_count; i++) {
         smear_transform local, moved, *world = a->world + i;
         uint16_t parent = m->node[i].parent;
@@ -239,10 +395,10 @@ static void pose_nodes(struct smear_actor *a, const smear_play *play)
     for (; c.channel != c.end; c.channel++) {
         if (c.channel->path != SMEAR_PATH_WEIGHTS)
             continue;
-        struct between b = find_in(m, &c);
+        const struct sampled s = find_in(m, &c);
         for (uint32_t k = 0; k < c.channel->width; k++)
             a->weight[c.channel->target + k] =
-                (int16_t)clamp_i32(channel_value(m, c.channel, b, k), -32767, 32767);
+                (int16_t)clamp_i32(channel_value(m, c.channel, &s, k), -32767, 32767);
     }
 }
 
@@ -394,7 +550,7 @@ int smear_actor_init(smear_actor **actor, const smear_model *model, int poses, v
     if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_actor_memory(model, poses))
         return SMEAR_ERR_MEMORY;
     struct smear_actor *a = (struct smear_actor *)memory;
-    *a = (struct smear_actor){ .model = model, .pose_count = (uint8_t)poses };
+    *a = (struct smear_actor){ .model = model, .pose_count = (uint8_t)poses, .jumps = find_jumps(model) };
     lay_out_actor(a, model, poses, memory);
     for (uint32_t i = 0; i < model->draw_count; i++) {
         const smear_model_draw *d = model->draw + i;
@@ -415,6 +571,17 @@ static bool can_play(const struct smear_actor *a, const smear_play *play)
         && (play->move != NULL || play->move_count == 0);
 }
 
+/* Makes a pose, for a path up to now. Nodes that the program moves are where `play` has them. */
+static void make_pose(struct smear_actor *a, uint32_t which, const smear_play *play)
+{
+    const unsigned bit = 1u << which;
+    const bool is_bent = which != SMEAR_POSE_NOW && (a->known & 1u << SMEAR_POSE_NOW) != 0 && jumps_up_to_now(a, which);
+    const struct clip_time *pose = &a->when[which];
+    pose_nodes(a, play, start_clip(a->model, pose, is_bent ? &a->when[SMEAR_POSE_NOW] : pose));
+    pose_draws(a, which);
+    a->bent = (uint8_t)(is_bent ? a->bent | bit : a->bent & ~bit);
+}
+
 int smear_actor_set(smear_actor *a, smear_pose pose, const smear_play *play)
 {
     static const smear_transform identity = SMEAR_IDENTITY;
@@ -425,9 +592,12 @@ int smear_actor_set(smear_actor *a, smear_pose pose, const smear_play *play)
     *place = play->place != NULL ? *play->place : identity;
     for (int i = 0; i < 9; i++)
         place->basis[i] = within_factor(place->basis[i]);
-    pose_nodes(a, play);
-    pose_draws(a, which);
+    a->when[which] = (struct clip_time){ play->time, play->clip, play->rest, play->loop };
     a->known = (uint8_t)(a->known | 1u << which);
+    make_pose(a, which, play);
+    for (uint32_t p = SMEAR_POSE_OPEN; which == SMEAR_POSE_NOW && p < a->pose_count; p++)
+        if ((a->known & 1u << p) != 0 && ((a->bent & 1u << p) != 0 || jumps_up_to_now(a, p)))
+            make_pose(a, p, play);
     return SMEAR_OK;
 }
 
@@ -436,10 +606,13 @@ int smear_actor_advance(smear_actor *a, const smear_play *play)
     if (!can_play(a, play))
         return SMEAR_ERR_ARG;
     const struct actor_pose oldest = a->pose[a->pose_count - 1];
-    for (int i = a->pose_count - 1; i > 0; i--)
+    for (int i = a->pose_count - 1; i > 0; i--) {
         a->pose[i] = a->pose[i - 1];
+        a->when[i] = a->when[i - 1];
+    }
     a->pose[SMEAR_POSE_NOW] = oldest;
     a->known = (uint8_t)(((unsigned)a->known << 1) & ((1u << a->pose_count) - 1u));
+    a->bent = (uint8_t)((unsigned)a->bent << 1);
     return smear_actor_set(a, SMEAR_POSE_NOW, play);
 }
 

@@ -277,7 +277,7 @@ static bool is_channel(struct blob *b, const smear_model_channel *c)
         return false;
     const uint16_t *time = (const uint16_t *)blob_table(b, BLOB_KEY_TIME) + c->time_first;
     for (uint32_t k = 1; k < c->key_count; k++)
-        if (time[k] <= time[k - 1])
+        if (time[k] < time[k - 1])
             return false;
     return true;
 }

@@ -640,6 +640,8 @@ for line in '^triangles: 4$' '^vertices: 8 of 8$' '^clips: 2$' '  0 "slide" 1 s,
     '^largest position error: 0\.0[0-9]* px, at rest 0\.0' '^wrote plate.h$'; do
     claim "has $line" out_has "$line"
 done
+claim "one of held keys" works convert "$base/in/held.gltf" -o held.h
+claim "says so" out_has '^jumps: 1 that no blur joins; keys tell them, 0 bytes of flash and 24 '
 claim "its names are the file's" grep -q '^static const smear_model plate_model = {$' plate.h
 claim "a name of one's own" works convert "$plate" --name my_plate -o other.h
 claim "is in the header" grep -q '^#define MY_PLATE_CLIP_SLIDE 0$' other.h

@@ -690,7 +690,7 @@ static void test_every_kind_of_damage_has_its_reason(void)
         { BLOB_TARGET, 4, 4, 9999, SMEAR_MODEL_ERR_MORPH }, { BLOB_DELTA, 0, 2, 99, SMEAR_MODEL_ERR_MORPH },
         { BLOB_CHANNEL, 0, 2, 99, SMEAR_MODEL_ERR_CLIP }, { BLOB_CHANNEL, 4, 2, 0, SMEAR_MODEL_ERR_CLIP },
         { BLOB_CHANNEL, 2, 1, 9, SMEAR_MODEL_ERR_CLIP }, { BLOB_CLIP, 0, 4, 999, SMEAR_MODEL_ERR_CLIP },
-        { BLOB_CLIP, 12, 4, 16, SMEAR_MODEL_ERR_CLIP }, { BLOB_KEY_TIME, 2, 2, 0, SMEAR_MODEL_ERR_CLIP },
+        { BLOB_CLIP, 12, 4, 16, SMEAR_MODEL_ERR_CLIP }, { BLOB_KEY_TIME, 4, 2, 0, SMEAR_MODEL_ERR_CLIP },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         uint8_t *at = blob + (wrong[i].table >= 0 ? head->table[wrong[i].table].at : 0) + wrong[i].offset, before[4];

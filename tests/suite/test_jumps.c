@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jumps.c - what jumps in a file is joined by no path: held keys, two keys at almost the same time, ends of a loop that do
  * not meet, of nodes, cameras and morph weights. Random files by the thousand, each against one that says the same without
- * jumps: as the reader poses it, and as it looks. Motion without jumps stays as it is, to the bit. */
+ * jumps: as the reader poses it, as it looks, and as an actor of the converted model plays it. Motion without jumps stays as it
+ * is, to the bit. */
 #include "tests/random.h"
 #include "tests/ref/accuracy.h"
 #include "tests/test.h"
 
+#include "tools/convert/build.h"
 #include "tools/model/channel.h"
 #include "tools/scenes/present.h"
 
@@ -639,10 +641,135 @@ static void test_motion_goes_on_beyond_a_jump_as_on_its_near_side(void)
     CHECK(jumped > 300);
 }
 
+/* ------------------------------------------------------------------ actors */
+
+/* Where a vertex of a draw is in one of its poses, in world units. */
+static void device_point(double out[3], const smear_draw *draw, const smear_transform *place, const int16_t *position, int vertex)
+{
+    const smear_mesh *mesh = draw->mesh;
+    for (int row = 0; row < 3; row++) {
+        out[row] = place->origin[row] / 65536.0;
+        for (int k = 0; k < 3; k++)
+            out[row] += place->basis[3 * row + k] / 16777216.0
+                      * ldexp((double)(position[3 * vertex + k] + mesh->offset[k]) * mesh->scale, -mesh->shift);
+    }
+}
+
+/* The largest distance in one pose of the actor from where the file has it, world units. */
+static double farthest(const struct conversion *c, smear_actor *actor, int pose, const struct model_pose *file)
+{
+    double largest = 0;
+    for (int i = 0; i < c->model.draw_count; i++) {
+        smear_draw draw;
+        if (!CHECK_EQ(smear_actor_draw(actor, i, &draw), SMEAR_OK))
+            return INFINITY;
+        const smear_transform *place = pose == 0 ? draw.now : pose == 1 ? draw.open : draw.close;
+        const int16_t *position = pose == 1 ? draw.open_position : pose == 2 ? draw.close_position : NULL;
+        if (!CHECK(place != NULL))
+            return INFINITY;
+        for (int k = 0; k < c->origin_count[i]; k++) {
+            const struct convert_origin *o = &c->origin[i][k];
+            const struct model_draw *from = &file->draw[o->draw];
+            double there[3], here[3], sum = 0;
+            const double in_file[3] = { (double)from->position[3 * o->vertex], (double)from->position[3 * o->vertex + 1],
+                                        (double)from->position[3 * o->vertex + 2] };
+            transform_double(there, from->world, in_file);
+            const int16_t *at = position != NULL ? position : draw.mesh->position;
+            device_point(here, &draw, place, at, o->mesh_vertex);
+            for (int axis = 0; axis < 3; axis++)
+                sum += (here[axis] - there[axis]) * (here[axis] - there[axis]);
+            largest = fmax(largest, sqrt(sum));
+        }
+    }
+    return largest;
+}
+
+/* Whether a key lies so near one of these times that ticks may put it on the other side. */
+static bool is_near_a_key(const struct model *m, bool loop, const int32_t *time, int times)
+{
+    const double end = m->clip[0].duration, slack = 4 / 65536.0;
+    for (int k = 0; k < times; k++) {
+        const double at = loop && end > 0 ? fmod(time[k] / 65536.0, end) : time[k] / 65536.0;
+        for (int i = 0; i < m->clip[0].channel_count; i++)
+            for (int key = 0; key < m->clip[0].channel[i].key_count; key++)
+                if (fabs((double)m->clip[0].channel[i].time[key] - at) < slack + 0.0003)
+                    return true;
+        if (loop && (at < slack || end - at < slack))
+            return true;
+    }
+    return false;
+}
+
+static bool play_alike(const struct model *m, const struct conversion *c, const struct moment *at, smear_actor *actor)
+{
+    struct model_pose pose = { 0 };
+    struct failure f = { "" };
+    int32_t time[3];
+    bool ok = true;
+    for (int k = 0; k < 3; k++)
+        time[k] = (int32_t)floor((at->time - k / at->fps + 4 * m->clip[0].duration) * 65536);
+    if (!at->loop)
+        for (int k = 0; k < 3; k++)
+            time[k] = (int32_t)floor(fmax(at->time - k / at->fps, 0) * 65536);
+    if (is_near_a_key(m, at->loop, time, 3))
+        return true;
+    for (int k = 2; k >= 0; k--) {
+        const smear_play play = { .loop = at->loop, .time = time[k] };
+        CHECK_EQ(smear_actor_advance(actor, &play), SMEAR_OK);
+    }
+    for (int k = 0; k < 3 && ok; k++) {
+        ok = CHECK(model_pose_joined(m, 0, time[k] / 65536.0, time[0] / 65536.0, at->loop, &pose, &f));
+        const double px = ok ? farthest(c, actor, k, &pose) * c->pixels_per_unit : 0;
+        ok = ok && CHECK(px < 2.0);          /* keys 0.2 ms apart are at one time there */
+        if (!ok)
+            say("    pose %d at %g s of %g, %g frames a second%s: off by %.2f px\n", k, time[k] / 65536.0, m->clip[0].duration,
+                at->fps, at->loop ? ", looped" : "", px);
+    }
+    model_pose_free(&pose);
+    return ok;
+}
+
+static void test_an_actor_jumps_as_the_file_does(void)
+{
+    for (int i = 0; i < count(400); i++) {
+        const struct kinds kinds = { .held = i % 4 != 0, .mixed = true, .pairs = i % 2 != 0, .closes = i % 3 == 0 };
+        const int clip = 0;
+        const struct convert_options o = { .clip = &clip, .clip_count = 1, .scale = 1, .texture_edge = 128, .colors = 256,
+                                           .influences = 4, .clip_error_px = 0.02, .rows = 240, .fov_degrees = 45 };
+        struct failure f = { "" };
+        struct conversion c;
+        struct model m;
+        random_state = 90000u + (uint32_t)i;
+        if (!random_model(&kinds, &m))
+            return;
+        bool ok = convert_model(&m, &o, &c, &f);
+        if (!ok)
+            say("    file %d: %s\n", i, f.text);
+        else {
+            const size_t bytes = smear_actor_memory(&c.model, 3);
+            void *memory = malloc(bytes);
+            smear_actor *actor = NULL;
+            ok = CHECK(memory != NULL) && CHECK_EQ(smear_actor_init(&actor, &c.model, 3, memory, bytes), SMEAR_OK);
+            for (int k = 0; k < 8 && ok; k++) {
+                const struct moment at = random_moment(&m);
+                ok = play_alike(&m, &c, &at, actor);
+            }
+            if (!ok)
+                say("    file %d\n", i);
+            free(memory);
+            conversion_free(&c);
+        }
+        model_free(&m);
+        if (!CHECK(ok))
+            return;
+    }
+}
+
 void suite_jumps(void)
 {
     RUN(test_held_keys_jump_without_a_path);
     RUN(test_a_frame_in_which_all_jumps_is_sharp);
     RUN(test_motion_without_jumps_is_posed_as_ever);
     RUN(test_motion_goes_on_beyond_a_jump_as_on_its_near_side);
+    RUN(test_an_actor_jumps_as_the_file_does);
 }

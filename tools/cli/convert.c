@@ -327,6 +327,7 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
 {
     const smear_model *m = &c->model;
     size_t flash = c->bytes.meshes + c->bytes.textures + c->bytes.animation;
+    int jumps = 0;
     fprintf(to, "triangles: %d", c->triangles);
     if (c->triangles != c->triangles_in_file)
         fprintf(to, " of %d", c->triangles_in_file);
@@ -340,6 +341,7 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
     print_textures(to, c);
     fprintf(to, "clips: %u\n", m->clip_count);
     for (int i = 0; i < m->clip_count; i++) {
+        jumps += c->clip_report[i].jumps;
         const struct convert_clip_report *r = &c->clip_report[i];
         fprintf(to, "  %d ", i);
         print_quoted(to, m->text + m->clip[i].name);
@@ -347,6 +349,9 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
                 m->clip[i].duration / 65536.0, m->clip[i].channel_count, r->keys, r->keys_in_file, r->error_px,
                 r->error_time);
     }
+    if (jumps > 0)
+        fprintf(to, "jumps: %d that no blur joins; keys tell them, 0 bytes of flash and %u of an actor's ram\n", jumps,
+                (unsigned)CONVERT_JUMP_BYTES);
     fprintf(to, "flash: %zu bytes (meshes %zu, textures %zu, nodes, skins and clips %zu)\n", flash,
             c->bytes.meshes, c->bytes.textures, c->bytes.animation);
     fprintf(to, "ram: %zu bytes an actor with 2 poses (1: %zu, 3: %zu), %zu more for a blob; 32-bit pointers\n",

@@ -67,8 +67,12 @@ size_t convert_texel_count(const smear_texture *t);
 
 struct convert_clip_report {
     int keys, keys_in_file;
+    int jumps;                          /* from one key to the next: nothing joins them by a path */
     double error_px, error_time;        /* largest, and when */
 };
+
+/* What an actor, of whatever model, keeps of its poses' times to know what has jumped in between. */
+enum { CONVERT_JUMP_BYTES = 24 };
 
 /* Bytes on a core with 32-bit pointers. */
 struct convert_bytes {

@@ -9,6 +9,7 @@
 
 #include "tools/convert/exact.h"
 #include "tools/convert/track.h"
+#include "tools/model/channel.h"
 
 #include <math.h>
 #include <string.h>
@@ -165,7 +166,7 @@ static bool find_instants(struct converter *c, const struct model_channel *chann
         return false;
     for (int key = 1; key < channel->key_count; key++) {
         double from = (double)channel->time[key - 1], to = (double)channel->time[key];
-        bool ok = channel->interpolation == MODEL_STEP
+        bool ok = channel_jumps(channel, key - 1)
                     ? add_instant(all, channel, to, c->f)
                     : add_between(all, channel, m, from, to, DEPTH, c->tolerance / 4, scratch, c->f);
         if (!ok)
@@ -327,10 +328,25 @@ static double unit_of(const struct converter *c, const struct model_channel *cha
     return ldexp(1, 24 + above - n->exponent);
 }
 
+/* Whether the channel jumps behind the key at this instant, if there is one; and whether it has jumped to it. */
+static bool is_before_jump(const struct model_channel *channel, double instant)
+{
+    const int key = channel_find_key(channel, instant);
+    return (double)channel->time[key] == instant && key + 1 < channel->key_count && channel_jumps(channel, key);
+}
+
+static bool is_behind_jump(const struct model_channel *channel, double instant)
+{
+    const int key = channel_find_key(channel, instant);
+    return (double)channel->time[key] == instant && key > 0 && channel_jumps(channel, key - 1);
+}
+
 static bool write_keys(struct converter *c, const struct model_channel *channel, const struct instants *all,
                        const bool *chosen, uint32_t tick_shift, smear_model_channel *out)
 {
     struct list values = { .size = sizeof(double) };
+    const smear_model_clip *clip = (const smear_model_clip *)c->clip.data + c->clip.count - 1;
+    const uint32_t end = clip->duration >> tick_shift;
     int first_time = c->key_time.count, width = channel->width;
     double limit = 0;
     bool ok = true;
@@ -338,8 +354,12 @@ static bool write_keys(struct converter *c, const struct model_channel *channel,
     for (int i = 0; i < all->time.count && ok; i++) {
         if (!chosen[i])
             continue;
-        double tick = floor(ldexp(((const double *)all->time.data)[i], 16 - (int)tick_shift) + 0.5);
-        if (out->key_count > 0 && tick <= ((const uint16_t *)c->key_time.data)[c->key_time.count - 1])
+        const double instant = ((const double *)all->time.data)[i];
+        const bool ends_jump = !out->step && i > 0 && chosen[i - 1] && is_behind_jump(channel, instant);
+        double tick = fmin(floor(ldexp(instant, 16 - (int)tick_shift) + 0.5), end);         /* or it is never reached */
+        if (ends_jump && out->key_count > 0)
+            tick = ((const uint16_t *)c->key_time.data)[c->key_time.count - 1];
+        else if (out->key_count > 0 && tick <= ((const uint16_t *)c->key_time.data)[c->key_time.count - 1])
             continue;
         uint16_t *time = list_add(&c->key_time, 1, c->f);
         double *value = list_add(&values, width, c->f);
@@ -349,8 +369,9 @@ static bool write_keys(struct converter *c, const struct model_channel *channel,
             break;
         *time = (uint16_t)tick;
         out->key_count++;
-        /* the curve at the tick itself: held values change at the key, others are sampled there */
-        if (channel->interpolation == MODEL_STEP)
+        /* the curve at the tick itself, but where it is not what it is at the instant: held values change at the key, those on
+         * both sides of a jump are the file's, and ends are, so that a loop's meet */
+        if (out->step || ends_jump || is_before_jump(channel, instant) || i == 0 || i + 1 == all->time.count)
             memcpy(value, (const double *)all->value.data + (size_t)i * (size_t)width,
                    (size_t)width * sizeof *value);
         else
@@ -439,6 +460,15 @@ static bool write_weight_channels(struct converter *c, const struct model_clip *
     return true;
 }
 
+static int count_jumps(const struct converter *c, const smear_model_channel *channel)
+{
+    const uint16_t *time = (const uint16_t *)c->key_time.data + channel->time_first;
+    int jumps = 0;
+    for (int k = 1; k < channel->key_count; k++)
+        jumps += channel->step || time[k] == time[k - 1];
+    return jumps;
+}
+
 static bool write_weights_at_rest(struct converter *c)
 {
     const struct model *m = c->model;
@@ -489,8 +519,11 @@ bool write_clips(struct converter *c)
         if (c->channel.count >= (int)SMEAR_MODEL_NONE)
             return fail(c->f, "has more than 65534 channels");
         ((smear_model_clip *)c->clip.data)[i].channel_count = (uint16_t)(c->channel.count - channels);
-        for (int k = channels; k < c->channel.count; k++)
-            report[i].keys += ((const smear_model_channel *)c->channel.data)[k].key_count;
+        for (int k = channels; k < c->channel.count; k++) {
+            const smear_model_channel *channel = (const smear_model_channel *)c->channel.data + k;
+            report[i].keys += channel->key_count;
+            report[i].jumps += count_jumps(c, channel);
+        }
     }
     return true;
 }
