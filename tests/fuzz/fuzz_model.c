@@ -88,12 +88,12 @@ static void check_model(const struct model *m)
     }
 }
 
-static void check_pose(const struct model *m, int clip, double time)
+static void check_pose(const struct model *m, int clip, double time, double now)
 {
     struct model_pose pose = { 0 };
     struct failure f = { 0 };
     double min[3], max[3];
-    if (model_pose(m, clip, time, true, &pose, &f)) {
+    if (model_pose_joined(m, clip, time, now, true, &pose, &f)) {
         for (int i = 0; i < pose.draw_count; i++) {
             size_t n = 3 * (size_t)pose.draw[i].primitive->vertex_count;
             require_finite(pose.draw[i].position, n);
@@ -151,8 +151,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (model_parse(data, size, NULL, &m, &f)) {
         check_model(&m);
-        check_pose(&m, MODEL_CLIP_ALL, 0.3);
-        check_pose(&m, MODEL_CLIP_NONE, 0);
+        check_pose(&m, MODEL_CLIP_ALL, 0.3, 0.3);
+        check_pose(&m, MODEL_CLIP_ALL, -0.4, 0.3);
+        check_pose(&m, MODEL_CLIP_NONE, 0, 0);
         model_free(&m);
     } else {
         require(f.text[0] != '\0' && m.node == NULL);
