@@ -49,16 +49,26 @@ static void print_item(int index, const char *name)
     print_name(name);
 }
 
+/* Instances stand behind all other nodes, in the order of those; they are counted, not listed. */
 static void print_nodes(const struct model *model)
 {
-    printf("nodes: %d\n", model->node_count);
-    for (int i = 0; i < model->node_count; i++) {
+    int listed = 0, instance;
+    while (listed < model->node_count && !model->node[listed].is_instance)
+        listed++;
+    instance = listed;
+    printf("nodes: %d\n", listed);
+    for (int i = 0; i < listed; i++) {
         const struct model_node *node = &model->node[i];
+        int first = instance, mesh = node->mesh;
+        for (; instance < model->node_count && model->node[instance].parent == i; instance++)
+            mesh = model->node[instance].mesh;
         print_item(i, node->name);
         if (node->parent >= 0)
             printf(" under %d", node->parent);
-        if (node->mesh >= 0)
-            printf(", mesh %d", node->mesh);
+        if (mesh >= 0)
+            printf(", mesh %d", mesh);
+        if (instance > first)
+            printf(", %d instances", instance - first);
         if (node->skin >= 0)
             printf(", skin %d", node->skin);
         printf("%s\n", model->in_scene[i] ? "" : ", not in the scene");

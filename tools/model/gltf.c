@@ -5,16 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Extensions a file may require: those that are read, and those that only concern what smear does
- * not show (other maps, other lights, notes). */
-static const char *const known_extensions[] = {
-    "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
-    "KHR_materials_dispersion", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_iridescence", "KHR_materials_sheen", "KHR_materials_specular",
-    "KHR_materials_variants", "KHR_xmp_json_ld"
-};
-
 static uint32_t read_u32(const uint8_t *p)
 {
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
@@ -125,31 +115,13 @@ static bool check_asset(struct gltf *g)
     return true;
 }
 
-static bool check_extensions(struct gltf *g)
-{
-    int required;
-    if (!json_get_array(&g->json, 0, "extensionsRequired", &required, g->f))
-        return false;
-    for (int i = json_first(&g->json, required); i >= 0; i = json_after(&g->json, i)) {
-        if (g->json.value[i].type != JSON_STRING)
-            return json_fail(&g->json, i, NULL, g->f, "expected a string");
-        bool known = false;
-        for (size_t k = 0; k < sizeof known_extensions / sizeof known_extensions[0]; k++)
-            known = known || strcmp(g->json.value[i].string, known_extensions[k]) == 0;
-        if (!known)
-            return json_fail(&g->json, i, NULL, g->f,
-                             "needs the extension %.60s, which is not read",
-                             g->json.value[i].string);
-    }
-    return true;
-}
-
 static bool read_all(struct gltf *g)
 {
-    return check_asset(g) && check_extensions(g) && gltf_read_buffers(g) &&
+    return check_asset(g) && gltf_read_extensions(g) && gltf_read_buffers(g) &&
            gltf_read_accessors(g) && gltf_read_materials(g) && gltf_read_meshes(g) &&
            gltf_read_nodes(g) && gltf_read_skins(g) && gltf_read_scene(g) &&
-           gltf_read_cameras(g) && gltf_read_animations(g) && gltf_read_pictures(g);
+           gltf_read_cameras(g) && gltf_read_animations(g) && gltf_read_instances(g) &&
+           gltf_read_pictures(g);
 }
 
 bool gltf_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f)

@@ -3,13 +3,15 @@
  *
  * Order of work, each part on the results of those before it:
  *
- *   gltf.c            container, asset, extensions; runs the rest
+ *   gltf.c            container, asset; runs the rest
+ *   gltf_extension.c  extensions: read, drawn without, or refused
  *   gltf_buffer.c     buffers, buffer views, URIs
  *   gltf_accessor.c   accessors: all checked at once, decoded when asked for
  *   gltf_material.c   materials; at the end the pictures that drawn materials use
  *   gltf_mesh.c       primitives to triangle lists
  *   gltf_scene.c      nodes, scenes, skins, cameras
  *   gltf_animation.c  clips
+ *   gltf_instance.c   a node for each instance of a mesh
  *
  * Every function that returns false has put its reason into g->f. */
 #ifndef SMEAR_TOOLS_GLTF_H
@@ -21,9 +23,10 @@
 
 /* A buffer view: a checked slice of a buffer. */
 struct gltf_view {
-    const uint8_t *bytes;
+    const uint8_t *bytes;       /* null: of a buffer that has none */
     size_t size;
     size_t stride;              /* 0: elements are packed */
+    const char *packed_by;      /* the extension that has its bytes where the buffer has none; or null */
 };
 
 enum gltf_component {
@@ -97,8 +100,15 @@ char *gltf_name(struct gltf *g, int object);
 /* The object's extension of that name, or -1. */
 int gltf_extension(struct gltf *g, int object, const char *name);
 
+/* Refuses files that need what is not read, and warns of what they are drawn without. */
+bool gltf_read_extensions(struct gltf *g);
+/* Fails at `value`, as the extension holds triangles that are nowhere else. */
+bool gltf_packed(struct gltf *g, int value, const char *extension);
+
 bool gltf_read_buffers(struct gltf *g);
 void gltf_free_buffers(struct gltf *g);
+/* Fails at `object`, which wants to read the view, when its buffer has no bytes. */
+bool gltf_has_bytes(struct gltf *g, int view, int object);
 /* The bytes a URI stands for; *owned (to be freed) is null when they are part of something else. */
 bool gltf_read_uri(struct gltf *g, int object, const char *uri, uint8_t **owned, size_t *size);
 
@@ -136,5 +146,8 @@ bool gltf_read_scene(struct gltf *g);
 bool gltf_read_cameras(struct gltf *g);
 
 bool gltf_read_animations(struct gltf *g);
+
+/* EXT_mesh_gpu_instancing: an instance is a node below the one that has its mesh in the file. */
+bool gltf_read_instances(struct gltf *g);
 
 #endif

@@ -99,6 +99,8 @@ static bool slice(struct gltf *g, int object, int view, int64_t offset, size_t s
                   int count, const uint8_t **bytes)
 {
     const struct gltf_view *v = &g->view[view];
+    if (!gltf_has_bytes(g, view, object))
+        return false;
     if ((uint64_t)offset > v->size || v->size - (size_t)offset < size ||
         (v->size - (size_t)offset - size) / stride < (size_t)count - 1)
         return json_fail(&g->json, object, "byteOffset", g->f,

@@ -135,8 +135,7 @@ static bool read_buffer(struct gltf *g, int index, int object)
         buffer->bytes = g->bin;
         buffer->size = g->bin_size;
     } else {
-        return json_fail(&g->json, object, NULL, g->f,
-                         "no uri and no BIN chunk to take bytes from");
+        return true;            /* has no bytes, which is fine until something is to be read from it */
     }
     if ((uint64_t)length > buffer->size)
         return json_fail(&g->json, object, "byteLength", g->f, "%lld bytes promised, %zu there",
@@ -144,6 +143,18 @@ static bool read_buffer(struct gltf *g, int index, int object)
     buffer->size = (size_t)length;
     g->source_bytes += buffer->size;
     return true;
+}
+
+/* The extension of a buffer view that has its bytes in packed form, or null. */
+static const char *packed_by(const struct gltf *g, int view)
+{
+    static const char *const names[] = { "EXT_meshopt_compression", "KHR_meshopt_compression" };
+    int extensions = json_member(&g->json, view, "extensions");
+    for (int i = 0; i < 2; i++) {
+        if (json_member(&g->json, extensions, names[i]) >= 0)
+            return names[i];
+    }
+    return NULL;
 }
 
 static bool read_view(struct gltf *g, int index, int object)
@@ -159,12 +170,16 @@ static bool read_view(struct gltf *g, int index, int object)
     if (buffer < 0 || length < 0)
         return json_fail(&g->json, object, NULL, g->f, "no buffer or no byteLength");
     uint64_t size = g->buffer[buffer].size;
+    view->stride = (size_t)stride;
+    if (g->buffer[buffer].bytes == NULL) {
+        view->packed_by = packed_by(g, object);
+        return true;
+    }
     if ((uint64_t)offset > size || (uint64_t)length > size - (uint64_t)offset)
         return json_fail(&g->json, object, NULL, g->f, "reaches past its buffer of %zu bytes",
                          g->buffer[buffer].size);
     view->bytes = g->buffer[buffer].bytes + offset;
     view->size = (size_t)length;
-    view->stride = (size_t)stride;
     return true;
 }
 
@@ -196,6 +211,15 @@ bool gltf_read_buffers(struct gltf *g)
             return false;
     }
     return true;
+}
+
+bool gltf_has_bytes(struct gltf *g, int view, int object)
+{
+    if (g->view[view].bytes != NULL)
+        return true;
+    if (g->view[view].packed_by != NULL)
+        return gltf_packed(g, object, g->view[view].packed_by);
+    return json_fail(&g->json, object, "bufferView", g->f, "its bytes are in a buffer that has neither a uri nor a BIN chunk");
 }
 
 void gltf_free_buffers(struct gltf *g)

@@ -110,21 +110,32 @@ static void set_defaults(struct gltf_material *m, struct model_material *out)
     *out = (struct model_material){ .base = { 1, 1, 1, 1 }, .image = -1, .alpha_cutoff = 0.5f };
 }
 
+/* Where the base colour stands: in the core's metal and roughness, or in specular and glossiness, whose diffuse part is what
+ * smear draws of it. */
+static bool find_base(struct gltf *g, int object, int *pbr, const char **factor, const char **texture)
+{
+    *pbr = gltf_extension(g, object, "KHR_materials_pbrSpecularGlossiness");
+    *factor = *pbr >= 0 ? "diffuseFactor" : "baseColorFactor";
+    *texture = *pbr >= 0 ? "diffuseTexture" : "baseColorTexture";
+    return *pbr >= 0 || json_get_object(&g->json, object, "pbrMetallicRoughness", pbr, g->f);
+}
+
 static bool read_material(struct gltf *g, const struct texture_lists *lists, int object,
                           struct gltf_material *m, struct model_material *out)
 {
     int pbr, info;
+    const char *factor, *texture;
     double base[4] = { 1, 1, 1, 1 };
     set_defaults(m, out);
     out->name = gltf_name(g, object);
     if (out->name == NULL || !read_alpha(g, object, out) ||
-        !json_get_object(&g->json, object, "pbrMetallicRoughness", &pbr, g->f) ||
-        !json_get_numbers(&g->json, pbr, "baseColorFactor", 4, base, NULL, g->f) ||
-        !json_get_object(&g->json, pbr, "baseColorTexture", &info, g->f))
+        !find_base(g, object, &pbr, &factor, &texture) ||
+        !json_get_numbers(&g->json, pbr, factor, 4, base, NULL, g->f) ||
+        !json_get_object(&g->json, pbr, texture, &info, g->f))
         return false;
     for (int i = 0; i < 4; i++) {
         if (base[i] < 0 || base[i] > 1)
-            return json_fail(&g->json, pbr, "baseColorFactor", g->f, "%g is not in 0 to 1",
+            return json_fail(&g->json, pbr, factor, g->f, "%g is not in 0 to 1",
                              base[i]);
         out->base[i] = (float)base[i];
     }
@@ -189,6 +200,8 @@ static bool read_picture(struct gltf *g, int object, struct image *out)
         !json_get_index(&g->json, object, "bufferView", g->view_count, "buffer view", &view, g->f))
         return false;
     if (view >= 0) {
+        if (!gltf_has_bytes(g, view, object))
+            return false;
         bytes = g->view[view].bytes;
         size = g->view[view].size;
     } else {

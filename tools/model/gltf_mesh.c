@@ -299,6 +299,9 @@ static bool read_primitive(struct gltf *g, int object, struct model_primitive *o
             position >= 0 ? g->accessor[position].count : 0;
     if (mode < MODE_TRIANGLES || position < 0 || n < 3)
         return true;
+    if (g->accessor[position].bytes == NULL && g->accessor[position].sparse_count == 0 &&
+        gltf_extension(g, object, "KHR_draco_mesh_compression") >= 0)
+        return gltf_packed(g, object, "KHR_draco_mesh_compression");
     s.vertex_count = g->accessor[position].count;
     if (material < 0 && !gltf_default_material(g, &material))
         return false;

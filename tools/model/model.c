@@ -91,6 +91,19 @@ void model_free(struct model *model)
     *model = (struct model){ 0 };
 }
 
+void model_warn(struct model *model, const char *format, ...)
+{
+    size_t used = strlen(model->warning);
+    va_list args;
+    if (used > 0 && used + 2 < sizeof model->warning) {
+        memcpy(model->warning + used, "; ", 3);
+        used += 2;
+    }
+    va_start(args, format);
+    vsnprintf(model->warning + used, sizeof model->warning - used, format, args);
+    va_end(args);
+}
+
 static bool check_instances(const struct model *model, struct failure *f)
 {
     size_t draws = 0, bytes = 0, terms = 0, triangles = 0;
@@ -140,9 +153,9 @@ static bool parse(const uint8_t *bytes, size_t size, struct external *files, str
         return fail(f, "a converted model, for firmware only: give the file it was made from");
     bool ok = is_gltf(bytes, size) ? gltf_parse(bytes, size, files, out, f) : obj_parse(bytes, size, files, out, f);
     if (ok && check_instances(out, f)) {
-        if (out->skipped_primitives > 0 && out->warning[0] == '\0')
-            snprintf(out->warning, sizeof out->warning,
-                     "%d primitives hold no triangles and are left out", out->skipped_primitives);
+        if (out->skipped_primitives > 0)
+            model_warn(out, "%d primitive%s no triangles and %s left out", out->skipped_primitives,
+                       out->skipped_primitives > 1 ? "s hold" : " holds", out->skipped_primitives > 1 ? "are" : "is");
         return true;
     }
     model_free(out);

@@ -64,6 +64,7 @@ struct model_node {
     bool has_matrix;                /* then `matrix` (column major) places it, always */
     double matrix[16];
     int mesh, skin, camera;         /* -1 for none; camera counts as in the file */
+    bool is_instance;               /* not in the file: an instance of its parent's mesh; behind all others */
     int weight_count;
     float *weight;                  /* overrides the mesh's; or null */
 };
@@ -122,7 +123,7 @@ struct model {
     int clip_count;
     struct model_clip *clip;
     int skipped_primitives;         /* points, lines, curves and empty ones, counted and left out */
-    char warning[200];              /* what was left out or not found, one line; or empty */
+    char warning[1000];             /* what was left out or not found, one line; or empty */
 };
 
 /* Where the files lie that a model names. */
@@ -141,6 +142,12 @@ bool model_load(const char *path, struct model *out, struct failure *f);
 bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *out,
                  struct failure *f);
 void model_free(struct model *model);
+
+/* Adds to model->warning, in printf style. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void model_warn(struct model *model, const char *format, ...);
 
 /* Which clips move the model: one clip, all of them together (later in the file wins per node and
  * path), or none. */

@@ -10,6 +10,7 @@
 #include "tools/model/obj_text.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,8 +20,9 @@ struct floats {
     int width, count, capacity;
 };
 
-/* One corner of a triangle: positions in the lists, -1 for none. */
+/* One corner of a triangle: positions in the lists, -1 for none; NO_NUMBER for a normal that is none. */
 struct corner { int v, vt, vn; };
+enum { NO_NUMBER = -2 };
 
 enum { HAS_UV = 1, HAS_NORMAL = 2 };
 
@@ -41,6 +43,13 @@ struct reader {
     struct triple_table parts;          /* node, material, form */
     struct mtl_library library;
     int object, group, material;        /* in force; -1 material: default */
+    int missing;                        /* files and materials that are named and not there */
+    struct {                            /* what is left out, or read as something else */
+        int vertices, uvs, normals;     /* that are no numbers */
+        int short_faces, broken_faces;  /* of fewer than three corners; with a corner that is no number */
+        int uneven_faces;               /* that lack at one corner what they have at another */
+        int freeform;                   /* statements of curves and surfaces */
+    } fault;
 };
 
 static bool grow(struct reader *r, void **array, int *capacity, int count, int more, size_t size)
@@ -69,16 +78,24 @@ static float *add_floats(struct reader *r, struct floats *list)
     return list->value + (size_t)list->count++ * (size_t)list->width;
 }
 
-/* Up to `most` numbers; *n tells how many there are. */
+/* Up to `most` numbers; *n tells how many there are. *faults counts the statements that have one that is not finite, and
+ * out[0] is then NaN. */
 static bool read_numbers(struct reader *r, const char *keyword, char *rest, int least, int most,
-                         float *out, int *n)
+                         float *out, int *n, int *faults)
 {
     char *word;
+    bool is_finite = true;
     *n = 0;
     while (*n < most && (word = obj_word(&rest)) != NULL) {
-        if (!obj_number(word, &out[*n]))
+        if (obj_is_not_finite(word))
+            is_finite = false;
+        else if (!obj_number(word, &out[*n]))
             return fail(r->f, "bad number '%.20s' (line %d)", word, r->text.line);
         ++*n;
+    }
+    if (!is_finite) {
+        out[0] = NAN;
+        ++*faults;
     }
     return *n >= least || fail(r->f, "%s needs %d numbers (line %d)", keyword, least, r->text.line);
 }
@@ -86,9 +103,9 @@ static bool read_numbers(struct reader *r, const char *keyword, char *rest, int 
 /* v x y z, with a weight of no meaning here, or with r g b [a]. */
 static bool read_position(struct reader *r, char *rest)
 {
-    float number[7];
+    float number[7] = { 0 };
     int n;
-    if (!read_numbers(r, "v", rest, 3, 7, number, &n))
+    if (!read_numbers(r, "v", rest, 3, 7, number, &n, &r->fault.vertices))
         return false;
     float *v = add_floats(r, &r->v), *color = v == NULL ? NULL : add_floats(r, &r->color);
     if (color == NULL)
@@ -105,8 +122,10 @@ static bool read_uv(struct reader *r, char *rest)
 {
     float number[2] = { 0, 0 };
     int n;
-    if (!read_numbers(r, "vt", rest, 1, 2, number, &n))
+    if (!read_numbers(r, "vt", rest, 1, 2, number, &n, &r->fault.uvs))
         return false;
+    if (isnan(number[0]))
+        number[0] = number[1] = 0;
     float *uv = add_floats(r, &r->vt);
     if (uv != NULL)
         memcpy(uv, number, sizeof number);
@@ -115,9 +134,9 @@ static bool read_uv(struct reader *r, char *rest)
 
 static bool read_normal(struct reader *r, char *rest)
 {
-    float number[3];
+    float number[3] = { 0 };
     int n;
-    if (!read_numbers(r, "vn", rest, 3, 3, number, &n))
+    if (!read_numbers(r, "vn", rest, 3, 3, number, &n, &r->fault.normals))
         return false;
     float *normal = add_floats(r, &r->vn);
     if (normal != NULL)
@@ -151,7 +170,7 @@ static bool read_reference(struct reader *r, const char **text, int count, int *
     return true;
 }
 
-/* v, v/vt, v//vn or v/vt/vn */
+/* v, v/vt, v//vn or v/vt/vn, and more behind a further slash, which other programs know. */
 static bool read_corner(struct reader *r, const char *word, struct corner *out)
 {
     const char *at = word;
@@ -167,8 +186,10 @@ static bool read_corner(struct reader *r, const char *word, struct corner *out)
         at++;
         if (!read_reference(r, &at, r->vn.count, &out->vn))
             return false;
+        if (out->vn >= 0 && isnan(r->vn.value[3 * (size_t)out->vn]))
+            out->vn = NO_NUMBER;
     }
-    if (out->v < 0 || *at != '\0')
+    if (out->v < 0)
         return fail(r->f, "bad face '%.20s' (line %d)", word, r->text.line);
     return true;
 }
@@ -204,25 +225,53 @@ static bool add_triangle(struct reader *r, const struct corner *a, const struct 
     return true;
 }
 
-static bool read_face(struct reader *r, char *rest)
+/* Corners keep what all of them have; returns the form. A normal that is no number is none: the face is then flat. */
+static int even_out(struct reader *r, int n)
 {
-    int n = 0;
+    int uvs = 0, normals = 0, given = 0;
+    for (int i = 0; i < n; i++) {
+        uvs += r->polygon[i].vt >= 0;
+        normals += r->polygon[i].vn >= 0;
+        given += r->polygon[i].vn != -1;
+    }
+    r->fault.uneven_faces += uvs % n != 0 || given % n != 0;
+    for (int i = 0; i < n; i++) {
+        r->polygon[i].vt = uvs == n ? r->polygon[i].vt : -1;
+        r->polygon[i].vn = normals == n ? r->polygon[i].vn : -1;
+    }
+    return (uvs == n ? HAS_UV : 0) | (normals == n ? HAS_NORMAL : 0);
+}
+
+/* Reads the corners of a face into r->polygon. */
+static bool read_corners(struct reader *r, char *rest, int *n, bool *is_whole)
+{
     char *word;
+    *n = 0;
+    *is_whole = true;
     while ((word = obj_word(&rest)) != NULL) {
         void *polygon = r->polygon;
-        if (!grow(r, &polygon, &r->polygon_capacity, n, 1, sizeof *r->polygon))
+        if (!grow(r, &polygon, &r->polygon_capacity, *n, 1, sizeof *r->polygon))
             return false;
         r->polygon = polygon;
-        struct corner *c = &r->polygon[n++];
+        struct corner *c = &r->polygon[(*n)++];
         if (!read_corner(r, word, c))
             return false;
-        if ((c->vt < 0) != (r->polygon[0].vt < 0) || (c->vn < 0) != (r->polygon[0].vn < 0))
-            return fail(r->f, "face mixes forms of reference (line %d)", r->text.line);
+        *is_whole = *is_whole && !isnan(r->v.value[3 * (size_t)c->v]);
     }
-    if (n < 3)
-        return fail(r->f, "face has %d corners (line %d)", n, r->text.line);
-    int form = (r->polygon[0].vt < 0 ? 0 : HAS_UV) | (r->polygon[0].vn < 0 ? 0 : HAS_NORMAL);
-    int node = current_node(r);
+    return true;
+}
+
+static bool read_face(struct reader *r, char *rest)
+{
+    int n;
+    bool is_whole;
+    if (!read_corners(r, rest, &n, &is_whole))
+        return false;
+    if (n < 3 || !is_whole) {
+        *(n < 3 ? &r->fault.short_faces : &r->fault.broken_faces) += 1;
+        return true;
+    }
+    int form = even_out(r, n), node = current_node(r);
     const int key[3] = { node, r->material, form };
     int part = node < 0 ? -1 : triple_intern(&r->parts, key);
     if (part < 0)
@@ -234,10 +283,11 @@ static bool read_face(struct reader *r, char *rest)
     return true;
 }
 
+/* Of several things that are missing, the first is told. */
 static void warn(struct reader *r, const char *text)
 {
-    if (r->model->warning[0] == '\0')
-        snprintf(r->model->warning, sizeof r->model->warning, "%s", text);
+    if (r->missing++ == 0)
+        model_warn(r->model, "%s", text);
 }
 
 /* Reads one .mtl file; *found tells whether it is there. */
@@ -299,7 +349,8 @@ static bool name_in_force(struct reader *r, const char *name, int *out)
 
 static bool read_statement(struct reader *r, const char *word, char *rest)
 {
-    static const char *const left_out[] = { "p", "l", "curv", "curv2", "surf" };
+    static const char *const freeform[] = { "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
+                                            "hole", "scrv", "sp", "end", "con" };
     if (strcmp(word, "v") == 0)
         return read_position(r, rest);
     if (strcmp(word, "vt") == 0)
@@ -316,10 +367,9 @@ static bool read_statement(struct reader *r, const char *word, char *rest)
         return use_material(r, rest);
     if (strcmp(word, "mtllib") == 0)
         return read_libraries(r, rest);
-    for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++) {
-        if (strcmp(word, left_out[i]) == 0)
-            r->model->skipped_primitives++;
-    }
+    r->model->skipped_primitives += strcmp(word, "p") == 0 || strcmp(word, "l") == 0;
+    for (size_t i = 0; i < sizeof freeform / sizeof freeform[0]; i++)
+        r->fault.freeform += strcmp(word, freeform[i]) == 0;
     return true;
 }
 
@@ -497,6 +547,10 @@ static bool make_nodes(struct reader *r)
 static bool build_model(struct reader *r)
 {
     int *order = NULL, *first = NULL;
+    if (r->triangle_count == 0 && r->fault.short_faces + r->fault.broken_faces > 0)
+        return fail(r->f, "holds no face of three corners that are numbers");
+    if (r->triangle_count == 0 && r->fault.freeform > 0)
+        return fail(r->f, "holds no faces, only free-form curves and surfaces");
     if (r->triangle_count == 0)
         return fail(r->f, "holds no faces (if it is an OBJ file at all)");
     bool ok = settle_materials(r) && make_nodes(r) && sort_by_part(r, &order, &first);
@@ -546,21 +600,43 @@ static bool load_pictures(struct reader *r)
     struct text_table names = { 0 };
     size_t n = (size_t)model->material_count;
     int *image_of_name = calloc(n, sizeof *image_of_name);
-    bool *is_drawn = calloc(n, sizeof *is_drawn);
     model->image = calloc(n, sizeof *model->image);
-    bool ok = (image_of_name != NULL && is_drawn != NULL && model->image != NULL) ||
+    bool ok = (image_of_name != NULL && model->image != NULL) ||
               fail(r->f, "out of memory (%d materials)", model->material_count);
     for (int p = 0; ok && p < r->parts.count; p++)
-        is_drawn[r->parts.key[p][1]] = true;
+        r->library.material[r->parts.key[p][1]].is_drawn = true;
     for (int i = 0; ok && i < model->material_count; i++) {
-        if (is_drawn[i] && r->library.material[i].map != NULL)
+        if (r->library.material[i].is_drawn && r->library.material[i].map != NULL)
             ok = load_picture(r, r->library.material[i].map, &names, image_of_name,
                               &model->material[i].image);
     }
     free(image_of_name);
-    free(is_drawn);
     text_table_free(&names);
     return ok;
+}
+
+/* --- what became of it --- */
+
+static void tell(struct reader *r, int count, const char *one, const char *several)
+{
+    if (count > 0)
+        model_warn(r->model, "%d %s", count, count == 1 ? one : several);
+}
+
+static void tell_faults(struct reader *r)
+{
+    if (r->missing > 1)
+        model_warn(r->model, "%d more that are named are missing", r->missing - 1);
+    tell(r, r->fault.vertices, "vertex is no number", "vertices are no numbers");
+    tell(r, r->fault.broken_faces, "face with such a corner is left out", "faces with such corners are left out");
+    tell(r, r->fault.short_faces, "face of fewer than three corners is left out",
+         "faces of fewer than three corners are left out");
+    tell(r, r->fault.normals, "normal is no number: faces with it are flat", "normals are no numbers: faces with them are flat");
+    tell(r, r->fault.uvs, "texture coordinate is no number: taken for 0", "texture coordinates are no numbers: taken for 0");
+    tell(r, r->fault.uneven_faces, "face has texture coordinates or normals at some corners only: drawn without",
+         "faces have texture coordinates or normals at some corners only: drawn without");
+    tell(r, r->fault.freeform, "statement of free-form curves and surfaces is left out",
+         "statements of free-form curves and surfaces are left out");
 }
 
 bool obj_parse(const uint8_t *bytes, size_t size, struct external *files, struct model *model, struct failure *f)
@@ -572,6 +648,8 @@ bool obj_parse(const uint8_t *bytes, size_t size, struct external *files, struct
     while (ok && obj_text_next(&r.text, &word, &rest))
         ok = read_statement(&r, word, rest);
     ok = ok && build_model(&r) && load_pictures(&r);
+    mtl_settle(&r.library, model);
+    tell_faults(&r);
     obj_text_close(&r.text);
     free(r.v.value);
     free(r.vt.value);

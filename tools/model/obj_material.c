@@ -46,6 +46,28 @@ void mtl_library_free(struct mtl_library *library)
     *library = (struct mtl_library){ 0 };
 }
 
+void mtl_settle(struct mtl_library *library, struct model *model)
+{
+    const char *first = "";
+    int count = 0;
+    for (int i = 0; i < library->count; i++) {
+        struct model_material *m = &model->material[i];
+        if (!library->material[i].is_drawn)
+            continue;
+        if (library->material[i].map != NULL && m->base[0] == 0 && m->base[1] == 0 && m->base[2] == 0)
+            m->base[0] = m->base[1] = m->base[2] = 1;
+        if (m->base[3] > 0)
+            continue;
+        m->base[3] = 1;
+        m->alpha = MODEL_ALPHA_OPAQUE;
+        first = count++ == 0 ? m->name : first;
+    }
+    if (count == 1)
+        model_warn(model, "material %.60s, which would be invisible (d 0 or Tr 1), is drawn opaque", first);
+    else if (count > 1)
+        model_warn(model, "%d materials, %.60s the first, which would be invisible (d 0 or Tr 1), are drawn opaque", count, first);
+}
+
 static bool bad_number(const struct obj_text *text, const char *word, struct failure *f)
 {
     return fail(f, "bad number after %.20s (line %d)", word, text->line);
@@ -76,9 +98,9 @@ static bool read_diffuse(const struct obj_text *text, char *rest, struct model_m
     return true;
 }
 
-/* d 1 and Tr 0 are opaque. */
+/* d 1 and Tr 0 are opaque. Where a material has both, d counts: some programs write Tr 1 for opaque, too. */
 static bool read_dissolve(const struct obj_text *text, const char *keyword, char *rest,
-                          struct model_material *out, struct failure *f)
+                          struct mtl_material *m, struct model_material *out, struct failure *f)
 {
     char *word = obj_word(&rest);
     float value;
@@ -86,6 +108,9 @@ static bool read_dissolve(const struct obj_text *text, const char *keyword, char
         word = obj_word(&rest);
     if (!obj_number(word, &value))
         return bad_number(text, keyword, f);
+    if (keyword[0] == 'T' && m->has_dissolve)
+        return true;
+    m->has_dissolve = m->has_dissolve || keyword[0] == 'd';
     float alpha = clamp_unit(keyword[0] == 'd' ? value : 1 - value);
     out->base[3] = alpha;
     out->alpha = alpha < 1 ? MODEL_ALPHA_BLEND : MODEL_ALPHA_OPAQUE;
@@ -162,7 +187,7 @@ bool mtl_parse(const uint8_t *bytes, size_t size, struct mtl_library *library, s
         if (strcmp(word, "Kd") == 0)
             ok = read_diffuse(&text, rest, out, f);
         else if (strcmp(word, "d") == 0 || strcmp(word, "Tr") == 0)
-            ok = read_dissolve(&text, word, rest, out, f);
+            ok = read_dissolve(&text, word, rest, &library->material[now], out, f);
         else if (strcmp(word, "map_Kd") == 0)
             ok = read_map(rest, &library->material[now], out, f);
         else if (strcmp(word, "illum") == 0)

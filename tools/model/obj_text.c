@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 bool obj_text_open(const uint8_t *bytes, size_t size, struct obj_text *out, struct failure *f)
 {
@@ -114,4 +115,11 @@ bool obj_number(const char *word, float *out)
         return false;
     *out = (float)value;
     return true;
+}
+
+bool obj_is_not_finite(const char *word)
+{
+    word += *word == '-' || *word == '+';
+    return (strncasecmp(word, "nan", 3) == 0 && (word[3] == '\0' || word[3] == '(')) || strcasecmp(word, "inf") == 0 ||
+           strcasecmp(word, "infinity") == 0 || strncmp(word, "1.#", 3) == 0;
 }

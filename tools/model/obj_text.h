@@ -30,4 +30,7 @@ char *obj_word(char **rest);
 /* A decimal number that fits a float; hexadecimal, infinities and NaN are none. */
 bool obj_number(const char *word, float *out);
 
+/* What programs write for a result that is no finite number: nan, -inf, 1.#IND and their like. */
+bool obj_is_not_finite(const char *word);
+
 #endif
