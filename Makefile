@@ -323,7 +323,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim api bounds budget bins clip convert convert_tool fixed fixmath foreign jobs jumps kernels light math math_error matrix motion overlay path points present raster \
+SAN_SUITES := $(filter anim apart api bounds budget bins clip convert convert_tool fixed fixmath foreign jobs jumps kernels light math math_error matrix motion overlay path points present raster \
               still subframes tables texture tilemax timemask transform view x11,$(ALL_SUITES))
 # With sanitizers no other is compiled, unless SUITE names it.
 ifeq ($(SAN),1)
@@ -348,7 +348,7 @@ TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
     x11.c x11_auth.c)
-TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c
+TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
 
 $(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
@@ -393,7 +393,7 @@ run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
-COVERAGE_SUITES := $(filter-out accuracy assets blur chart cover failures filters foreign metrics ref scenes view x11 json,$(SUITES))
+COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign metrics ref scenes view x11 json,$(SUITES))
 .PHONY: coverage run-coverage
 ## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:

@@ -968,23 +968,46 @@ cp -r "$base/in" "$base/before"
 cp out.ppm "$base/in/other.ppm"
 cp out.ppm "$base/in/picture.ppm"
 ln -s "$plate" "$base/in/link.json"
-input "$base/in/card.png" render "$base/in/card.obj" -o "$base/in/card.png"
+usage "$base/in/card.png" render "$base/in/card.obj" -o "$base/in/card.png"
 claim "says why" err_has "it has been read, and would be lost"
-input "$base/in/card.mtl" render "$base/in/card.obj" --stats "$base/in/card.mtl"
-input "$plate" render "$plate" --stats "$plate"
-input "$base/in/link.json" render "$plate" --stats "$base/in/link.json"
-input "$plate" view "$plate" --out null --frames 1 --record "$plate"
-input "$plate" view "$plate" --out null --frames 1 --check "$plate" --update
+ln "$base/in/card.png" "$base/in/card7.png"
+usage "$base/in/card%d.png" render "$base/in/card.obj" --frames 6-8 -o "$base/in/card%d.png"
+rm "$base/in/card7.png"
+usage "$base/in/card.mtl" render "$base/in/card.obj" --stats "$base/in/card.mtl"
+usage "$plate" render "$plate" --stats "$plate"
+usage "$base/in/link.json" render "$plate" --stats "$base/in/link.json"
+usage "$plate" view "$plate" --out null --frames 1 --record "$plate"
+usage "$plate" view "$plate" --out null --frames 1 --check "$plate" --update
 claim "keeps no picture" missing "$plate.0000.png"
+ln "$plate" "$base/in/model.h"
+usage "$base/in/model.h" convert "$plate" -o "$base/in/model.h"
+rm "$base/in/model.h"
 for picture in picture other; do
-    input "$base/in/$picture.ppm" compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/$picture.ppm"
+    usage "$base/in/$picture.ppm" compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/$picture.ppm"
     claim "it is as it was" same out.ppm "$base/in/$picture.ppm"
 done
 claim "another name beside it is free" works compare "$base/in/picture.ppm" "$base/in/other.ppm" --diff "$base/in/diff.ppm"
 for name in plate.gltf card.obj card.mtl card.png; do claim "$name is as it was" same "$base/before/$name" "$base/in/$name"; done
 usage ./same.pfm render "$plate" -o same.pfm --depth ./same.pfm
 usage ../empty/same.pfm render "$plate" -o same.pfm --velocity ../empty/same.pfm
-usage ./s%04d.pfm render "$plate" --frames 0-1 -o s%d.pfm --depth ./s%04d.pfm
+usage ./s%04d.pfm render "$plate" --frames 999-1000 -o s%d.pfm --depth ./s%04d.pfm
+usage f1.png render "$plate" --frames 0-2 -o f%d.png --stats f1.png
+usage f1%d.pfm render "$plate" --frames 0-12 -o f%d.pfm --velocity f1%d.pfm
+ln -s e.png "$base/in/e.json"
+usage "$base/in/e.json" render "$plate" -o "$base/in/e.png" --stats "$base/in/e.json"
+printf 'old\n' >"$base/in/one.png"
+ln "$base/in/one.png" "$base/in/two.json"
+usage "$base/in/two.json" render "$plate" -o "$base/in/one.png" --stats "$base/in/two.json"
+claim "what is there stays" equals "$(cat "$base/in/one.png")" old
+rm "$base/in/e.json" "$base/in/one.png" "$base/in/two.json"
+(cd . && "$smear" render "$plate" -o own.png --stats - >own.png 2>"$base/err")
+claim "standard output that is an output" equals "$? $(wc -c <own.png | tr -d ' ')" "2 0"
+rm -f own.png
+printf '0 key q\n' >"$base/in/played"
+usage "$base/in/played" view "$plate" --out null --frames 1 --play "$base/in/played" --record "$base/in/played"
+usage list view "$plate" --out null --frames 1 --check list --update --record list
+usage list.0001.png view "$plate" --out null --frames 2 --check list --update --record list.0001.png
+rm "$base/in/played"
 claim "other folders, same names" render "$plate" $small -o "$base/in/same.pfm" --depth same.pfm
 mkdir "$base/in/there.png"
 input "$base/in/there.png" render "$plate" -o "$base/in/there.png"

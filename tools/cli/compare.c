@@ -4,6 +4,7 @@
 
 #include "tools/image/file.h"
 #include "tools/image/image.h"
+#include "tools/options/apart.h"
 #include "tools/options/arguments.h"
 #include "tools/player/picture.h"
 #include "tools/options/say.h"
@@ -121,6 +122,8 @@ int command_compare(int count, char **text)
     }
     for (int i = 0; i < 2 && status == STATUS_OK; i++)
         status = load(path[i], &image[i]);
+    if (status == STATUS_OK)
+        status = apart_check_inputs(&(struct apart_output){ .path = o.difference }, 1);
     if (status == STATUS_OK)
         status = compare(&o, &sink, path[1], &image[0], &image[1]);
     outputs_drop();

@@ -6,6 +6,7 @@
 #include "tools/convert/sprite.h"
 #include "tools/image/file.h"
 #include "tools/image/image.h"
+#include "tools/options/apart.h"
 #include "tools/options/arguments.h"
 #include "tools/options/say.h"
 #include "tools/options/source.h"
@@ -499,15 +500,20 @@ static int convert_picture(const struct convert_command *command, const char *pa
     const bool is_text = is_standard_output(command->output);
     if (ends_with(command->output, ".smr"))
         return say_bad_usage("-o", "writes pictures as .h or - (\"%s\")", command->output);
-    if (!image_load(path, &image, &f))
+    if (!file_keep(path, &f) || !image_load(path, &image, &f))
         return say_bad_input(path, &f);
+    int status = apart_check_inputs(&(struct apart_output){ .path = command->output }, 1);
+    if (status != STATUS_OK) {
+        image_free(&image);
+        return status;
+    }
     name_from(is_text ? path : command->output, name);
     const bool ok = sprite_to_header(&image, &command->sprite, command->name != NULL ? command->name : name, base_name(path),
                                      &bytes, &size, &r, &f);
     image_free(&image);
     if (ok && command->max_flash > 0 && r.bytes > (size_t)command->max_flash)
         fail(&f, "takes %zu bytes of flash, more than %ld (--max-flash)", r.bytes, command->max_flash);
-    int status = f.text[0] != '\0' ? say_bad_input(path, &f) : STATUS_OK;
+    status = f.text[0] != '\0' ? say_bad_input(path, &f) : STATUS_OK;
     if (status == STATUS_OK && !write_bytes(command->output, bytes, size, &f))
         status = say_bad_input(is_text ? "standard output" : command->output, &f);
     free(bytes);
@@ -552,8 +558,10 @@ int command_convert(int count, char **text)
     if (!model_load_from(path, command.files, &model, &f))
         return say_bad_input(path, &f);
     if (model.warning[0] != '\0')
-        say_warning(path, model.warning);
-    status = convert_loaded(&command, path, &model);
+        say_warning_when_done(path, model.warning);
+    status = apart_check_inputs(&(struct apart_output){ .path = command.output }, 1);
+    if (status == STATUS_OK)
+        status = convert_loaded(&command, path, &model);
     model_free(&model);
     return status;
 }

@@ -44,5 +44,7 @@ int main(int argc, char **argv)
     struct failure f = { "" };
     if (!output_flush_standard(&f) && status == STATUS_OK)
         status = say_bad_input("standard output", &f);
+    if (status == STATUS_OK)
+        say_done();
     return status;
 }

@@ -226,7 +226,11 @@ static int finish(struct render *r)
 static int render_scene(struct render *r)
 {
     struct failure f = { "" };
-    int status = setup_open(&r->options, &r->source, &r->setup);
+    struct apart_output outputs[OPTIONS_OUTPUTS];
+    options_outputs(&r->options, outputs);
+    int status = apart_check_inputs(outputs, OPTIONS_OUTPUTS);
+    if (status == STATUS_OK)
+        status = setup_open(&r->options, &r->source, &r->setup);
     if (status != STATUS_OK)
         return status;
     r->options.picture_sink.fps = r->setup.present.fps;

@@ -2,6 +2,7 @@
 /* view.c - `smear view`: the options of `render` that say what is drawn, and those of a viewer. */
 #include "tools/cli/commands.h"
 
+#include "tools/image/file.h"
 #include "tools/options/arguments.h"
 #include "tools/options/options.h"
 #include "tools/options/say.h"
@@ -452,6 +453,27 @@ static int check(const struct view_options *w, const struct render_options *o)
     return STATUS_OK;
 }
 
+/* The files that are written: the list of CRCs and its pictures, or those that differ from it, and the user's input. */
+static int check_files(struct view_options *w)
+{
+    static char picture[2][4096];
+    static const char *const kinds[2] = { ".got", ".difference" };
+    struct failure f = { "" };
+    struct apart_output *out = w->output;
+    for (int i = 0; w->check != NULL && i < (w->update ? 1 : 2); i++) {
+        if (strlen(w->check) + 32 > sizeof picture[i])
+            return say_bad_usage("--check", "the name is too long");
+        snprintf(picture[i], sizeof picture[i], "%s.%%04d%s.png", w->check, w->update ? "" : kinds[i]);
+        *out++ = (struct apart_output){ .path = picture[i], .is_pattern = true, .last = w->frames > 0 ? w->frames - 1 : 0 };
+    }
+    if (w->update)
+        *out++ = (struct apart_output){ .path = w->check };
+    *out = (struct apart_output){ .path = w->record };
+    if ((w->play != NULL && !file_keep(w->play, &f)) || (w->check != NULL && !w->update && !file_keep(w->check, &f)))
+        return say_bad_input("view", &f);
+    return apart_check(w->output, VIEW_OUTPUTS);
+}
+
 static int view(struct parted *p)
 {
     static struct view view;            /* large, and one is enough */
@@ -464,6 +486,8 @@ static int view(struct parted *p)
         return view_help_print();
     if (status == STATUS_OK)
         status = check(&view.wish, &options);
+    if (status == STATUS_OK)
+        status = check_files(&view.wish);
     if (status != STATUS_OK)
         return status;
     if (options.scene == NULL)

@@ -29,6 +29,10 @@ long long file_left(FILE *stream);
 /* Whether the file lies in the folder ("": the current one) or in one below it, whatever links lead there. */
 bool file_lies_in(const char *path, const char *folder, struct failure *f);
 
+/* What a chain of links leads to, which need not be there, for the caller to free; null when it has no end, or without
+ * memory. */
+char *file_behind_links(const char *path);
+
 /* From now on nothing that is written replaces the file `path`, which has been read: false when that cannot be
  * promised. */
 bool file_keep(const char *path, struct failure *f);

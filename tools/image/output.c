@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MAX_TRIES = 100, MAX_LINKS = 16 };
+enum { MAX_TRIES = 100 };
 
 /* A file that is being written, or that waits for its name. In the list from before it is there until it is gone. */
 struct output_name {
@@ -182,30 +182,6 @@ static bool open_memory(struct output *o, const char *path, FILE *device, struct
     return true;
 }
 
-/* What a chain of links leads to, which need not be there; null when there is no end, or no memory. */
-static char *behind_links(const char *path)
-{
-    char *at = malloc(strlen(path) + 1);
-    struct stat there;
-    if (at != NULL)
-        memcpy(at, path, strlen(path) + 1);
-    for (int i = 0; at != NULL && lstat(at, &there) == 0 && S_ISLNK(there.st_mode); i++) {
-        char target[4096];
-        ssize_t length = readlink(at, target, sizeof target);
-        const char *slash = strrchr(at, '/');
-        size_t folder = slash != NULL && target[0] != '/' ? (size_t)(slash - at) + 1 : 0;
-        char *next = i < MAX_LINKS && length > 0 && length < (ssize_t)sizeof target ? malloc(folder + (size_t)length + 1) : NULL;
-        if (next != NULL) {
-            memcpy(next, at, folder);
-            memcpy(next + folder, target, (size_t)length);
-            next[folder + (size_t)length] = '\0';
-        }
-        free(at);
-        at = next;
-    }
-    return at;
-}
-
 /* Open files have names there, whatever kind of file they are. */
 static bool is_of_system(const char *path)
 {
@@ -231,7 +207,7 @@ bool output_open_stream(struct output *o, const char *path, struct failure *f)
             return file_is_replaceable(path, f) && fail(f, "cannot be written (%s)", strerror(errno));
         return open_memory(o, path, device, f);
     }
-    char *behind = behind_links(path);
+    char *behind = file_behind_links(path);
     if (behind == NULL)
         return fail(f, "cannot be written (a link that cannot be followed)");
     bool ok = output_open(o, behind, f);

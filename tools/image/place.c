@@ -40,6 +40,30 @@ long long file_left(FILE *stream)
     return (long long)there.st_size - at;
 }
 
+char *file_behind_links(const char *path)
+{
+    enum { MAX_LINKS = 16 };
+    char *at = malloc(strlen(path) + 1);
+    struct stat there;
+    if (at != NULL)
+        memcpy(at, path, strlen(path) + 1);
+    for (int i = 0; at != NULL && lstat(at, &there) == 0 && S_ISLNK(there.st_mode); i++) {
+        char target[4096];
+        ssize_t length = readlink(at, target, sizeof target);
+        const char *slash = strrchr(at, '/');
+        size_t folder = slash != NULL && target[0] != '/' ? (size_t)(slash - at) + 1 : 0;
+        char *next = i < MAX_LINKS && length > 0 && length < (ssize_t)sizeof target ? malloc(folder + (size_t)length + 1) : NULL;
+        if (next != NULL) {
+            memcpy(next, at, folder);
+            memcpy(next + folder, target, (size_t)length);
+            next[folder + (size_t)length] = '\0';
+        }
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
 bool file_lies_in(const char *path, const char *folder, struct failure *f)
 {
     char *real = realpath(path, NULL);

@@ -541,14 +541,17 @@ static int check_method(const struct render_options *o)
     return check_filter(o);
 }
 
+void options_outputs(const struct render_options *o, struct apart_output out[OPTIONS_OUTPUTS])
+{
+    const struct sink *const sinks[] = { &o->picture_sink, &o->depth_sink, &o->velocity_sink };
+    for (int i = 0; i < 3; i++)
+        out[i] = (struct apart_output){ .path = sinks[i]->path, .is_pattern = sinks[i]->has_pattern, .first = o->first, .last = o->last };
+    out[3] = (struct apart_output){ .path = o->stats };
+}
+
 static int check_outputs(struct render_options *o)
 {
     long frames = o->last - o->first + 1;
-    const char *const path[] = { o->output, o->depth, o->velocity, o->stats };
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < i; j++)
-            if (path[i] != NULL && path[j] != NULL && sink_same(path[i], path[j]))
-                return say_bad_usage(path[i], "is to be written twice");
     if (o->output == NULL && o->stats == NULL && o->repeat == 0) {
         char stem[280];
         if (!source_stem(o->scene, stem, sizeof stem) || strchr(stem, '%') != NULL)
@@ -563,7 +566,9 @@ static int check_outputs(struct render_options *o)
         status = sink_open(&o->depth_sink, "--depth", o->depth, frames, true);
     if (status == STATUS_OK && o->velocity != NULL)
         status = sink_open(&o->velocity_sink, "--velocity", o->velocity, frames, true);
-    return status;
+    struct apart_output outputs[OPTIONS_OUTPUTS];
+    options_outputs(o, outputs);
+    return status == STATUS_OK ? apart_check(outputs, OPTIONS_OUTPUTS) : status;
 }
 
 int options_read_seen(struct render_options *o, int count, char **text, bool *wants_help)

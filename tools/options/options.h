@@ -3,6 +3,7 @@
 #ifndef SMEAR_TOOLS_CLI_OPTIONS_H
 #define SMEAR_TOOLS_CLI_OPTIONS_H
 
+#include "tools/options/apart.h"
 #include "tools/options/sink.h"
 #include "tools/options/source.h"
 #include "tools/scenes/present.h"
@@ -73,6 +74,10 @@ struct render_options {
 int options_read(struct render_options *options, int count, char **text, bool *wants_help);
 /* The same for `smear view`: the scene may be missing, and nothing is checked about files. */
 int options_read_seen(struct render_options *options, int count, char **text, bool *wants_help);
+
+/* Where a command line that has been read writes; paths that are null stand for nothing. */
+enum { OPTIONS_OUTPUTS = 4 };
+void options_outputs(const struct render_options *options, struct apart_output out[OPTIONS_OUTPUTS]);
 
 /* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
 int options_reach(const struct render_options *options, int height, int *reach, int *tile);

@@ -8,14 +8,25 @@
 
 static bool progress_shown;
 
-static void say_line(const char *what, const char *kind, const char *text)
+enum { LINE = 4400, KEPT = 4 };
+
+/* What say_done says. */
+static char kept[KEPT][LINE];
+static bool is_said[KEPT];
+
+static void make_line(char line[LINE], const char *what, const char *kind, const char *text)
 {
-    char line[4400];
-    int length = snprintf(line, sizeof line, "smear: %s: %s%s", *what != '\0' ? what : "\"\"", kind, text);
-    say_progress_end();
+    int length = snprintf(line, LINE, "smear: %s: %s%s", *what != '\0' ? what : "\"\"", kind, text);
     for (int i = 0; i < length && line[i] != '\0'; i++)
         if ((unsigned char)line[i] < 32 || line[i] == 127)
             line[i] = '?';
+}
+
+static void say_line(const char *what, const char *kind, const char *text)
+{
+    char line[LINE];
+    make_line(line, what, kind, text);
+    say_progress_end();
     fprintf(stderr, "%s\n", line);
 }
 
@@ -39,6 +50,30 @@ int say_bad_usage(const char *what, const char *format, ...)
 void say_warning(const char *what, const char *text)
 {
     say_line(what, "warning: ", text);
+}
+
+void say_warning_when_done(const char *what, const char *text)
+{
+    char line[LINE];
+    make_line(line, what, "warning: ", text);
+    for (int i = 0; i < KEPT; i++) {
+        if (strcmp(kept[i], line) == 0)
+            return;
+        if (kept[i][0] == '\0') {
+            memcpy(kept[i], line, sizeof line);
+            return;
+        }
+    }
+}
+
+void say_done(void)
+{
+    say_progress_end();
+    for (int i = 0; i < KEPT && kept[i][0] != '\0'; i++) {
+        if (!is_said[i])
+            fprintf(stderr, "%s\n", kept[i]);
+        is_said[i] = true;
+    }
 }
 
 void say_progress(long done, long all, const char *unit)

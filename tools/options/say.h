@@ -23,6 +23,11 @@ __attribute__((format(printf, 2, 3)))
 int say_bad_usage(const char *what, const char *format, ...);
 void say_warning(const char *what, const char *text);
 
+/* A warning that is said when what was asked for is done, as what fails has one line only. Said once, however often it comes;
+ * of very many the first are kept. */
+void say_warning_when_done(const char *what, const char *text);
+void say_done(void);
+
 /* How far a long run has come, on a terminal only, from the first second on. The next line that is
  * printed by say_* or say_progress_end wipes it away. */
 void say_progress(long done, long all, const char *unit);

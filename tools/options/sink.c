@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 static bool find_kind(const char *path, enum sink_kind *kind)
 {
@@ -58,33 +57,6 @@ int sink_open(struct sink *sink, const char *option, const char *path, long fram
         return say_bad_usage(option, "%ld frames do not fit into one still, use %%04d (\"%s\")",
                              frames, path);
     return STATUS_OK;
-}
-
-/* The folder of a path, ending with a slash or empty; what is left is returned. Null: too long. */
-static const char *split(const char *path, char *folder, size_t room)
-{
-    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path;
-    int length = snprintf(folder, room, "%.*s", (int)(name - path), path);
-    return length >= 0 && (size_t)length < room ? name : NULL;
-}
-
-bool sink_same(const char *a, const char *b)
-{
-    char folder_a[4096], folder_b[4096];
-    const char *name_a = split(a, folder_a, sizeof folder_a), *name_b = split(b, folder_b, sizeof folder_b);
-    struct stat at_a, at_b;
-    if (name_a == NULL || name_b == NULL)
-        return false;
-    for (; *name_a == *name_b && *name_a != '\0'; name_a++, name_b++)
-        if (*name_a == '%') {       /* %d and %04d may be the same number */
-            name_a += strspn(name_a + 1, "0123456789");
-            name_b += strspn(name_b + 1, "0123456789");
-        }
-    if (*name_a != *name_b)
-        return false;
-    if (stat(folder_a[0] != '\0' ? folder_a : ".", &at_a) != 0 || stat(folder_b[0] != '\0' ? folder_b : ".", &at_b) != 0)
-        return strcmp(folder_a, folder_b) == 0;
-    return at_a.st_dev == at_b.st_dev && at_a.st_ino == at_b.st_ino;
 }
 
 static void make_name(struct sink *sink, long index)

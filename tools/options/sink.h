@@ -24,9 +24,6 @@ struct sink {
 int sink_open(struct sink *sink, const char *option, const char *path, long frames,
               bool floats_only);
 
-/* Whether two paths, with patterns or without, may name one file: whatever their folders are called. */
-bool sink_same(const char *a, const char *b);
-
 /* Adds the picture of frame `index`; `floats` goes into PFM files instead when it is not null. On
  * failure sink->name tells which file. Animations are complete only after sink_end. */
 bool sink_add(struct sink *sink, const struct image *picture, const struct float_image *floats,

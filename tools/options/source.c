@@ -73,7 +73,7 @@ static int open_file(const struct source_view *view, struct source *out)
     if (!model_load_from(out->name, view->files, &out->model, &f))
         return say_bad_input(out->name, &f);
     if (out->model.warning[0] != '\0')
-        say_warning(out->name, out->model.warning);
+        say_warning_when_done(out->name, out->model.warning);
 
     int status = STATUS_OK;
     if (!choose_clip(&out->model, view->clip, &scene_view.clip))

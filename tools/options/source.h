@@ -28,7 +28,7 @@ struct source {
 /* The name behind `builtin:`, or null for a file. */
 const char *source_builtin_name(const char *name);
 
-/* Loads the file and makes the scene. A warning of the loader is printed. After success, free with
+/* Loads the file and makes the scene. A warning of the loader is printed when the command is done. After success, free with
  * source_close; returns a status. */
 int source_open(const char *name, const struct source_view *view, struct source *out);
 void source_close(struct source *source);

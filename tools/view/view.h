@@ -27,6 +27,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { VIEW_OUTPUTS = 4 };
 enum { VIEW_UNITS = 64 };           /* of time per frame: time runs in 64ths of frames */
 
 /* How time goes on from picture to picture. */
@@ -49,6 +50,7 @@ struct view_options {
     bool crc, update, times, paused, no_shared_memory, figures;
     int colors;
     const char *check, *record, *play;
+    struct apart_output output[VIEW_OUTPUTS];   /* where it writes */
     bool has_split;
     smear_method split;             /* method of the left part of a split screen */
     enum debug_kind debug;

@@ -171,6 +171,8 @@ bool view_load(struct view *v, const struct source_view *seen)
         lane_close(&v->left);
     source_close(old_source);
     free(old_source);
+    if (source->is_file && source->model.warning[0] != '\0')
+        view_say(v, "%s", source->model.warning);
     v->has_error = false;
     return true;
 }
@@ -481,7 +483,8 @@ static void loop(struct view *v)
         v->is_dirty = false;
         if (!draw_frame(v) || !add_golden(v) || !show(v))
             return;
-        v->tick++;
+        if (v->tick++ == 0 && v->screen->kind == &screen_x11)
+            say_done();             /* elsewhere warnings wait until text can be seen again */
     }
 }
 
@@ -655,7 +658,9 @@ int view_run(struct view *v, const struct render_options *options)
         free(v->source);
         return status;
     }
-    status = open_files(v);
+    status = apart_check_inputs(v->wish.output, VIEW_OUTPUTS);
+    if (status == STATUS_OK)
+        status = open_files(v);
     if (status == STATUS_OK)
         status = open_lanes(v, options);
     if (status == STATUS_OK)

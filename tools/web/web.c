@@ -280,6 +280,7 @@ EXPORT(web_open) int web_open(int board)
     close_source(&old);
     use_board(&shown, board >= 0 ? &board_list[board] : NULL);
     coming = !coming;
+    say_done();
     return STATUS_OK;
 }
 
@@ -462,7 +463,10 @@ EXPORT(web_straight) void web_straight(void)
 /* `smear convert` with the words as its arguments. */
 EXPORT(web_convert) int web_convert(void)
 {
-    return command_convert(words[coming].count, words[coming].text);
+    int status = command_convert(words[coming].count, words[coming].text);
+    if (status == STATUS_OK)
+        say_done();
+    return status;
 }
 
 static struct animation_writer *film;
