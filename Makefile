@@ -216,6 +216,10 @@ $(BUILD)/mkcpio: tests/shell/mkcpio.c
 	$(call say,CC,$<)
 	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
 
+$(BUILD)/stalled: $(call objects,tests/shell/stalled.c tests/random.c tests/x_server.c)
+	$(call say,LD)
+	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
+
 $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
@@ -323,7 +327,7 @@ SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
-SAN_SUITES := $(filter anim apart api bounds budget bins clip convert convert_tool fixed fixmath foreign jobs jumps kernels light math math_error matrix motion overlay path points present raster \
+SAN_SUITES := $(filter anim apart api bounds budget bins clip convert convert_tool fixed fixmath foreign jobs jumps kernels light math math_error matrix motion overlay path points present raster sight \
               still subframes tables texture tilemax timemask transform view x11,$(ALL_SUITES))
 # With sanitizers no other is compiled, unless SUITE names it.
 ifeq ($(SAN),1)
@@ -393,7 +397,7 @@ run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
-COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign metrics ref scenes view x11 json,$(SUITES))
+COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign metrics ref scenes sight view x11 json,$(SUITES))
 .PHONY: coverage run-coverage
 ## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:

@@ -359,6 +359,59 @@ claim "points are skipped" equals "$rc" 0
 claim "with one warning" equals "$(wc -l <"$base/err" | tr -d ' ')" 1
 claim "that names the file" err_has "^smear: .*points.gltf: warning: "
 
+# ------------------------------------------------------------------ nothing is seen
+
+# warns TEXT ARGUMENTS...: done, with one line that has the text
+warns() {
+    expected=$1
+    shift
+    run "$@"
+    [ "$rc" -eq 0 ] && [ "$(wc -l <"$base/err")" -eq 1 ] && has "$base/err" "^smear: .*: warning: .*$expected"
+}
+# A triangle 2 wide about the middle, its front to the camera of `near`, which sees from 1 to 10 along -z. ARGUMENTS: members of its
+# node, of its material, of the asset.
+scene_of() {
+    cat <<END
+{"asset":{"version":"2.0"},"nodes":[{"mesh":0$1},{"name":"near","camera":0,"translation":[0,0,5]}],
+"cameras":[{"type":"perspective","perspective":{"yfov":0.9,"znear":1,"zfar":10}}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,$2]}}],$3
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]}
+END
+}
+scene_of '' 1 >"$base/in/black.gltf"
+claim "black on black says nothing" works render "$base/in/black.gltf" $small -o black.png
+claim "nor does it to a viewer" works view "$base/in/black.gltf" $small --out null --frames 1
+for case in 'behind the camera|,"translation":[0,0,7]' 'before its near plane|,"translation":[0,0,4.5]' \
+    'beyond its far plane|,"translation":[0,0,-7]' 'beside its view|,"translation":[9,0,0]' 'turned away|,"rotation":[0,1,0,0]' \
+    'too small|,"scale":[1e-4,1e-4,1]' 'too small|,"scale":[0,0,0]'; do
+    scene_of "${case#*|}" 1 >"$base/in/unseen.gltf"
+    for command in "render -o unseen.png" "render --method accumulate -o unseen.ppm" "render --exact --method accumulate -o unseen.pfm" \
+        "view --out null --frames 1"; do
+        claim "$command: ${case%|*}" warns "nothing is seen of 1 triangle: 1 is .*${case%|*}" ${command%% *} "$base/in/unseen.gltf" \
+            $small ${command#* }
+    done
+done
+scene_of '' 0 | sed 's/"pbrM/"alphaMode":"BLEND","pbrM/' >"$base/in/unseen.gltf"
+claim "wholly transparent" warns "1 is wholly transparent" render "$base/in/unseen.gltf" $small -o unseen.png
+scene_of ',"rotation":[0,1,0,0]' 1 >"$base/in/unseen.gltf"
+claim "--double-sided shows backs" works render "$base/in/unseen.gltf" $small --double-sided --clear ffffff -o unseen.ppm
+claim "so" is_true "$(ppm_bytes unseen.ppm | sort -nu | wc -l) > 1"
+claim "in a viewer, too" works view "$base/in/unseen.gltf" $small --double-sided --out null --frames 1
+claim "and converted" works convert "$base/in/unseen.gltf" --double-sided -o unseen.h
+claim "of two frames" warns "in 2 of 2 frames, 3 the first, nothing is seen of 1 triangle" render "$base/in/unseen.gltf" $small --frames 3-4 \
+    -o unseen%d.png
+usage --double-sided render builtin:demo/drone --double-sided
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n' >"$base/in/out.obj"
+cp "$base/in/out.obj" "$base/in/inwards.obj"
+printf 'f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >>"$base/in/out.obj"
+printf 'f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >>"$base/in/inwards.obj"
+claim "a solid of an OBJ" works render "$base/in/out.obj" $small -o unseen.png
+claim "wound inwards" warns "faces are wound inwards" render "$base/in/inwards.obj" $small -o unseen.png
+claim "in a viewer" warns "faces are wound inwards" view "$base/in/inwards.obj" $small --out null --frames 1
+claim "--double-sided" works render "$base/in/inwards.obj" $small --double-sided -o unseen.png
+
 # ------------------------------------------------------------------ depth and velocity
 
 planes="$plate $small --time 0.5"
@@ -530,7 +583,7 @@ claim "the default reach is at most a tile" render "$plate" --size 64x240 --meth
 claim "as large as it" render "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8 -o tile88.ppm
 claim "so" same tile8.ppm tile88.ppm
 claim "tiles of 4" render "$plate" --size 64x48 --method reconstruct --tile 4 -o tile4.ppm
-claim "1x1" render "$plate" --size 1x1 -o tiny.ppm
+claim "1x1" warns "too small" render "$plate" --size 1x1 -o tiny.ppm
 claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
 claim "2048 high" render "$plate" --size 1x2048 -o high.ppm
 

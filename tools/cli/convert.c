@@ -25,6 +25,7 @@ struct convert_command {
     struct convert_options options;
     struct sprite_options sprite;
     bool is_sprite;             /* an option says so */
+    bool double_sided;
 };
 
 /* ------------------------------------------------------------------ options */
@@ -67,6 +68,13 @@ static const char *read_outside(void *to, const char *value)
 {
     (void)value;
     ((struct convert_command *)to)->files = MODEL_FILES_ANYWHERE;
+    return NULL;
+}
+
+static const char *read_double_sided(void *to, const char *value)
+{
+    (void)value;
+    ((struct convert_command *)to)->double_sided = true;
     return NULL;
 }
 
@@ -235,7 +243,7 @@ static const struct option table[] = {
     { "--filter", true, read_texels },          { "--normals", true, read_normals },
     { "--influences", true, read_influences },  { "--clip-error", true, read_clip_error },
     { "--distance", true, read_distance },      { "--rows", true, read_rows },
-    { "--outside", false, read_outside },
+    { "--outside", false, read_outside },       { "--double-sided", false, read_double_sided },
     { "--fov", true, read_view_angle },         { "--max-triangles", true, read_max_triangles },
     { "--max-flash", true, read_max_flash },    { "--max-ram", true, read_max_ram },
     { "--cell", true, read_cell },              { "--key", true, read_key },
@@ -559,6 +567,8 @@ int command_convert(int count, char **text)
         return say_bad_input(path, &f);
     if (model.warning[0] != '\0')
         say_warning_when_done(path, model.warning);
+    if (command.double_sided)
+        model_show_both_sides(&model);
     status = apart_check_inputs(&(struct apart_output){ .path = command.output }, 1);
     if (status == STATUS_OK)
         status = convert_loaded(&command, path, &model);

@@ -46,6 +46,7 @@ static const char *const render_help[] = {
     "  --loop                clips start again at the end of their longest channel [they stop]\n"
     "  --outside             files that SCENE names (textures, buffers, .mtl) may lie outside of its\n"
     "                        folder [only in it or below]\n"
+    "  --double-sided        backs of faces are seen, too [where the file's material says so; OBJ: not]\n"
     "  --camera NAME|INDEX   of the file [the first; without any, one that sees everything]\n"
     "  --eye X,Y,Z --look X,Y,Z [--fov DEG]\n"
     "                        another camera, its vertical field of view [45]\n"
@@ -172,6 +173,7 @@ static const char *const convert_help[] = {
     "  --fit UNITS           instead: the largest extent at rest becomes so many units\n"
     "  --up y|z              the file's axis that points up; it becomes +Y [y]\n"
     "\n",
+    "  --double-sided        backs of faces are kept, too [where the file's material says so; OBJ: not]\n"
     "  --outside             files that MODEL names (textures, buffers, .mtl) may lie outside of its\n"
     "                        folder [only in it or below]\n"
     "  --texture palette8|rgb565|rgb8888|baked|none\n"

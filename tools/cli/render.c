@@ -11,6 +11,7 @@
 #include "tools/options/say.h"
 #include "tools/options/setup.h"
 #include "tools/player/stats.h"
+#include "tools/player/unseen.h"
 #include "tools/view/orbit.h"
 
 #include <stdlib.h>
@@ -29,6 +30,7 @@ struct render {
     struct device_times *times;         /* one per repetition */
     double *spare;                      /* as many, for medians */
     struct stats_file stats;
+    struct unseen unseen;
 };
 
 /* ------------------------------------------------------------------ setting up */
@@ -164,6 +166,18 @@ static void print_times(const struct frame_report *report)
            report->times.total / DEVICE_TICKS_PER_US, (unsigned long)report->counts.crc32);
 }
 
+/* The last look at a frame, which is poorer afterwards: see unseen_look. */
+static bool look_for_nothing(struct render *r, const struct shot *shot, const smear_stats *counts, struct failure *f)
+{
+    const struct unseen_frame frame = {
+        .scene = r->options.orbit != 0.0 ? &r->orbit.scene : &r->source.scene, .presenter = r->presenter,
+        .options = &shot->options, .time = shot->time, .number = shot->frame, .width = r->setup.width, .height = r->setup.height,
+        .picture = &r->picture, .has_sides = !r->source.is_file || r->source.model.has_sides,
+        .is_covered = counts->triangles_drawn > 0 || counts->static_cached != 0 || counts->tiles_kept > 0,
+    };
+    return unseen_look(&r->unseen, &frame, f);
+}
+
 static int render_frame(struct render *r, long frame, double time)
 {
     struct failure f = { "" };
@@ -188,7 +202,7 @@ static int render_frame(struct render *r, long frame, double time)
         stats_add(&r->stats, &report);
     else if (o->repeat > 0)
         print_times(&report);
-    return STATUS_OK;
+    return look_for_nothing(r, &shot, &report.counts, &f) ? STATUS_OK : say_bad_input(r->source.name, &f);
 }
 
 /* ------------------------------------------------------------------ all frames */
@@ -220,6 +234,9 @@ static int finish(struct render *r)
         return say_bad_input(failed, &f);
     if (o->output == o->default_output)
         printf("wrote %s\n", o->output);
+    char text[600];
+    if (unseen_tell(&r->unseen, text, sizeof text))
+        say_warning_when_done(r->source.name, text);
     return STATUS_OK;
 }
 

@@ -137,6 +137,7 @@ bool gltf_parse(const uint8_t *bytes, size_t size, struct external *files, struc
         text_size = size;
     }
     g.source_bytes = text_size;
+    model->has_sides = true;
     bool ok = json_parse(text, text_size, &g.json, f) && read_all(&g);
     gltf_free_buffers(&g);
     free(g.accessor);

@@ -91,6 +91,13 @@ void model_free(struct model *model)
     *model = (struct model){ 0 };
 }
 
+void model_show_both_sides(struct model *model)
+{
+    for (int i = 0; i < model->material_count; i++)
+        model->material[i].double_sided = true;
+    model->has_sides = true;
+}
+
 void model_warn(struct model *model, const char *format, ...)
 {
     size_t used = strlen(model->warning);

@@ -122,6 +122,7 @@ struct model {
     struct model_camera *camera;    /* one per camera NODE in the scene, file order of nodes */
     int clip_count;
     struct model_clip *clip;
+    bool has_sides;                 /* the format says which faces are seen from both sides (glTF), or nothing of it (OBJ) */
     int skipped_primitives;         /* points, lines, curves and empty ones, counted and left out */
     char warning[1000];             /* what was left out or not found, one line; or empty */
 };
@@ -142,6 +143,9 @@ bool model_load(const char *path, struct model *out, struct failure *f);
 bool model_parse(const uint8_t *bytes, size_t size, const char *folder, struct model *out,
                  struct failure *f);
 void model_free(struct model *model);
+
+/* All faces are seen from both sides, whatever their materials say. */
+void model_show_both_sides(struct model *model);
 
 /* Adds to model->warning, in printf style. */
 #if defined(__GNUC__)

@@ -78,6 +78,13 @@ static const char *read_outside(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_double_sided(void *to, const char *value)
+{
+    (void)value;
+    ((struct render_options *)to)->view.double_sided = true;
+    return NULL;
+}
+
 static const char *read_camera(void *to, const char *value)
 {
     ((struct render_options *)to)->view.camera = value;
@@ -430,6 +437,7 @@ static const struct option table[] = {
     { "--loop", false, read_loop },
     { "--orbit", true, read_orbit },
     { "--outside", false, read_outside },
+    { "--double-sided", false, read_double_sided },
     { "--camera", true, read_camera },
     { "--eye", true, read_eye },
     { "--look", true, read_look },
@@ -504,6 +512,7 @@ static int check_builtin(const struct render_options *o)
         { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
         { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
         { "--mask", o->mask != NULL }, { "--outside", o->view.files == MODEL_FILES_ANYWHERE },
+        { "--double-sided", o->view.double_sided },
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)

@@ -74,6 +74,8 @@ static int open_file(const struct source_view *view, struct source *out)
         return say_bad_input(out->name, &f);
     if (out->model.warning[0] != '\0')
         say_warning_when_done(out->name, out->model.warning);
+    if (view->double_sided)
+        model_show_both_sides(&out->model);
 
     int status = STATUS_OK;
     if (!choose_clip(&out->model, view->clip, &scene_view.clip))

@@ -12,7 +12,7 @@
 struct source_view {
     const char *clip;           /* --clip; null: the first, if there is one */
     const char *camera;         /* --camera; null: the first, if there is one */
-    bool loop, has_eye, bilinear;
+    bool loop, has_eye, bilinear, double_sided;
     enum model_files files;     /* --outside: anywhere */
     double eye[3], look[3], fov_degrees;
     double aspect;

@@ -126,6 +126,9 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void view_say(struct view *view, const char *format, ...);
 
+/* Says why nothing is seen on the picture that has been drawn, or most of it is turned away, if that is so. */
+void view_notice(struct view *view);
+
 /* Of long work: every now and then, shows how far it is. False when the user wants it to end. */
 bool view_busy(struct view *view, const char *what, long done, long all);
 

@@ -481,7 +481,11 @@ static void loop(struct view *v)
         else
             v->next_us = clock_us();
         v->is_dirty = false;
-        if (!draw_frame(v) || !add_golden(v) || !show(v))
+        if (!draw_frame(v) || !add_golden(v))
+            return;
+        if (v->tick == 0)
+            view_notice(v);
+        if (!show(v))
             return;
         if (v->tick++ == 0 && v->screen->kind == &screen_x11)
             say_done();             /* elsewhere warnings wait until text can be seen again */
