@@ -72,6 +72,8 @@ programs() {
 
 views() {
     suite view sh tests/shell/view.sh build/smear
+    suite build-stalled $make -s build/host/stalled
+    suite view-stalled build/host/stalled build/smear
     suite build-demo-screen $make -s build/host/demo-screen
     suite view-display sh tests/shell/view_display.sh build/host/demo-screen
     if needs tmux "tmux"; then

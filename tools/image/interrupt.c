@@ -31,6 +31,7 @@ void output_block_signals(bool blocked)
     sigemptyset(&those);
     for (int i = 0; i < ENDINGS; i++)
         sigaddset(&those, ending[i]);
+    sigaddset(&those, SIGALRM);         /* ends the viewer, some time after one of those */
     if (blocked)
         sigprocmask(SIG_BLOCK, &those, &before);
     else

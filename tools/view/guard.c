@@ -6,13 +6,19 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <unistd.h>
 
-static volatile sig_atomic_t asked;
+/* Seconds after which a program that has been asked to end, and hangs in a call that no signal ends, or draws on, is ended. */
+enum { GRACE = 3 };
+
+static volatile sig_atomic_t asked;             /* the signal; 0: none */
 static void (*volatile undo_all)(void);
 
 static void die(int signal_number)
 {
     void (*undo)(void) = undo_all;
+    if (signal_number == SIGALRM && asked != 0)
+        signal_number = asked;
     undo_all = NULL;
     if (undo != NULL)
         undo();
@@ -25,7 +31,8 @@ static void ask(int signal_number)
 {
     if (asked)
         die(signal_number);
-    asked = 1;
+    asked = signal_number;
+    alarm(GRACE);
 }
 
 static void handle(int signal_number, void (*handler)(int), int flags)
@@ -42,6 +49,7 @@ void guard_set(void (*undo)(void))
     undo_all = undo;
     for (size_t i = 0; i < sizeof asking / sizeof *asking; i++)
         handle(asking[i], ask, 0);      /* no SA_RESTART: waiting for events must end */
+    handle(SIGALRM, die, 0);
     for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
         handle(crashes[i], die, 0);
     handle(SIGPIPE, SIG_IGN, 0);

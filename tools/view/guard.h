@@ -5,9 +5,9 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT ask the program to end (guard_is_asked); a
- * second one, and every crash, runs `undo` and then ends it as if nothing had caught the signal.
- * `undo` may call only what a signal handler may; null: there is nothing to undo. */
+/* From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT ask the program to end (guard_is_asked). A second one, some seconds in which
+ * it does not end, and every crash run `undo` and then end it as if nothing had caught the signal. `undo` may call only what a
+ * signal handler may, and must not wait for anything; null: there is nothing to undo. */
 void guard_set(void (*undo)(void));
 
 bool guard_is_asked(void);

@@ -2,6 +2,8 @@
 /* screen.c - which back end there is. */
 #include "tools/view/screen.h"
 
+#include "tools/view/guard.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -29,7 +31,7 @@ struct screen *screen_open(const char *name, const struct screen_wish *wish, str
             return kinds[i]->open(wish, f);
     const struct screen_kind *const *list = is_console() ? on_console : on_desktop;
     char all[sizeof f->text] = "";
-    for (; *list != NULL; list++) {
+    for (; *list != NULL && !guard_is_asked(); list++) {
         struct failure why = { "" };
         struct screen *screen = (*list)->open(wish, &why);
         if (screen != NULL)

@@ -53,7 +53,7 @@ static void on_resize(int signal_number)
 static void undo(void)
 {
     if (entered)
-        (void)!write(STDOUT_FILENO, leave, sizeof leave - 1);
+        tty_write_at_once(STDOUT_FILENO, leave, sizeof leave - 1);
     entered = 0;
     tty_restore();
 }

@@ -79,23 +79,32 @@ int tty_file(void)
 
 bool tty_write(int file, const char *bytes, size_t size)
 {
-    while (size > 0) {
+    while (size > 0 && !guard_is_asked()) {
         ssize_t n = write(file, bytes, size);
-        if (n < 0 && errno == EINTR && !guard_is_asked())
-            continue;
         if (n < 0 && errno == EAGAIN) {
             struct pollfd ready = { .fd = file, .events = POLLOUT };
             poll(&ready, 1, 1000);
-            if (guard_is_asked())
-                return true;
-            continue;
-        }
-        if (n < 0)
+        } else if (n < 0 && errno != EINTR) {
             return guard_is_asked();
-        bytes += n;
-        size -= (size_t)n;
+        }
+        bytes += n > 0 ? n : 0;
+        size -= n > 0 ? (size_t)n : 0;
     }
     return true;
+}
+
+void tty_write_at_once(int file, const char *bytes, size_t size)
+{
+    int error = errno, flags = fcntl(file, F_GETFL);
+    if (flags == -1)
+        return;
+    fcntl(file, F_SETFL, flags | O_NONBLOCK);
+    if (write(file, bytes, size) != (ssize_t)size) {
+        tcflush(file, TCOFLUSH);
+        (void)!write(file, bytes, size);
+    }
+    fcntl(file, F_SETFL, flags);
+    errno = error;
 }
 
 /* ------------------------------------------------------------------ decoding */

@@ -27,7 +27,10 @@ bool tty_event(int wait_ms, void (*suspend)(void), struct event *out);
  * event's kind is EVENT_EXPOSE when the bytes mean nothing. `is_last`: nothing follows soon. */
 int tty_decode(const unsigned char *bytes, int count, bool is_last, struct event *out);
 
-/* Writes it all; false when nobody reads any more. */
+/* Writes it all, or a part when the program is asked to end; false when nobody reads any more. */
 bool tty_write(int file, const char *bytes, size_t size);
+
+/* Writes to a terminal without waiting: where it takes no more, what waits there is dropped. May be called by a signal handler. */
+void tty_write_at_once(int file, const char *bytes, size_t size);
 
 #endif

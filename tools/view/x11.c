@@ -421,6 +421,8 @@ bool x11_connect(struct x11 *x, struct failure *f)
         struct failure why = { "" };
         if (open_display(x, &display, name, &why))
             return true;
+        if (guard_is_asked())
+            return fail(f, "interrupted at DISPLAY=%s", name);
         if (!x->is_lost || x->file < 0 || again == MAX_TRIES)
             return fail(f, "%s", why.text);
         close(x->file);
