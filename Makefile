@@ -397,7 +397,7 @@ run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
-COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign metrics ref scenes sight view x11 json,$(SUITES))
+COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign guess metrics ref scenes sight view x11 json,$(SUITES))
 .PHONY: coverage run-coverage
 ## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:

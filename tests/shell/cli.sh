@@ -782,6 +782,25 @@ done
 claim "the version" works --version
 claim "is that of the packages" out_has "^smear $(cd "$here" && sh tools/dist/version.sh)\$"
 usage more --version more
+claim "-v is the same" eval 'works -v && out_has "^smear [0-9]"'
+# means GUESS ARGUMENTS...: bad usage or input, in one line that says what was meant
+means() {
+    meant=$1
+    shift
+    run "$@"
+    [ "$rc" -ne 0 ] && [ "$(wc -l <"$base/err")" -eq 1 ] && err_has "did you mean \"*$meant\"*?"
+}
+claim "a misspelt command" means render rendr
+claim "two letters swapped" means convert cnovert
+claim "a misspelt option" means --frames render "$plate" --frmes=0-1
+claim "of the viewer" means --zoom view --zom 2
+claim "of render in the viewer" means --method view --metod none
+claim "a misspelt scene" means builtin:demo/race info builtin:demo/rase
+claim "a misspelt clip" means slide render "$plate" --clip slid
+claim "a misspelt node" means plate render "$plate" --motion palte=none
+claim "what is like nothing" eval 'run frobnicate; ! err_has "did you mean"'
+claim "info says what a desc has that says nothing" eval \
+    'run info "$plate" && [ "$(grep -c "what a smear_desc has that says no methods$" "$base/out")" -eq 2 ]'
 usage frobnicate frobnicate
 usage --frob chart --frob
 usage nosuch chart --scenes nosuch

@@ -20,7 +20,7 @@ static const char program_help[] =
     "    smear bench                      what frames cost, beside the bars set for them\n"
     "    smear chart                      error against cost of every method\n"
     "    smear help [COMMAND]             this, or the options of a command\n"
-    "    smear --version\n"
+    "    smear -v, --version\n"
     "\n"
     "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";

@@ -217,9 +217,10 @@ static void print_memory(const struct presented *presented, int width, int heigh
         if (i == 0)
             printf("memory at %dx%d (rgb565, reach %d, tile %d, %u draws):\n", width, height,
                    need.reach, need.tile, (unsigned)need.draws);
-        printf("  %-16s %zu bytes: window %zu, bands %zu, draws %zu, %u triangles %zu, rest %zu\n",
+        printf("  %-16s %zu bytes: window %zu, bands %zu, draws %zu, %u triangles %zu, rest %zu%s\n",
                names[i], need.total, need.window, need.bands, need.draw_bytes,
-               (unsigned)need.triangles, need.triangle_bytes, need.rest);
+               (unsigned)need.triangles, need.triangle_bytes, need.rest,
+               i == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods" : "");
     }
 }
 

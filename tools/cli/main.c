@@ -2,6 +2,7 @@
 /* main.c - the program `smear`: finds the command and hands over. */
 #include "tools/cli/commands.h"
 
+#include "tools/guess.h"
 #include "tools/image/file.h"
 #include "tools/options/arguments.h"
 #include "tools/options/say.h"
@@ -26,7 +27,7 @@ static const struct {
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
     { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },
-    { "--version", command_version },
+    { "--version", command_version }, { "-v", command_version },
 };
 
 static int run_command(const char *name, int count, char **text)
@@ -34,7 +35,11 @@ static int run_command(const char *name, int count, char **text)
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(count, text);
-    return say_bad_usage(name, "unknown command (smear help)");
+    struct guess guess = { .word = name };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        guess_try(&guess, commands[i].name);
+    return guess.best != NULL ? say_bad_usage(name, "unknown command (did you mean %s?)", guess.best)
+                              : say_bad_usage(name, "unknown command (smear help)");
 }
 
 int main(int argc, char **argv)

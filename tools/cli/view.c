@@ -479,6 +479,7 @@ static int view(struct parted *p)
     static struct view view;            /* large, and one is enough */
     static struct render_options options;
     bool wants_help;
+    arguments_guess_also(table);
     int status = arguments_read(p->own_count, p->own, table, &view.wish, NULL, 0, &wants_help);
     if (status == STATUS_OK)
         status = options_read_seen(&options, p->other_count, p->other, &wants_help);

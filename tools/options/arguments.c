@@ -2,6 +2,7 @@
 /* arguments.c - see arguments.h. */
 #include "tools/options/arguments.h"
 
+#include "tools/guess.h"
 #include "tools/options/say.h"
 
 #include <errno.h>
@@ -20,6 +21,27 @@ static const struct option *find_option(const struct option *table, const char *
         if (strlen(table->name) == length && strncmp(table->name, text, length) == 0)
             return table;
     return NULL;
+}
+
+/* Of a command whose options are in two tables: the other one, in which misspelt ones are looked for, too. */
+static const struct option *other_table;
+
+void arguments_guess_also(const struct option *table)
+{
+    other_table = table;
+}
+
+static int say_unknown(const char *text, const struct option *table)
+{
+    char word[GUESS_LETTERS + 2];
+    struct guess guess = { .word = word };
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "="), text);
+    for (; table->name != NULL; table++)
+        guess_try(&guess, table->name);
+    for (table = other_table; table != NULL && table->name != NULL; table++)
+        guess_try(&guess, table->name);
+    return guess.best != NULL ? say_bad_usage(text, "unknown option (did you mean %s?)", guess.best)
+                              : say_bad_usage(text, "unknown option");
 }
 
 int arguments_read(int count, char **text, const struct option *table, void *options,
@@ -48,7 +70,7 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
         }
         const struct option *option = find_option(table, text[i], &value);
         if (option == NULL)
-            return say_bad_usage(text[i], "unknown option");
+            return say_unknown(text[i], table);
         if (!option->has_value && value != NULL)
             return say_bad_usage(option->name, "takes no value");
         if (option->has_value && value == NULL && ++i == count)

@@ -23,6 +23,9 @@ struct option {
 int arguments_read(int count, char **text, const struct option *table, void *options,
                    const char **operand, int operand_limit, bool *wants_help);
 
+/* Options of this table, too, are what a misspelt one may have meant. */
+void arguments_guess_also(const struct option *table);
+
 /* The whole text must be one decimal number within low..high (inclusive): no sign but '-', no
  * blanks, no "inf", "nan" or hexadecimal. Integers are digits only. */
 bool read_number(const char *text, double low, double high, double *out);

@@ -106,6 +106,8 @@ void say_list_add(struct say_list *list, const char *name)
     size_t used = strlen(list->text), room = sizeof list->text - ROOM_FOR_MORE - used;
     int length = list->left_out > 0 ? -1 : snprintf(list->text + used, room, "%s\"%s\"", used > 0 ? ", " : "", name);
     list->count++;
+    if (list->guess.word != NULL)
+        guess_try(&list->guess, name);
     if (length < 0 || (size_t)length >= room) {
         list->text[used] = '\0';
         list->left_out++;

@@ -7,6 +7,7 @@
 #define SMEAR_TOOLS_CLI_SAY_H
 
 #include "tools/failure.h"
+#include "tools/guess.h"
 
 enum status {
     STATUS_OK = 0,
@@ -38,6 +39,7 @@ void say_progress_end(void);
 struct say_list {
     char text[220];
     int count, left_out;
+    struct guess guess;         /* with a word: what that may have meant */
 };
 void say_list_add(struct say_list *list, const char *name);
 const char *say_list_end(struct say_list *list);

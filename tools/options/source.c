@@ -35,12 +35,14 @@ static bool choose_clip(const struct model *model, const char *name, int *clip)
 
 static int say_none(const char *option, const char *kind, const char *name, struct say_list *list)
 {
-    return say_bad_usage(option, "the file has no %s \"%.80s\"; there is %s", kind, name, say_list_end(list));
+    const char *there = say_list_end(list), *best = list->guess.best;
+    return say_bad_usage(option, "the file has no %s \"%.80s\"; there is %s%s%.40s%s", kind, name, there,
+                         best != NULL ? "; did you mean \"" : "", best != NULL ? best : "", best != NULL ? "\"?" : "");
 }
 
 int source_say_no_clip(const struct model *model, const char *name)
 {
-    struct say_list list = { .count = 0 };
+    struct say_list list = { .guess = { .word = name } };
     for (int i = 0; i < model->clip_count; i++)
         say_list_add(&list, model->clip[i].name);
     return say_none("--clip", "clip", name, &list);
@@ -48,7 +50,7 @@ int source_say_no_clip(const struct model *model, const char *name)
 
 int source_say_no_node(const struct model *model, const char *option, const char *name)
 {
-    struct say_list list = { .count = 0 };
+    struct say_list list = { .guess = { .word = name } };
     for (int i = 0; i < model->node_count; i++)
         say_list_add(&list, model->node[i].name);
     return say_none(option, "node", name, &list);
@@ -56,7 +58,7 @@ int source_say_no_node(const struct model *model, const char *option, const char
 
 static int say_no_camera(const struct model *model, const char *name)
 {
-    struct say_list list = { .count = 0 };
+    struct say_list list = { .guess = { .word = name } };
     for (int i = 0; i < model->camera_count; i++)
         say_list_add(&list, model->camera[i].name);
     return say_none("--camera", "camera", name, &list);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* builtin.c - finds a built-in scene in the catalog that is linked. */
+#include "tools/guess.h"
 #include "tools/scenes/scene.h"
 
 #include <string.h>
@@ -7,6 +8,7 @@
 /* Those of the group that was asked for, before its slash, or a name of each group. */
 static bool say_what_there_is(const char *name, struct failure *f)
 {
+    struct guess guess = { .word = name };
     char list[150] = "";
     size_t group = strcspn(name, "/"), used = 0;
     bool is_group = false;
@@ -20,6 +22,10 @@ static bool say_what_there_is(const char *name, struct failure *f)
             continue;
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used > 0 ? ", " : "", other);
     }
+    for (int i = 0; i < scene_catalog_count; i++)
+        guess_try(&guess, scene_catalog[i].name);
+    if (guess.best != NULL)
+        return fail(f, "no such built-in scene; did you mean builtin:%s? (smear info builtin:)", guess.best);
     return fail(f, "no such built-in scene: %s... (smear info builtin:)", list);
 }
 
