@@ -522,7 +522,10 @@ static void add_lists(struct expected *e, bool has_bad)
 {
     for (int i = 1; i <= VERTICES; i++) {
         bool is_bad = has_bad && i == BAD_VERTEX;
-        add(is_bad ? "v %d %s 1\n" : "v %d %s 1\n", i, is_bad ? no_number() : "0.5");
+        add("v %d %s 1", i, is_bad ? no_number() : "0.5");
+        if (chance(8))              /* a weight, which means nothing */
+            add(" %s", chance(2) ? no_number() : "1");
+        add("\n");
         e->vertices += is_bad;
     }
     for (int i = 1; i <= 4; i++) {

@@ -78,42 +78,49 @@ static float *add_floats(struct reader *r, struct floats *list)
     return list->value + (size_t)list->count++ * (size_t)list->width;
 }
 
-/* Up to `most` numbers; *n tells how many there are. *faults counts the statements that have one that is not finite, and
- * out[0] is then NaN. */
+/* Up to `most` numbers, NaN for those that are not finite; *n tells how many there are. */
 static bool read_numbers(struct reader *r, const char *keyword, char *rest, int least, int most,
-                         float *out, int *n, int *faults)
+                         float *out, int *n)
 {
     char *word;
-    bool is_finite = true;
     *n = 0;
     while (*n < most && (word = obj_word(&rest)) != NULL) {
         if (obj_is_not_finite(word))
-            is_finite = false;
+            out[*n] = NAN;
         else if (!obj_number(word, &out[*n]))
             return fail(r->f, "bad number '%.20s' (line %d)", word, r->text.line);
         ++*n;
     }
-    if (!is_finite) {
-        out[0] = NAN;
-        ++*faults;
-    }
     return *n >= least || fail(r->f, "%s needs %d numbers (line %d)", keyword, least, r->text.line);
+}
+
+static bool has_nan(const float *number, int n)
+{
+    for (int i = 0; i < n; i++) {
+        if (isnan(number[i]))
+            return true;
+    }
+    return false;
 }
 
 /* v x y z, with a weight of no meaning here, or with r g b [a]. */
 static bool read_position(struct reader *r, char *rest)
 {
-    float number[7] = { 0 };
+    float number[7];
     int n;
-    if (!read_numbers(r, "v", rest, 3, 7, number, &n, &r->fault.vertices))
+    if (!read_numbers(r, "v", rest, 3, 7, number, &n))
         return false;
     float *v = add_floats(r, &r->v), *color = v == NULL ? NULL : add_floats(r, &r->color);
     if (color == NULL)
         return false;
     memcpy(v, number, 3 * sizeof *v);
+    if (has_nan(number, 3)) {
+        v[0] = NAN;
+        r->fault.vertices++;
+    }
     for (int i = 0; i < 3; i++)
-        color[i] = n >= 6 ? number[3 + i] : 1;
-    color[3] = n == 7 ? number[6] : 1;
+        color[i] = n >= 6 && !isnan(number[3 + i]) ? number[3 + i] : 1;
+    color[3] = n == 7 && !isnan(number[6]) ? number[6] : 1;
     r->has_color = r->has_color || n >= 6;
     return true;
 }
@@ -122,10 +129,12 @@ static bool read_uv(struct reader *r, char *rest)
 {
     float number[2] = { 0, 0 };
     int n;
-    if (!read_numbers(r, "vt", rest, 1, 2, number, &n, &r->fault.uvs))
+    if (!read_numbers(r, "vt", rest, 1, 2, number, &n))
         return false;
-    if (isnan(number[0]))
+    if (has_nan(number, 2)) {
         number[0] = number[1] = 0;
+        r->fault.uvs++;
+    }
     float *uv = add_floats(r, &r->vt);
     if (uv != NULL)
         memcpy(uv, number, sizeof number);
@@ -134,10 +143,14 @@ static bool read_uv(struct reader *r, char *rest)
 
 static bool read_normal(struct reader *r, char *rest)
 {
-    float number[3] = { 0 };
+    float number[3];
     int n;
-    if (!read_numbers(r, "vn", rest, 3, 3, number, &n, &r->fault.normals))
+    if (!read_numbers(r, "vn", rest, 3, 3, number, &n))
         return false;
+    if (has_nan(number, 3)) {
+        number[0] = NAN;
+        r->fault.normals++;
+    }
     float *normal = add_floats(r, &r->vn);
     if (normal != NULL)
         memcpy(normal, number, sizeof number);

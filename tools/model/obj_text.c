@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 bool obj_text_open(const uint8_t *bytes, size_t size, struct obj_text *out, struct failure *f)
 {
@@ -117,9 +116,19 @@ bool obj_number(const char *word, float *out)
     return true;
 }
 
+/* Whether the word is this one, in letters of either size; `end` may follow it. */
+static bool is_word(const char *word, const char *small, char end)
+{
+    for (; *small != '\0'; word++, small++) {
+        if ((*word | 32) != *small)
+            return false;
+    }
+    return *word == '\0' || *word == end;
+}
+
 bool obj_is_not_finite(const char *word)
 {
     word += *word == '-' || *word == '+';
-    return (strncasecmp(word, "nan", 3) == 0 && (word[3] == '\0' || word[3] == '(')) || strcasecmp(word, "inf") == 0 ||
-           strcasecmp(word, "infinity") == 0 || strncmp(word, "1.#", 3) == 0;
+    return is_word(word, "nan", '(') || is_word(word, "inf", '\0') || is_word(word, "infinity", '\0') ||
+           strncmp(word, "1.#", 3) == 0;
 }
