@@ -650,6 +650,12 @@ claim "info of a textured file" works info "$base/in/card.obj"
 claim "has its size" out_has '0 16x16$'
 claim "info of a built-in scene" works info builtin:suite/pan
 claim "has its frame rate" out_has '^fps: '
+instances=$here/tests/fuzz/corpus/gltf/42bd4e21fe24
+claim "info of instances" works info "$instances"
+claim "counts them beside their node" out_has '^  0 "", mesh 0, 5 instances$'
+claim "and their triangles" out_has '^triangles: 60$'
+claim "they are converted" works convert "$instances" -o instances.h
+claim "each of them" out_has '^draws: 5,'
 claim "info for a board" works info builtin:suite/pan --board rp2040
 claim "info names the board's memory" out_has '^  auto at 240x240 takes [0-9]* bytes of 204800$'
 run info builtin:suite/pan --board fridge

@@ -28,17 +28,17 @@ static const char *const folders[] = { "", "./", "a/", "b/", "a/../", "la/", "a/
 
 #define PICK(list) list[between(0, (int32_t)(sizeof list / sizeof list[0]) - 1)]
 
-/* Files, links and second names, each made where nothing is in its way. */
+/* Files, second names of them and links, each made where nothing is in its way. */
 static void fill_folder(void)
 {
     char from[PATH], to[PATH];
     if (mkdir("a", 0700) != 0 || mkdir("b", 0700) != 0 || symlink("a", "la") != 0 || symlink("./b", "lb") != 0)
         abort();
-    for (int n = between(0, 8); n > 0; n--) {
+    for (int n = between(0, 12); n > 0; n--) {
         snprintf(from, sizeof from, "%s%s", folders[between(0, 4)], PICK(names));
         snprintf(to, sizeof to, "%s%s", folders[between(0, 4)], PICK(names));
-        int kind = between(0, 2), file;
-        if (kind == 0 && (file = open(to, O_WRONLY | O_CREAT | O_EXCL, 0600)) >= 0)
+        int kind = between(0, 2), file = open(kind == 0 ? to : from, O_WRONLY | O_CREAT | O_EXCL, 0600);
+        if (file >= 0)
             close(file);
         bool is_made = kind == 1 ? link(from, to) == 0 : kind == 2 && symlink(chance(2) ? PICK(names) : from, to) == 0;
         (void)is_made;
