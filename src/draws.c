@@ -144,10 +144,24 @@ static void add_motion(struct smear_assembly *a, const struct smear_context *c, 
         smear_draw_poses_add(a, p, &c->shot, spans ? at.close : 0);
 }
 
+/* Finds where a draw is, as struct smear_assembly says. */
+static void place_fine(struct smear_placement *place, const struct smear_assembly *a, int key, int coarse)
+{
+    const struct smear_context *c = (const struct smear_context *)a->place_of;
+    const struct smear_instant end = smear_instant_at(&c->shot, key == 0 ? -65536 : 65536);
+    struct smear_draw_poses poses;
+    poses_of(&poses, c, a->draw);
+    poses.coarse = coarse;
+    smear_draw_poses_place(place, &poses, &c->shot, a->mesh, key == 2 ? (const struct smear_instant *)a->instant : &end);
+}
+
 /* Finds where a draw is, at an instant and along its path. */
 static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves,
                   const struct smear_instant *instant)
 {
+    a->place_fine = place_fine;
+    a->place_of = c;
+    a->instant = moves ? instant : &smear_instant_now;
     smear_draw_poses_place(&a->at, p, &c->shot, a->mesh, moves ? instant : &smear_instant_now);
     if (!moves || !assembler_keeps_paths(&c->assembler))
         return;
@@ -171,7 +185,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     a->material = draw->material != NULL ? draw->material : &white;
     a->draw = (uint16_t)i;
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
-    a->apart = a->moves = 0;
+    a->moves = 0;
     a->path = a->has_rest = false;
     a->fixed = frame_has_fog(&c->rows.raster);      /* of which a tiny triangle has one part, however the frame is cut */
     const bool moves = poses_differ(&poses);
@@ -242,7 +256,7 @@ static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kin
 }
 
 static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, uint32_t i,
-                          const struct smear_instant *instant, struct smear_refill *f)
+                          const struct smear_instant *instant)
 {
     struct smear_assembly a;
     const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
@@ -256,16 +270,7 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     }
     if (group != NULL)
         return smear_groups_assemble(c->layers, &c->assembler, &a);
-    if (!assembly_has_path(&a))
-        return smear_assemble(as, &a);
-    if (f != NULL && f->apart_of == i)
-        a.apart = f->apart;
-    const bool done = smear_assemble_path(as, &a);
-    if (f != NULL && a.apart != 0) {
-        f->apart_of = (uint16_t)i;
-        f->apart = a.apart;
-    }
-    return done;
+    return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
 }
 
 /* Whether a sharp frame of which the display shows a part lacks a draw. */
@@ -301,7 +306,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
             continue;
         if (f != NULL && k == f->draw)
             as->resume = (struct smear_resume){ f->triangle, f->parts };
-        if (assemble_draw(c, as, i, instant, f))
+        if (assemble_draw(c, as, i, instant))
             continue;
         if (f != NULL) {
             f->draw = k;

@@ -54,7 +54,7 @@ static void make_pose(struct smear_projection *p, const smear_camera *camera, in
     for (int i = 0; i < 3; i++)
         at_eye.origin[i] = camera->pose.origin[i];
     smear_view_compose(&view, &at_eye, &unit, &camera->pose);
-    smear_projection_make(p, &view, camera, height);
+    smear_projection_make(p, &view, camera, height, 0);
 }
 
 /* Returns how far a point is on its way in a pose, q16 frames. */
@@ -134,7 +134,7 @@ static void make_lens(struct lens *l, const struct smear_rows *rows, const struc
             l->eye[j] = now->pose.origin[j];
         }
     }
-    smear_projection_weigh(pose, one, poses, 0, now);
+    smear_projection_weigh(pose, one, NULL, poses, now);
     l->projection = pose[0];
     uint64_t any = 1u << 28;
     for (int e = 0; e < 2; e++)

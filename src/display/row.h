@@ -43,8 +43,6 @@ struct smear_refill {
     bool failed;                /* a tile cannot be drawn of several fills */
     uint32_t draw, triangle;
     uint16_t parts;
-    uint16_t apart_of;          /* the draw whose distance `apart` is (struct smear_assembly): to find it takes as long as a fill */
-    int32_t apart;              /* 0: none yet */
 };
 
 struct smear_rows {

@@ -90,7 +90,7 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
 /* Finds room for a triangle and three vertices. Returns false where there is none. */
 static SMEAR_RARE bool find_room(struct batch *b)
 {
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX);
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX, 0);
     if (s == NULL)
         return false;
     b->segment = s;

@@ -6,15 +6,42 @@
  * method. */
 #include "geometry/assemble_path.h"
 
-#include "geometry/clip.h"
 #include "geometry/path.h"
 #include "geometry/path_places.h"
+#include "geometry/space.h"
 
 #if SMEAR_WITH_SUBFRAMES
 
-static int code_at(uint32_t outcodes, int key)
+/* A bit of path_vertex.outcodes above those of the instants: the vertex has a path in space. */
+#define IN_SPACE (1u << 24)
+
+/* Whether the parabola on the screen through three places holds. Of a vertex that goes straight and comes nearer by the part d
+ * of its distance, as it travels T px, that leaves out about T d^2 / 5 px; and of its depth a part of d^3 / 3, which counts
+ * wherever the triangle reaches. */
+static bool holds(const struct smear_screen screen[KEYS])
 {
-    return (int)(outcodes >> 8 * key & 255u);
+    enum { APART_MOST = 320, FEW = 64 << 8 };         /* T d^2, q8 px: the path errs by a quarter of a pixel */
+    const int32_t depth = screen[MIDDLE].depth;
+    int32_t nearer = 0, travel = 0;
+    for (int key = OPEN; key <= CLOSE; key++) {
+        nearer = max_i32(nearer, abs_i32(screen[key].depth - depth));
+        travel += max_i32(abs_i32(screen[key].x - screen[MIDDLE].x), abs_i32(screen[key].y - screen[MIDDLE].y));
+    }
+    if (nearer > depth >> 2)
+        return false;
+    if (nearer < depth >> 4 && travel < FEW)
+        return true;
+    const int down = max_i32(17 - count_leading_zeros((uint32_t)depth), 0);
+    const uint32_t part = (uint32_t)(nearer >> down), whole = (uint32_t)(depth >> down);       /* 15 bits */
+    return (uint64_t)(uint32_t)travel * (part * part) <= (uint64_t)APART_MOST * (whole * whole);
+}
+
+/* Completes the outcodes of a vertex. */
+static inline void find_kind(struct path_vertex *v, bool orthographic)
+{
+    const uint32_t any = v->outcodes | v->outcodes >> 8 | v->outcodes >> 16;
+    if ((any & OUT_CLIP) != 0 || (!orthographic && !holds(v->screen)))
+        v->outcodes |= IN_SPACE;
 }
 
 static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
@@ -41,6 +68,13 @@ static uint16_t code_above(int32_t depth)
 {
     uint32_t units = ((uint32_t)depth >> 11) + 1u;
     return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65535u));
+}
+
+/* Returns the flags that all triangles of a draw have. */
+static int path_flags(const struct smear_assembly *d)
+{
+    return (d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
+         | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0);
 }
 
 /* Finds a triangle's bounds. Returns false when it can't cover a pixel of the part of the frame that is being
@@ -81,9 +115,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
         .travel = sixteenths(travel), .curvature = sixteenths(curvature),
         .nearest = code_above(min_i32(depth + overshoot, SMEAR_DEPTH_MAX)),
-        .flags = (uint8_t)((d->material->texture != NULL && d->mesh->uv != NULL ? PATH_TEXTURED : 0)
-                            | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0)
-                            | (large ? PATH_LARGE : 0))
+        .flags = (uint8_t)(path_flags(d) | (large ? PATH_LARGE : 0))
     };
     return true;
 }
@@ -106,21 +138,66 @@ struct path_batch {
     bool shares;                        /* all faces of a vertex share its record */
     uint16_t parts;                     /* of the triangle at hand: those that have been added, now or before */
     uint16_t parts_before;              /* before: they are left out */
+    bool is_in_space;                   /* `space` is filled in: at the first vertex that has a path there */
+    struct smear_placement space[KEYS];
 };
 
-static uint32_t store_path_vertex(const struct path_batch *b, struct path_vertex *v, uint32_t triangle,
-                                  bool back)
+/* Makes the space in which vertices of the draw have paths: one scale for all poses. */
+static struct smear_space space_of(struct path_batch *b)
+{
+    struct smear_space space;
+    if (!b->is_in_space)
+        for (int key = 0; key < KEYS; key++)
+            b->d->place_fine(&b->space[key], b->d, key, projection_coarse(b->a->viewport.height, is_orthographic(&b->d->at.now)));
+    b->is_in_space = true;
+    int scale = b->space[MIDDLE].now.scale;
+    for (int key = OPEN; key <= CLOSE; key++)
+        scale = min_i32(scale, b->space[key].now.scale);
+    b->segment->scale = (int8_t)clamp_i32(scale, INT8_MIN, INT8_MAX);
+    smear_space_make(&space, b->a->bins, b->segment, b->a->viewport.width, b->a->viewport.height);
+    return space;
+}
+
+static void places_of(struct smear_homogeneous place[KEYS], const struct path_batch *b, const struct smear_space *space, uint32_t index)
+{
+    for (int key = 0; key < KEYS; key++) {
+        placement_transform(&place[key], &b->space[key], index);
+        smear_space_take(&place[key], space, &b->space[key].now);
+    }
+}
+
+/* Stores the path in space of a vertex and, where it has one on the screen, that behind the record. */
+static SMEAR_NOINLINE void store_in_space(uint32_t *record, struct path_batch *b, const struct path_vertex *v)
+{
+    const struct smear_space space = space_of(b);
+    struct smear_homogeneous place[KEYS];
+    places_of(place, b, &space, v->tag & 0xffffu);
+    smear_space_store(record, b->segment, &place[OPEN], &place[MIDDLE], &place[CLOSE]);
+    if ((v->outcodes & IN_SPACE) != 0)
+        return;
+    uint32_t *const beyond = store_place(record + b->segment->stride, &v->screen[MIDDLE]) + PATH_POSE_WORDS;
+    store_place(beyond, &v->screen[OPEN]);
+    store_place(beyond + PATH_POSE_WORDS, &v->screen[CLOSE]);
+    b->a->bins->vertex_words += SCREEN_PATH_WORDS;
+}
+
+static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, uint32_t triangle,
+                                  bool back, bool in_space)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    bool shares = b->shares && (!back || !segment_by_vertices(s));
+    const bool alone = (v->outcodes & IN_SPACE) == 0 && in_space;
+    bool shares = b->shares && (!back || !segment_by_vertices(s)) && !alone;
     if (shares && v->stored > s->base)
         return v->stored - 1;
     struct smear_bins *g = b->a->bins;
     uint32_t word = g->vertex_words, index = v->tag & 0xffffu;
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
-    store_path(record, s, v->screen);
+    if (in_space)
+        store_in_space(record, b, v);
+    else
+        store_path(record, s, v->screen);
     if (segment_textured(s))
         store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
     if (segment_colored(s))
@@ -151,9 +228,9 @@ static bool is_added(struct path_batch *b)
     return added;
 }
 
-static bool has_room(struct path_batch *b)
+static bool has_room(struct path_batch *b, bool in_space)
 {
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2);
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2, in_space ? SPACE_ROOM : 0);
     if (s == NULL || b->a->path_count == b->a->path_limit)
         return false;
     b->segment = s;
@@ -193,6 +270,150 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     b->a->triangles_drawn++;
 }
 
+/* ------------------------------------------------------------------ in space */
+
+/* A parabola lies within the triangle of its ends and of the place where the lines along it there meet. */
+enum { HULL_POINTS = 3 * KEYS };
+
+/* What is seen of a path in space. */
+struct extent {
+    int32_t x0, y0, x1, y1, depth;
+    bool passes;                /* the near plane */
+};
+
+static void extend(struct extent *e, const struct smear_space *space, const struct smear_homogeneous *h)
+{
+    struct smear_screen screen;
+    smear_project(&screen, &space->depths, h, &space->viewport);
+    screen_clamp(&screen, &space->viewport);
+    e->x0 = min_i32(e->x0, screen.x);
+    e->y0 = min_i32(e->y0, screen.y);
+    e->x1 = max_i32(e->x1, screen.x);
+    e->y1 = max_i32(e->y1, screen.y);
+    e->depth = max_i32(e->depth, screen.depth);
+}
+
+/* Finds the extent of what lies in front of the near plane of all between some points: that of those in front, and of where the
+ * lines from them to those behind cross the plane. Returns false where nothing is in front. */
+static bool find_extent(struct extent *e, const struct smear_space *space, const struct smear_homogeneous point[HULL_POINTS])
+{
+    const int32_t near = space->depths.near_distance;
+    bool seen = false;
+    *e = (struct extent){ INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, 0, false };
+    for (int i = 0; i < HULL_POINTS; i++) {
+        const struct smear_homogeneous *const front = &point[i];
+        if (front->distance < near) {
+            e->passes = true;
+            continue;
+        }
+        seen = true;
+        extend(e, space, front);
+        for (int k = 0; k < HULL_POINTS; k++) {
+            const struct smear_homogeneous *const behind = &point[k];
+            if (behind->distance >= near)
+                continue;
+            const int32_t t = ratio_q30((int64_t)front->distance - near, (int64_t)front->distance - behind->distance);
+            const struct smear_homogeneous h = { (int32_t)(front->x + (((int64_t)behind->x - front->x) * t >> 30)),
+                                                 (int32_t)(front->y + (((int64_t)behind->y - front->y) * t >> 30)),
+                                                 depths_are_even(&space->depths) ? front->w : near, near };
+            extend(e, space, &h);
+        }
+    }
+    return seen;
+}
+
+/* Returns the sides of the frame that a place lies beyond, in front of the eye or not. */
+static int sides_of(const struct smear_homogeneous *h, const struct smear_space *space)
+{
+    const int64_t one = (int64_t)2 << space->depths.coarse, x = h->x * one, y = h->y * one;
+    const int64_t right = (int64_t)h->w * space->viewport.width, bottom = (int64_t)h->w * space->viewport.height;
+    return (x < -right ? OUT_LEFT : 0) | (x > right ? OUT_RIGHT : 0) | (y < -bottom ? OUT_TOP : 0) | (y > bottom ? OUT_BOTTOM : 0);
+}
+
+/* Whether all points lie beyond one side of the frame, or behind the far plane, and so all between them. */
+static bool is_beside(const struct smear_space *space, const struct smear_homogeneous point[HULL_POINTS])
+{
+    int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM | OUT_FAR;
+    for (int i = 0; i < HULL_POINTS && beside != 0; i++)
+        beside &= sides_of(&point[i], space) | (point[i].distance > space->depths.far_distance ? OUT_FAR : 0);
+    return beside != 0;
+}
+
+/* Whether the triangle faces the eye at a key, as the sign of X Y W of its corners tells in the order in which they are
+ * clockwise on the screen; or may, where that is lost in rounding. */
+static bool may_face(const struct smear_homogeneous place[3][KEYS], int key)
+{
+    enum { BITS = 19 };
+    uint32_t all = 1u << BITS;
+    for (int i = 0; i < 3; i++)
+        all |= (uint32_t)abs_i32(place[i][key].x) | (uint32_t)abs_i32(place[i][key].y) | (uint32_t)abs_i32(place[i][key].w);
+    const int down = 32 - BITS - count_leading_zeros(all);
+    int32_t x[3], y[3], w[3];
+    for (int i = 0; i < 3; i++) {
+        x[i] = place[i][key].x >> down;
+        y[i] = place[i][key].y >> down;
+        w[i] = place[i][key].w >> down;
+    }
+    int64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        sum += w[i] * ((int64_t)x[j] * y[k] - (int64_t)x[k] * y[j]);
+    }
+    return sum >= -((int64_t)1 << (2 * BITS + 3));
+}
+
+/* Finds the bounds of a triangle of which a vertex has a path in space. Returns false where it is never seen. */
+static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, struct path_batch *batch,
+                                                struct path_vertex *v0, struct path_vertex *v1, struct path_vertex *v2)
+{
+    const struct smear_assembler *a = batch->a;
+    const struct smear_space space = space_of(batch);
+    const struct path_vertex *const v[3] = { v0, v1, v2 };
+    struct smear_homogeneous place[3][KEYS], point[HULL_POINTS];
+    int32_t travel = 1;
+    for (int i = 0; i < 3; i++) {
+        places_of(place[i], batch, &space, v[i]->tag & 0xffffu);
+        for (int key = 0; key < KEYS; key++)
+            point[KEYS * i + key] = place[i][key];
+        struct smear_homogeneous *const meet = &point[KEYS * i + MIDDLE];
+        const struct smear_homogeneous *const open = &place[i][OPEN], *const close = &place[i][CLOSE];
+        meet->x = 2 * meet->x - ((open->x + close->x) >> 1);
+        meet->y = 2 * meet->y - ((open->y + close->y) >> 1);
+        meet->distance = 2 * meet->distance - ((open->distance + close->distance) >> 1);
+        if (!depths_are_even(&space.depths))
+            meet->w = meet->distance;
+    }
+    struct extent e;
+    if (!(may_face(place, OPEN) || may_face(place, MIDDLE) || may_face(place, CLOSE)) || is_beside(&space, point)
+        || !find_extent(&e, &space, point))
+        return false;
+    for (int i = 0; i < 3 && !e.passes; i++) {
+        struct smear_screen open, close;
+        smear_project(&open, &space.depths, &place[i][OPEN], &space.viewport);
+        smear_project(&close, &space.depths, &place[i][CLOSE], &space.viewport);
+        travel = max_i32(travel, max_i32(abs_i32(close.x - open.x), abs_i32(close.y - open.y)));
+    }
+    if (e.passes)
+        travel = max_i32(a->viewport.width, a->viewport.height) << 8;
+    /* Vertices that have no path in space may be a pixel beside it. */
+    const int32_t margin = 1 + bins_margin(a->bins);
+    struct box box = { (e.x0 >> 8) - margin, (e.y0 >> 8) - margin, (e.x1 >> 8) + 1 + margin, (e.y1 >> 8) + 1 + margin };
+    box_cut(&box, a);
+    if (box_is_empty(&box) || (!is_blend(batch->d) && (box.x0 >= a->path_x1 || box.x1 <= a->path_x0)))
+        return false;
+    *b = (struct smear_path_bounds){
+        .x0 = (int16_t)box.x0, .y0 = (int16_t)box.y0, .x1 = (int16_t)box.x1, .y1 = (int16_t)box.y1,
+        .travel = sixteenths(travel),
+        .nearest = code_above(min_i32(e.depth + (e.depth >> 4), SMEAR_DEPTH_MAX)),
+        .flags = (uint8_t)(path_flags(batch->d) | PATH_SPACE),
+        .space = (uint8_t)((v0->outcodes & IN_SPACE) / IN_SPACE | (v1->outcodes & IN_SPACE) / (IN_SPACE / 2)
+                           | (v2->outcodes & IN_SPACE) / (IN_SPACE / 4))
+    };
+    return true;
+}
+
+/* ------------------------------------------------------------------ triangles */
+
 /* Adds a triangle whose vertices are clockwise on the screen where it is seen from the side that is drawn. Returns
  * false where there is no room. */
 static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct path_vertex *v1,
@@ -200,384 +421,19 @@ static bool add_triangle(struct path_batch *b, struct path_vertex *v0, struct pa
 {
     const struct smear_screen *const corner[3] = { v0->screen, v1->screen, v2->screen };
     struct smear_path_bounds bounds;
-    if (!find_bounds(&bounds, b->a, b->d, corner) || is_added(b))
+    const bool in_space = ((v0->outcodes | v1->outcodes | v2->outcodes) & IN_SPACE) != 0;
+    if (!(in_space ? find_bounds_in_space(&bounds, b, v0, v1, v2) : find_bounds(&bounds, b->a, b->d, corner)) || is_added(b))
         return true;
-    if (!has_room(b))
+    if (!has_room(b, in_space))
         return false;
     uint32_t base = b->segment->base;
-    uint16_t offset0 = (uint16_t)(store_path_vertex(b, v0, triangle, back) - base);
-    uint16_t offset1 = (uint16_t)(store_path_vertex(b, v1, triangle, back) - base);
-    uint16_t offset2 = (uint16_t)(store_path_vertex(b, v2, triangle, back) - base);
+    uint16_t offset0 = (uint16_t)(store_path_vertex(b, v0, triangle, back, in_space) - base);
+    uint16_t offset1 = (uint16_t)(store_path_vertex(b, v1, triangle, back, in_space) - base);
+    uint16_t offset2 = (uint16_t)(store_path_vertex(b, v2, triangle, back, in_space) - base);
     struct smear_face face = smear_face_of(b->d, triangle, back);
     const uint16_t offset[3] = { offset0, offset1, offset2 };
     list_triangle(b, &bounds, offset, &face);
     return true;
-}
-
-/* ------------------------------------------------------------------ clipped */
-
-/* A triangle while it is clipped. It is large and lies on the stack: there is one, and all ways to clip work on it. */
-struct clipping {
-    struct smear_clip_polygon polygon;      /* vertex[0 .. 2] are the triangle's own, in the mesh's order */
-    /* What it is clipped against: the exposure, or one of PATH_INTERVALS parts of it. */
-    struct smear_depths depths[KEYS];
-    int codes[KEYS];
-    uint8_t interval;                       /* as in struct smear_path_bounds */
-    struct smear_face face;
-};
-
-static struct smear_homogeneous *place_at(struct smear_clip_vertex *v, int key)
-{
-    return key == MIDDLE ? &v->now : &v->pose[key];
-}
-
-/* Exchanges the present pose, which is the one that is clipped, with another one. */
-static void exchange(struct smear_clip_polygon *p, int key)
-{
-    for (int i = 0; i < p->count; i++) {
-        struct smear_clip_vertex *v = clip_corner(p, i);
-        struct smear_homogeneous h = v->now;
-        v->now = v->pose[key];
-        v->pose[key] = h;
-    }
-}
-
-/* Clips to what is in front of the near plane and within the guard band at all three instants. */
-static void clip_all(struct clipping *c)
-{
-    struct smear_clip_polygon *p = &c->polygon;
-    smear_clip_polygon(p, &c->depths[MIDDLE], c->codes[MIDDLE]);
-    for (int key = OPEN; key <= CLOSE && p->count != 0; key++) {
-        exchange(p, key);
-        smear_clip_polygon(p, &c->depths[key], c->codes[key] & ~OUT_FAR);
-        exchange(p, key);
-    }
-}
-
-/* Divides what is left. Places on the screen take the room of those before the division: x, y, and depth for w. The distance in
- * the middle becomes the corner's record in the pool: word + 1, or 0. */
-static void project_corners(struct clipping *c, const struct smear_viewport *viewport)
-{
-    for (int i = 0; i < c->polygon.count; i++) {
-        struct smear_clip_vertex *v = clip_corner(&c->polygon, i);
-        for (int key = 0; key < KEYS; key++) {
-            struct smear_homogeneous *h = place_at(v, key);
-            struct smear_screen screen;
-            smear_project(&screen, &c->depths[key], h, viewport);
-            screen_clamp(&screen, viewport);
-            *h = (struct smear_homogeneous){ screen.x, screen.y, screen.depth, 0 };
-        }
-    }
-}
-
-static struct smear_screen screen_at(struct clipping *c, int corner, int key)
-{
-    const struct smear_homogeneous *h = place_at(clip_corner(&c->polygon, corner), key);
-    return (struct smear_screen){ h->x, h->y, h->w };
-}
-
-static int64_t area_at(struct clipping *c, int i, int k, int key)
-{
-    const struct smear_screen p0 = screen_at(c, 0, key), p1 = screen_at(c, i, key), p2 = screen_at(c, k, key);
-    return area_of(&p0, &p1, &p2);
-}
-
-static uint32_t store_corner(const struct path_batch *b, struct smear_clip_vertex *v, const struct smear_screen screen[KEYS])
-{
-    struct smear_bins *g = b->a->bins;
-    const struct smear_segment *s = b->segment;
-    const uint32_t stored = (uint32_t)v->now.distance;
-    if (stored > s->base)
-        return stored - 1;
-    uint32_t word = g->vertex_words, *record = g->pool + word;
-    g->vertex_words = word + s->stride;
-    v->now.distance = (int32_t)(word + 1);
-    store_path(record, s, screen);
-    smear_vertex_store_clipped(record, s, v);
-    return word;
-}
-
-/* Adds one triangle of the fan, whose corners are clockwise when it is seen from its side. Returns false where there is
- * no room. */
-static bool add_fan(struct path_batch *b, struct clipping *c, const int fan[3])
-{
-    struct smear_screen screen[3][KEYS];
-    for (int i = 0; i < 3; i++)
-        for (int key = 0; key < KEYS; key++)
-            screen[i][key] = screen_at(c, fan[i], key);
-    const struct smear_screen *const corner[3] = { screen[0], screen[1], screen[2] };
-    struct smear_path_bounds bounds;
-    if (!find_bounds(&bounds, b->a, b->d, corner))
-        return true;
-    /* Rounding may turn over a sliver of the fan: at instants that is seen, among what is static it is not. */
-    if (is_static(&bounds) && area_of(&corner[0][MIDDLE], &corner[1][MIDDLE], &corner[2][MIDDLE]) <= 0)
-        return true;
-    if (is_added(b))
-        return true;
-    if (!has_room(b))
-        return false;
-    bounds.interval = c->interval;
-    if (c->interval != 0) {
-        bounds.flags |= PATH_INTERVAL;
-        /* The travel counts for the whole exposure. */
-        bounds.travel = (uint16_t)min_i32(bounds.travel * PATH_INTERVALS, 65535);
-    }
-    const struct smear_segment *s = b->segment;
-    uint16_t offset[3];
-    for (int k = 0; k < 3; k++)
-        offset[k] = (uint16_t)(store_corner(b, clip_corner(&c->polygon, fan[k]), corner[k]) - s->base);
-    list_triangle(b, &bounds, offset, &c->face);
-    return true;
-}
-
-/* Clips the triangle and adds what is left, if it is seen from the side that is drawn (c->face.back: counter-clockwise) at some
- * instant. Returns false where there is no room. */
-static bool add_cut(struct path_batch *b, struct clipping *c)
-{
-    const struct smear_assembly *d = b->d;
-    smear_clip_start(&c->polygon, CLIP_POSES, segment_textured(b->segment), segment_colored(b->segment));
-    clip_all(c);
-    project_corners(c, &b->a->viewport);
-    const int count = c->polygon.count;
-    bool seen = false;
-    for (int key = 0; key < KEYS && !seen; key++) {
-        int64_t area = 0;
-        for (int i = 2; i < count; i++)
-            area += area_at(c, i - 1, i, key);
-        seen = ((area > 0) != d->mirrored) == c->face.back && area != 0;
-    }
-    if (!seen)
-        return true;
-    bool turn = d->mirrored == c->face.back;    /* the fan runs against the clock on the side that is drawn */
-    for (int i = 2; i < count; i++) {
-        const int fan[3] = { 0, turn ? i : i - 1, turn ? i - 1 : i };
-        if (!add_fan(b, c, fan))
-            return false;
-    }
-    return true;
-}
-
-/* Brings planes and depths to fewer bits of scale, as vertices are. */
-static void lower_scale(struct smear_depths *d, int down)
-{
-    d->depth_shift = (int16_t)(d->depth_shift - down);
-    d->near_distance = max_i32(scale_sat(d->near_distance, clamp_i32(-down, -31, 31)), 1);
-    if (d->far_distance != INT32_MAX)
-        d->far_distance = scale_sat(d->far_distance, clamp_i32(-down, -31, 31));
-}
-
-/* Returns a coordinate at time u (q16, -1 .. 1) of the path from open over middle to close. */
-static int32_t on_path(int64_t open, int64_t middle, int64_t close, int32_t u)
-{
-    int64_t along = (close - open) + ((open + close - 2 * middle) * u >> 16);
-    return (int32_t)(middle + (along * u >> 17));
-}
-
-/* Places `out` on the path of `v`. */
-static void place_on_path(struct smear_homogeneous *out, const struct smear_clip_vertex *v, int32_t u)
-{
-    const struct smear_homogeneous *open = &v->pose[OPEN], *middle = &v->now, *close = &v->pose[CLOSE];
-    out->x = on_path(open->x, middle->x, close->x, u);
-    out->y = on_path(open->y, middle->y, close->y, u);
-    out->w = on_path(open->w, middle->w, close->w, u);
-    out->distance = out->w;
-}
-
-static void scale_homogeneous(struct smear_homogeneous *h, int down)
-{
-    h->x = scale_sat(h->x, clamp_i32(-down, -31, 31));
-    h->y = scale_sat(h->y, clamp_i32(-down, -31, 31));
-    h->w = scale_sat(h->w, clamp_i32(-down, -31, 31));
-}
-
-/* Adds a triangle that the near plane cuts at some instants, each time elsewhere: what is in front of the plane
- * throughout would be too little. In a short interval of the exposure that is about what is in front in its middle; at
- * its ends a little of that may lie behind, though not behind the eye. */
-static SMEAR_NOINLINE bool add_intervals(struct path_batch *b, struct clipping *c)
-{
-    const struct smear_assembly *d = b->d;
-    struct smear_clip_vertex corner[3];
-    /* One scale for all poses, with two bits of room: parabolas leave the range of their three places. */
-    const int16_t own[KEYS] = { d->motion.key[OPEN].now.scale, d->motion.key[CLOSE].now.scale, d->at.now.scale };
-    const int scale = min_i32(own[MIDDLE], min_i32(own[OPEN], own[CLOSE])) - 2;
-    for (int i = 0; i < 3; i++) {
-        corner[i] = c->polygon.vertex[i];
-        for (int k = 0; k < KEYS; k++)
-            scale_homogeneous(place_at(&corner[i], k), own[k] - scale);
-    }
-    lower_scale(&c->depths[MIDDLE], own[MIDDLE] - scale);
-    c->depths[OPEN] = c->depths[CLOSE] = c->depths[MIDDLE];
-    for (int key = OPEN; key <= CLOSE; key++)
-        c->depths[key].near_distance = max_i32(c->depths[MIDDLE].near_distance >> 2, 1);
-    for (int k = 0; k < KEYS; k++)
-        c->codes[k] = OUT_NEAR | OUT_GUARD | OUT_FAR;
-    const int32_t step = 131072 / PATH_INTERVALS;
-    for (int interval = 0; interval < PATH_INTERVALS; interval++) {
-        int32_t begin = interval * step - 65536;
-        for (int i = 0; i < 3; i++) {
-            struct smear_clip_vertex *part = &c->polygon.vertex[i];
-            *part = corner[i];
-            place_on_path(&part->pose[OPEN], &corner[i], begin);
-            place_on_path(&part->now, &corner[i], begin + step / 2);
-            place_on_path(&part->pose[CLOSE], &corner[i], begin + step);
-        }
-        c->interval = (uint8_t)(interval + 1);
-        if (!add_cut(b, c))
-            return false;
-    }
-    return true;
-}
-
-/* ------------------------------------------------------------------ near the near plane */
-
-/* The ground under a camera passes through the near plane, but beside the frame. What is nearer
- * than some distance then need not be drawn, and the rest is clipped once, for all instants: its
- * corners are places of the surface like any vertex. */
-
-/* Finds where the triangle's vertices are at the three instants. */
-static void place_corners(struct smear_clip_vertex corner[3], const struct smear_assembly *d,
-                          const uint16_t index[3])
-{
-    for (int i = 0; i < 3; i++) {
-        placement_transform(&corner[i].now, &d->at, index[i]);
-        for (int key = OPEN; key <= CLOSE; key++)
-            placement_transform(&corner[i].pose[key], &d->motion.key[key], index[i]);
-    }
-}
-
-/* Returns the distance from which on all of the triangle is in front of the near plane at all times: that of the plane
- * plus the longest travel towards it. */
-static int32_t safe_distance(const struct smear_clip_vertex corner[3], const struct smear_assembly *d)
-{
-    const struct smear_projection *now = &d->at.now;
-    int64_t travel = 0;
-    for (int key = OPEN; key <= CLOSE; key++)
-        for (int i = 0; i < 3; i++) {
-            const int up = clamp_i32(now->scale - d->motion.key[key].now.scale, -31, 31);
-            const int64_t there = up < 0 ? corner[i].pose[key].w >> -up
-                                         : (int64_t)corner[i].pose[key].w * ((int64_t)1 << up);
-            travel = corner[i].now.w - there > travel ? corner[i].now.w - there : travel;
-        }
-    const int64_t safe = travel + now->depths.near_distance + 8;
-    return safe < 1 << 28 ? (int32_t)safe : 1 << 28;
-}
-
-/* Whether all of the polygon lies beyond one side of the frame at the three instants, and so at all times: places
- * between are sums of those. */
-static bool is_beside(struct smear_clip_polygon *p, const struct smear_viewport *viewport)
-{
-    int beside = OUT_LEFT | OUT_RIGHT | OUT_TOP | OUT_BOTTOM;
-    for (int i = 0; i < p->count && beside != 0; i++) {
-        struct smear_clip_vertex *v = clip_corner(p, i);
-        for (int key = 0; key < KEYS; key++)
-            beside &= smear_outcode_behind(place_at(v, key), viewport);
-    }
-    return beside != 0;
-}
-
-/* Whether nothing of the triangle p->vertex[0 .. 2] that is nearer than `distance` in the middle of the exposure is seen at any
- * time. One plane leaves these vertices as they are: new corners lie behind them. */
-static bool is_apart(struct smear_clip_polygon *p, const struct path_batch *b, int32_t distance)
-{
-    struct smear_depths behind = b->d->at.now.depths;
-    behind.far_distance = distance;
-    smear_clip_start(p, CLIP_POSES, false, false);
-    smear_clip_polygon(p, &behind, OUT_FAR);
-    return is_beside(p, &b->a->viewport);
-}
-
-static bool is_behind(const struct smear_placement *p, uint32_t index)
-{
-    struct smear_homogeneous h;
-    if (p->extra_count == 0)
-        return transform_row(p->now.m[2], p->position + 3 * index) < p->now.depths.near_distance;
-    placement_transform(&h, p, index);
-    return h.w < p->now.depths.near_distance;
-}
-
-/* Whether the near plane cuts the triangle, or passes it during the exposure. */
-static bool passes_near(const struct path_batch *b, const uint16_t index[3])
-{
-    const struct path_vertex *cache = (const struct path_vertex *)(const void *)b->a->cache;
-    int behind = 0;
-    for (int i = 0; i < 3; i++) {
-        const uint32_t tag = b->a->serial << 16 | index[i];
-        const struct path_vertex *v = &cache[tag & (b->a->cache_mask >> 1)];
-        for (int key = 0; key < KEYS; key++)
-            behind += v->tag == tag ? (code_at(v->outcodes, key) & OUT_NEAR) != 0
-                                    : is_behind(placement_of(b->d, key), index[i]);
-    }
-    return behind != 0 && behind != 3 * KEYS;
-}
-
-/* Finds one distance for all triangles of a draw, so that their edges still meet: the largest of DOUBLINGS + 1 for
- * which is_apart() holds for all triangles but those for which it never does. Works on *p. */
-static SMEAR_NOINLINE int32_t find_apart(const struct path_batch *b, struct smear_clip_polygon *p)
-{
-    enum { DOUBLINGS = 5 };
-    const smear_mesh *mesh = b->d->mesh;
-    int32_t least = 0;
-    int doublings = DOUBLINGS;
-    uint32_t first = 0, end = mesh->triangle_count;         /* the triangles that pass the near plane lie between */
-    for (int pass = 0; pass < 2; pass++) {
-        uint32_t last = first;
-        for (uint32_t i = first; i < end; i++) {
-            const uint16_t *index = mesh->index + 3 * i;
-            if (max_i32(index[0], max_i32(index[1], index[2])) >= (int32_t)mesh->vertex_count)
-                continue;
-            if (!passes_near(b, index))
-                continue;
-            place_corners(p->vertex, b->d, index);
-            last = i;
-            if (pass == 0) {
-                first = least == 0 ? i : first;
-                least = max_i32(least, safe_distance(p->vertex, b->d));
-                continue;
-            }
-            int here = doublings;
-            while (here >= 0 && ((least >> (29 - here)) != 0 || !is_apart(p, b, least << here)))
-                here--;
-            doublings = here >= 0 ? here : doublings;
-        }
-        end = last + 1;
-    }
-    while (doublings > 0 && (least >> (29 - doublings)) != 0)       /* where it holds for no triangle */
-        doublings--;
-    return least << doublings;
-}
-
-/* Adds a triangle that has to be clipped at some instant; its vertices are in the mesh's own order: counter-clockwise
- * where its front is seen. Returns false where there is no room. */
-static SMEAR_NOINLINE bool add_clipped_path(struct path_batch *b, struct path_vertex *const vertex[3],
-                                            uint32_t triangle, uint32_t codes, bool back)
-{
-    struct smear_assembly *d = b->d;
-    struct clipping c;
-    int near_codes = 0;
-    for (int key = 0; key < KEYS; key++) {
-        c.codes[key] = code_at(codes, key);
-        c.depths[key] = placement_of(d, key)->now.depths;
-        near_codes |= c.codes[key] & OUT_NEAR;
-    }
-    const bool passes = near_codes != 0 && !is_orthographic(&d->at.now);
-    if (passes && d->apart == 0)
-        d->apart = find_apart(b, &c.polygon);
-    c.interval = 0;
-    c.face = smear_face_of(d, triangle, back);
-    struct smear_clip_vertex *corner = c.polygon.vertex;
-    const uint16_t index[3] = { (uint16_t)vertex[0]->tag, (uint16_t)vertex[1]->tag, (uint16_t)vertex[2]->tag };
-    place_corners(corner, d, index);
-    for (int i = 0; i < 3; i++)
-        smear_vertex_for_clipping(&corner[i], d, b->segment, index[i], &c.face);
-    if (!passes)
-        return add_cut(b, &c);
-    if (safe_distance(corner, d) > d->apart || !is_apart(&c.polygon, b, d->apart))
-        return add_intervals(b, &c);
-    c.depths[MIDDLE].near_distance = d->apart;
-    for (int key = 0; key < KEYS; key++)
-        c.codes[key] = (c.codes[key] & ~OUT_NEAR) | OUT_GUARD;
-    c.codes[MIDDLE] |= OUT_NEAR;
-    return add_cut(b, &c);
 }
 
 /* ------------------------------------------------------------------ the loop */
@@ -596,6 +452,14 @@ static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
     return cache;
 }
 
+static inline void make_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag,
+                               struct path_places *places)
+{
+    if (!path_places_take(v, places, tag))
+        find_vertex(v, a, d, tag);
+    find_kind(v, is_orthographic(&d->at.now));
+}
+
 static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
                                    const struct smear_assembly *d, uint32_t tag,
                                    const struct path_vertex *in_use1, const struct path_vertex *in_use2,
@@ -610,8 +474,7 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
     }
     if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
         v = spare;
-    if (!path_places_take(v, places, tag))
-        find_vertex(v, a, d, tag);
+    make_vertex(v, a, d, tag, places);
     return v;
 }
 
@@ -628,9 +491,10 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
             b->a->triangles_dropped++;
             return true;
         }
-        if (any & OUT_CLIP)
-            return add_clipped_path(b, v, triangle, codes, false)
-                && (!d->material->double_sided || add_clipped_path(b, v, triangle, codes, true));
+        if (codes & IN_SPACE)       /* bounds tell which sides are seen */
+            return add_triangle(b, v[0], v[d->mirrored ? 1 : 2], v[d->mirrored ? 2 : 1], triangle, false)
+                && (!d->material->double_sided
+                    || add_triangle(b, v[0], v[d->mirrored ? 2 : 1], v[d->mirrored ? 1 : 2], triangle, true));
     }
     /* Which sides are seen at some instant; a side that is not drawn counts as seen. */
     bool front = false, behind = !d->material->double_sided;
@@ -661,8 +525,7 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     /* One after the other they cost less. */
     if (d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
-            if (!path_places_take(&cache[i], &places, tag + i))
-                find_vertex(&cache[i], a, d, tag + i);
+            make_vertex(&cache[i], a, d, tag + i, &places);
 #endif
     for (uint32_t i = first; i < d->end; i++, index += 3) {
         struct path_vertex *v[3];

@@ -5,10 +5,9 @@
 
 #include "geometry/vertex.h"
 
-/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the guard band (or the near plane of an
- * orthographic camera) cuts at some instant lose what lies beyond it there, for the whole exposure. Those that pass the
- * near plane of a perspective are cut where nothing nearer is seen or, where that is nowhere, listed in intervals of
- * the exposure (smear_path_bounds.interval). */
+/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the near or far
+ * plane or the guard band cuts at some instant, or whose vertices no parabola follows, are listed whole, to be cut at each
+ * instant (space.h). */
 bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *draw);
 
 #endif

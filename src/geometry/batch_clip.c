@@ -21,15 +21,14 @@ static uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
 
-/* Stores the words of MOTION_*: the point of the surface that is at `now` on the screen is at `h` in another pose. */
+/* Stores the words of MOTION_*: the point of the surface that is at `screen`, as far away as w, is at `h` in another pose. */
 static SMEAR_NOINLINE void store_pose(uint32_t *out, const struct smear_assembly *d, int pose, const struct smear_homogeneous *h,
-                                      const struct smear_homogeneous *now, const struct smear_screen *screen,
-                                      const struct smear_viewport *viewport)
+                                      int32_t w, int w_scale, const struct smear_screen *screen, const struct smear_viewport *viewport)
 {
     /* x' / w in q8 and w' / w in q20; the pose's rows have a scale of their own. */
-    int scale = d->at.now.scale - d->motion.measured.pose[pose].scale;
-    int zeros = count_leading_zeros((uint32_t)now->w);
-    int32_t r = (int32_t)recip_norm((uint32_t)now->w << zeros);         /* 2^(61 - zeros) / w */
+    int scale = w_scale - d->motion.measured.pose[pose].scale;
+    int zeros = count_leading_zeros((uint32_t)w);
+    int32_t r = (int32_t)recip_norm((uint32_t)w << zeros);              /* 2^(61 - zeros) / w */
     /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
     int up = count_leading_zeros((uint32_t)(abs_i32(h->x) | abs_i32(h->y) | abs_i32(h->w) | 1)) - 1;
     int shift = zeros - 29 + scale - up;
@@ -60,7 +59,7 @@ void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t ind
 #endif
     for (int pose = 0; pose < segment_moves(b->segment); pose++) {
         pose_transform(h, d, pose, index);
-        store_pose(out + pose * MOTION_WORDS, d, pose, h, known, screen, &b->a->viewport);
+        store_pose(out + pose * MOTION_WORDS, d, pose, h, known->w, d->at.now.scale, screen, &b->a->viewport);
     }
 }
 
@@ -73,34 +72,31 @@ struct clipped {
 };
 
 /* Clips the triangle, its vertices shaded as those of c->face, and projects what is left. */
-static void clip_and_project(struct clipped *c, const struct batch *b,
+static void clip_and_project(struct clipped *c, struct batch *b,
                              const struct smear_cached_vertex *const corner[3])
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
     const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
+    const struct smear_screen *own[3];
+    if (!b->has_fine)
+        d->place_fine(&b->fine, d, 2, projection_coarse(b->a->viewport.height, is_orthographic(&d->at.now)));
+    b->has_fine = true;
     for (int i = 0; i < 3; i++) {
         struct smear_clip_vertex *v = &c->polygon.vertex[i];
         const uint32_t index = index_of(corner[i]);
-        const struct smear_homogeneous *now = cached_now(corner[i]);
-        if (!SMEAR_FAST_STACK)
-            v->now = *now;
-        else
-            placement_transform(&v->now, &d->at, index);
+        placement_transform(&v->now, &b->fine, index);
+        own[i] = (corner[i]->outcode & OUT_NEAR) != 0 ? NULL : &corner[i]->screen;
         for (int pose = 0; pose < poses; pose++)
             pose_transform(&v->pose[pose], d, pose, index);
         smear_vertex_for_clipping(v, d, s, index, &c->face);
     }
     smear_clip_start(&c->polygon, poses, segment_textured(s), segment_colored(s));
-    smear_clip_polygon(&c->polygon, &d->at.now.depths, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
+    smear_clip_polygon(&c->polygon, &b->fine.now.depths, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
+    smear_clip_project(c->screen, &c->polygon, own, &b->fine.now.depths, &b->a->viewport);
     c->area = 0;
-    for (int i = 0; i < c->polygon.count; i++) {
-        smear_project(&c->screen[i], &d->at.now.depths, &clip_corner(&c->polygon, i)->now, &b->a->viewport);
-        if (i >= 2)
-            c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
-    }
-    for (int i = 0; i < c->polygon.count; i++)
-        screen_clamp(&c->screen[i], &b->a->viewport);
+    for (int i = 2; i < c->polygon.count; i++)
+        c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
 }
 
 /* Stores corner i of the polygon; returns the offset of its record in the segment. */
@@ -115,7 +111,8 @@ static uint16_t store_corner(const struct batch *b, struct clipped *c, int i)
     store_place(record, &c->screen[i]);
     smear_vertex_store_clipped(record, s, v);
     for (int pose = 0; pose < segment_moves(s); pose++)
-        store_pose(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], &v->now, &c->screen[i], &b->a->viewport);
+        store_pose(record + s->motion + pose * MOTION_WORDS, b->d, pose, &v->pose[pose], v->now.w, b->fine.now.scale, &c->screen[i],
+                   &b->a->viewport);
     return (uint16_t)(word - s->base);
 }
 
@@ -136,7 +133,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
         b->parts++;
         return true;
     }
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, 1);
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 1, 0);
     if (s == NULL)
         return false;
     b->segment = s;

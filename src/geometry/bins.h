@@ -39,21 +39,18 @@ struct smear_path_bounds {
     uint16_t curvature;     /* the largest path_curvature of a vertex, 1/16 px, saturated */
     uint16_t nearest;       /* depth code that is not exceeded */
     uint8_t flags;          /* PATH_TEXTURED ... */
-    uint8_t interval;       /* 0: the whole exposure. k: its places are those at begin, middle and end of the
-                             * k-th of PATH_INTERVALS parts of the exposure, and it is there only then */
+    uint8_t space;          /* bit k: vertex k moves along a path in space (space.h) */
 };
 
 enum {
     PATH_TEXTURED = 1,
     PATH_SUBFRAMES = 2,     /* a cutout or blended: closed forms do not hold */
-    PATH_INTERVAL = 4,      /* it is there for an interval of the exposure only */
+    PATH_SPACE = 4,         /* a vertex moves along a path in space */
     PATH_FLAT = 8,          /* vertices have (nearly) one colour, which is the triangle's `color` */
     PATH_LARGE = 16         /* its path is seen in more than PATH_LARGE_PX pixels of the frame along x or y */
 };
 
 enum { PATH_LARGE_PX = 24 };        /* smaller ones lie in few tiles */
-
-enum { PATH_INTERVALS = 16 };
 
 enum smear_shade_mode {
     SHADE_NONE,             /* texel alone */
@@ -74,6 +71,7 @@ struct smear_segment {
     uint8_t flat;           /* its triangles are flat, though vertices had colours: all the same */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
                              * place of motion words; moves is 0 */
+    int8_t scale;           /* of paths in space: log2 of W per unit (struct smear_projection) */
 };
 
 /* These are false at compile time where the methods and surfaces that need them were left out. */
@@ -131,6 +129,7 @@ struct smear_bins {
     uint32_t triangle_count;        /* in use, from the top */
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
+    const smear_camera *camera;     /* before which paths in space are cut */
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
     uint16_t moving_rows;           /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */

@@ -4,6 +4,9 @@
 
 #include "base/fixmath.h"
 
+enum { GUARD_LOG2 = 11 };
+SMEAR_STATIC_ASSERT(SMEAR_GUARD_PX == 1 << GUARD_LOG2, "the guard band, px");
+
 enum plane { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANES };
 
 /* Returns the signed distance from a plane: negative outside, below 2^43. */
@@ -13,10 +16,10 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
     switch (plane) {
     case PLANE_NEAR:   return (int64_t)h->distance - depths->near_distance;
     case PLANE_FAR:    return (int64_t)depths->far_distance - h->distance;
-    case PLANE_LEFT:   return (int64_t)h->w * SMEAR_GUARD_PX + h->x;
-    case PLANE_RIGHT:  return (int64_t)h->w * SMEAR_GUARD_PX - h->x;
-    case PLANE_TOP:    return (int64_t)h->w * SMEAR_GUARD_PX + h->y;
-    default:           return (int64_t)h->w * SMEAR_GUARD_PX - h->y;
+    case PLANE_LEFT:   return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) + h->x;
+    case PLANE_RIGHT:  return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) - h->x;
+    case PLANE_TOP:    return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) + h->y;
+    default:           return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) - h->y;
     }
 }
 
@@ -27,14 +30,14 @@ static bool is_outside(const struct smear_clip_vertex *v, const struct smear_dep
     return distance_to(v, depths, plane) < 0;
 #else
     const struct smear_homogeneous *h = &v->now;
-    SMEAR_STATIC_ASSERT(SMEAR_GUARD_PX == 1 << 11, "the shift");
+    const int guard_log2 = GUARD_LOG2 - depths->coarse;
     int32_t a = plane >= PLANE_TOP ? h->y : h->x;
     switch (plane) {
     case PLANE_NEAR:    return h->distance < depths->near_distance;
     case PLANE_FAR:     return h->distance > depths->far_distance;
     case PLANE_LEFT:
-    case PLANE_TOP:     return a >> 11 < -h->w;
-    default:            return -a >> 11 < -h->w;
+    case PLANE_TOP:     return a >> guard_log2 < -h->w;
+    default:            return -a >> guard_log2 < -h->w;
     }
 #endif
 }
@@ -47,15 +50,6 @@ static int32_t mix(int32_t a, int32_t b, int32_t t)
 #else
     return (int32_t)(a + ((((int64_t)b - a) * t + (1 << 29)) >> 30));
 #endif
-}
-
-static void mix_homogeneous(struct smear_homogeneous *out, const struct smear_homogeneous *a,
-                            const struct smear_homogeneous *b, int32_t t)
-{
-    out->x = mix(a->x, b->x, t);
-    out->y = mix(a->y, b->y, t);
-    out->w = mix(a->w, b->w, t);
-    out->distance = mix(a->distance, b->distance, t);
 }
 
 /* Brings a new vertex onto its plane: rounding may leave it a step outside, and W must be positive to divide by it. */
@@ -71,71 +65,67 @@ static void settle(struct smear_homogeneous *h, const struct smear_depths *depth
 }
 
 /* Finds the vertex where the edge from `in` to `out` meets the plane. */
-static void cut(struct smear_clip_polygon *polygon, struct smear_clip_vertex *result,
+static void cut(const struct smear_clip_polygon *polygon, struct smear_clip_vertex *result,
                 const struct smear_clip_vertex *in, const struct smear_clip_vertex *out,
                 const struct smear_depths *depths, enum plane plane)
 {
     int64_t d = distance_to(in, depths, plane);
     int32_t t = ratio_q30(d, d - distance_to(out, depths, plane));
-    mix_homogeneous(&result->now, &in->now, &out->now, t);
+    const int32_t *const a = (const int32_t *)(const void *)in, *const b = (const int32_t *)(const void *)out;
+    int32_t *const between = (int32_t *)(void *)result;
+    for (int i = 0; i < polygon->words; i++)
+        between[i] = mix(a[i], b[i], t);
     settle(&result->now, depths, plane);
-    for (int i = 0; i < polygon->poses; i++)
-        mix_homogeneous(&result->pose[i], &in->pose[i], &out->pose[i], t);
-    for (int i = 0; i < 2 && polygon->textured; i++)
-        result->uv[i] = (int16_t)mix(in->uv[i], out->uv[i], t);
-    for (int i = 0; i < CLIP_COLORS && polygon->colored; i++)
-        result->color[i] = (uint16_t)mix(in->color[i], out->color[i], t);
 }
 
 static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_depths *depths, enum plane plane)
 {
     const int count = polygon->count;
-    uint32_t outside = 0;       /* a bit per corner */
-    int kept = count;
+    uint32_t outside = 0, used = 7;     /* a bit per corner; per vertex */
+    int fresh = SMEAR_CLIP_MAX - count; /* where edges were moved by rounding, a new corner may find no room */
     for (int i = 0; i < count; i++) {
         const bool is_out = is_outside(clip_corner(polygon, i), depths, plane);
         outside |= (uint32_t)is_out << i;
-        kept -= is_out;
+        used |= 1u << polygon->order[i];
+        fresh += is_out;
     }
     if (outside == 0)
         return;
-    /* So many new corners at most: where edges were moved by rounding, or three poses left many, one may find no room. */
-    const int fresh_end = count + min_i32(SMEAR_CLIP_MAX - kept, SMEAR_CLIP_ROOM - count);
-    uint8_t order[SMEAR_CLIP_ROOM];
-    int result = 0, unused = SMEAR_CLIP_ROOM, fresh = count;
+    uint8_t order[SMEAR_CLIP_MAX];
+    int result = 0, vertex = 3;
     for (int i = 0; i < count; i++) {
         const int next = i + 1 == count ? 0 : i + 1;
         const bool is_out = outside >> i & 1u;
-        if (is_out)
-            order[--unused] = polygon->order[i];
-        else
+        if (!is_out)
             order[result++] = polygon->order[i];
-        if (is_out == (outside >> next & 1u) || fresh == fresh_end)
+        if (is_out == (outside >> next & 1u) || fresh == 0)
             continue;
-        const uint8_t corner = polygon->order[fresh++];
-        cut(polygon, &polygon->vertex[corner], clip_corner(polygon, is_out ? next : i),
+        while ((used >> vertex & 1u) != 0)
+            vertex++;
+        if (vertex == SMEAR_CLIP_ROOM)
+            continue;
+        cut(polygon, &polygon->vertex[vertex], clip_corner(polygon, is_out ? next : i),
             clip_corner(polygon, is_out ? i : next), depths, plane);
-        order[result++] = corner;
+        fresh--;
+        order[result++] = (uint8_t)vertex++;
     }
-    while (fresh < SMEAR_CLIP_ROOM)
-        order[--unused] = polygon->order[fresh++];
-    for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
+    for (int i = 0; i < result; i++)
         polygon->order[i] = order[i];
-    SMEAR_ASSERT(result <= SMEAR_CLIP_MAX);
     polygon->count = result < 3 ? 0 : result;
 }
 
 /* Whether some corner may lie beyond one of the four sides: most polygons stay within. */
-static bool leaves_guard(struct smear_clip_polygon *p)
+static bool leaves_guard(struct smear_clip_polygon *p, const struct smear_depths *depths)
 {
 #ifndef __OPTIMIZE_SIZE__
     for (int i = 0; i < p->count; i++) {
         const struct smear_homogeneous *h = &clip_corner(p, i)->now;
-        if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> 11 >= h->w)
+        if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> (GUARD_LOG2 - depths->coarse) >= h->w)
             return true;
     }
     return false;
 #else
+    (void)depths;
     return p->count != 0;
 #endif
 }
@@ -143,10 +133,9 @@ static bool leaves_guard(struct smear_clip_polygon *p)
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored)
 {
     p->count = 3;
-    p->poses = (uint8_t)poses;
-    p->textured = textured;
-    p->colored = colored;
-    for (int i = 0; i < SMEAR_CLIP_ROOM; i++)
+    p->words = (uint8_t)(poses != 0 ? 6 + CLIP_COLORS + 4 * poses : colored ? 6 + CLIP_COLORS : textured ? 6 : 4);
+    SMEAR_STATIC_ASSERT(CLIP_COLORS == 0 || sizeof(struct smear_clip_vertex) == 4 * (6 + CLIP_COLORS + 4 * CLIP_ROOM(CLIP_POSES)), "words");
+    for (int i = 0; i < 3; i++)
         p->order[i] = (uint8_t)i;
 }
 
@@ -157,7 +146,21 @@ void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths 
     if (codes & OUT_FAR)
         clip_plane(p, depths, PLANE_FAR);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
-    if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p))
+    if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p, depths))
         for (int plane = PLANE_LEFT; plane < PLANES; plane++)
             clip_plane(p, depths, (enum plane)plane);
+}
+
+void smear_clip_project(struct smear_screen out[SMEAR_CLIP_MAX], struct smear_clip_polygon *p, const struct smear_screen *const place[3],
+                        const struct smear_depths *depths, const struct smear_viewport *viewport)
+{
+    for (int i = 0; i < p->count; i++) {
+        const int corner = p->order[i];
+        if (corner < 3 && place[corner] != NULL) {
+            out[i] = *place[corner];
+            continue;
+        }
+        smear_project(&out[i], depths, &p->vertex[corner].now, viewport);
+        screen_clamp(&out[i], viewport);
+    }
 }

@@ -7,34 +7,32 @@
 
 /* How many poses and colour channels are in use. */
 enum {
-    CLIP_POSES = SMEAR_WITH_RECONSTRUCT || SMEAR_WITH_SUBFRAMES ? 2 : 0,
+    CLIP_POSES = SMEAR_WITH_RECONSTRUCT ? 2 : 0,
     CLIP_COLORS = SMEAR_WITH_GOURAUD ? 4 : 0
 };
 /* Arrays have room for one at least. */
 #define CLIP_ROOM(count) ((count) > 0 ? (count) : 1)
 
-/* All that is interpolated along a cut edge. Poses other than the present one are cut at the same place of
- * the surface, so that velocities stay right up to the near plane. */
+/* All that is interpolated along a cut edge: words, of which a polygon has the first ones. Poses other than the present one are cut
+ * at the same place of the surface, so that velocities stay right up to the near plane. */
 struct smear_clip_vertex {
     struct smear_homogeneous now;
+    int32_t uv[2];                                          /* mesh units */
+    int32_t color[CLIP_ROOM(CLIP_COLORS)];                  /* 0 .. 65535 */
     struct smear_homogeneous pose[CLIP_ROOM(CLIP_POSES)];   /* open, close; each in its own projection's scale */
-    int16_t uv[2];                                          /* mesh units */
-    uint16_t color[CLIP_ROOM(CLIP_COLORS)];                 /* 0 .. 65535 */
 };
 
-/* A triangle cut by six planes has at most nine corners. Cut in three poses it may have more, but hardly ever has. */
-#define SMEAR_CLIP_MAX (SMEAR_WITH_SUBFRAMES ? 12 : 9)
+/* A triangle cut by six planes has at most nine corners. */
+#define SMEAR_CLIP_MAX 9
 
-/* A cut makes two corners before those outside it are given up; one whose edges rounding moved makes a few more. */
-#define SMEAR_CLIP_ROOM (SMEAR_CLIP_MAX + 4)
+/* The triangle's own vertices stay where they are; a cut makes two corners before those outside it are given up. */
+#define SMEAR_CLIP_ROOM (3 + SMEAR_CLIP_MAX + 2)
 
-/* A convex polygon: its corners are vertex[order[0]], vertex[order[1]] ... Behind them `order` names the vertices
- * that are free: nothing is moved when a corner goes. */
+/* A convex polygon: its corners are vertex[order[0]], vertex[order[1]] ... Nothing is moved when a corner goes. */
 struct smear_clip_polygon {
     int count;
-    uint8_t poses;              /* how many of a vertex's poses are in use */
-    bool textured, colored;     /* uv and colours are in use */
-    uint8_t order[SMEAR_CLIP_ROOM];
+    uint8_t words;              /* of a vertex that are in use */
+    uint8_t order[SMEAR_CLIP_MAX];
     struct smear_clip_vertex vertex[SMEAR_CLIP_ROOM];
 };
 
@@ -43,12 +41,17 @@ static inline struct smear_clip_vertex *clip_corner(struct smear_clip_polygon *p
     return &p->vertex[p->order[i]];
 }
 
-/* Starts with the triangle of vertex[0 .. 2], which the caller fills in. */
+/* Starts with the triangle of vertex[0 .. 2], which the caller fills in: with `poses` also uv and colours, with colours also uv. */
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored);
 
 /* Clips the polygon; `count` is 0 when nothing is left. `codes` is the union of the outcodes of its corners: only
  * those planes are looked at. An edge is always cut from its inner towards its outer end, so two triangles
  * that share it get the same new vertex, bit for bit. */
 void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths *depths, int codes);
+
+/* Finds where the corners are on the screen. Those that are vertices of the triangle stay at `place`, where they are for
+ * triangles beside it; null: that is not known. */
+void smear_clip_project(struct smear_screen out[SMEAR_CLIP_MAX], struct smear_clip_polygon *p, const struct smear_screen *const place[3],
+                        const struct smear_depths *depths, const struct smear_viewport *viewport);
 
 #endif

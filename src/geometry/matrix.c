@@ -197,11 +197,9 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
 
-/* Sets the near and far plane and the factor of depth units, in the scale of `distance`. */
-static void set_distances(struct smear_projection *p, const smear_camera *camera)
+void smear_depths_make(struct smear_depths *d, const smear_camera *camera, int scale)
 {
-    struct smear_depths *d = &p->depths;
-    int scale = p->distance_scale;
+    d->orthographic = camera->half_height > 0;
     /* Rows stay below 2^30, so what lies farther is in front of a plane that is clamped there. */
     d->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
     d->far_distance = camera->far_plane == 0 ? INT32_MAX
@@ -222,20 +220,25 @@ static void set_distances(struct smear_projection *p, const smear_camera *camera
     }
 }
 
+/* Bits that are left for sums of poses and for parabolas through three of them: at any instant, and in sharp frames, too, so that
+ * what stands still on the screen is rounded alike in all. */
+enum { FINE_ROOM = 3 };
+
 void smear_projection_make(struct smear_projection *p, const struct smear_view *view,
-                           const smear_camera *camera, int height_px)
+                           const smear_camera *camera, int height_px, int coarse)
 {
     const struct factor one = { 1 << 29, -29 };
     p->depths.orthographic = camera->half_height > 0;
+    p->depths.coarse = (uint8_t)coarse;
 
     /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
     struct factor pixels;
     if (is_orthographic(p)) {
         struct factor half = factor_from(camera->half_height, -16);
         uint32_t r = recip_norm_precise((uint32_t)min_i32(half.mantissa, (1 << 30) - 1) << 2);
-        pixels = factor_from((int64_t)r * height_px, -61 + 2 - 1 - half.exponent);
+        pixels = factor_from((int64_t)r * height_px, -61 + 2 - 1 - half.exponent - coarse);
     } else {
-        pixels = factor_from((int64_t)camera->focal * height_px, -17);
+        pixels = factor_from((int64_t)camera->focal * height_px, -17 - coarse);
     }
 
     /* The largest row decides the scale; the unit W of an orthographic camera must fit as well. */
@@ -243,6 +246,8 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     int bits_z = row_bits(view, 2, one);
     bits = is_orthographic(p) ? max_i32(bits, 1) : max_i32(bits, bits_z);
     int scale = min_i32(30 - bits, 48);
+    if (coarse != 0)
+        scale -= FINE_ROOM;
     p->scale = (int16_t)scale;
     fill_row(p->m[0], view, 0, pixels, 1, scale);
     fill_row(p->m[1], view, 1, pixels, -1, scale);          /* the screen's y points down */
@@ -260,7 +265,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     fill_row(distance, view, 2, one, -1, scale);            /* the camera looks along -z */
 
     p->distance_scale = (int16_t)scale;
-    set_distances(p, camera);
+    smear_depths_make(&p->depths, camera, scale);
 }
 
 /* Returns how many rows count: the last row of a perspective stays zero. */
@@ -269,45 +274,38 @@ static int rows_of(const struct smear_projection *p)
     return is_orthographic(p) ? 4 : 3;
 }
 
-/* Multiplies a projection by a weight (q24) and brings it to new scales. */
-static void weigh(struct smear_projection *p, int32_t weight, int scale, int distance_scale)
-{
-    for (int row = 0; row < rows_of(p); row++) {
-        bool is_distance = row == 3 || (row == 2 && !is_orthographic(p));
-        int shift = is_distance ? distance_scale - p->distance_scale : scale - p->scale;
-        for (int j = 0; j < 4; j++) {
-            int32_t m = scale_inline((int64_t)p->m[row][j] * weight, shift - 24);
-            p->m[row][j] = j < 3 ? m & ~3 : m;
-        }
-    }
-    p->scale = (int16_t)scale;
-    p->distance_scale = (int16_t)distance_scale;
-}
-
-void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count, int room,
+void smear_projection_weigh(struct smear_projection p[], const int32_t weight[], const int16_t *const position[], int count,
                             const smear_camera *camera)
 {
-    int scale = projection[0].scale, distance_scale = projection[0].distance_scale;
-    uint32_t sum = 0;           /* q20: each is below 2^7 */
-    for (int i = 0; i < count; i++)
-        sum += (uint32_t)abs_i32(weight[i]) >> 4;
-    while (sum > 2u << (20 + room))
-        room++;
-    for (int i = 1; i < count; i++) {
-        scale = min_i32(scale, projection[i].scale);
-        distance_scale = min_i32(distance_scale, projection[i].distance_scale);
+    int scale = p[0].scale, distance_scale = p[0].distance_scale;
+    const int have = p[0].depths.coarse != 0 ? FINE_ROOM - 2 : 0;       /* parabolas have two of them */
+    int room = 1 - have;
+    uint32_t all = 0;           /* q20: each is below 2^7 */
+    for (int i = 0; i < count; i++) {
+        all += (uint32_t)abs_i32(weight[i]) >> 4;
+        scale = min_i32(scale, p[i].scale);
+        distance_scale = min_i32(distance_scale, p[i].distance_scale);
     }
-    for (int i = 0; i < count; i++)
-        weigh(&projection[i], weight[i], scale - room, distance_scale - room);
-    /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
-    for (int i = 0; i < count && is_orthographic(&projection[0]); i++)
-        projection[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
-    set_distances(&projection[0], camera);
-}
-
-void smear_projection_add(struct smear_projection *a, const struct smear_projection *b)
-{
-    for (int row = 0; row < rows_of(a); row++)
-        for (int j = 0; j < 4; j++)
-            a->m[row][j] = add_wrap(a->m[row][j], b->m[row][j]);
+    while (all > 1u << (20 + room + have))      /* rows stay below 2^30 */
+        room++;
+    for (int row = 0; row < rows_of(p); row++)
+        for (int j = 0; j < 4; j++) {
+            int64_t sum = 0;
+            for (int i = count - 1; i >= 0; i--) {
+                const int down = row == 3 ? p[i].distance_scale - distance_scale : p[i].scale - scale;
+                const int64_t term = (int64_t)p[i].m[row][j] * weight[i] >> min_i32(down, 62);
+                const bool is_first = i == 0 || (position != NULL && position[i] == position[0]);
+                const int32_t m = scale_inline(is_first ? sum + term : term, -24 - room);
+                sum += is_first ? term : 0;
+                p[i].m[row][j] = j < 3 ? m & ~3 : m;
+            }
+        }
+    for (int i = 0; i < count; i++) {
+        p[i].scale = (int16_t)(scale - room);
+        p[i].distance_scale = (int16_t)(distance_scale - room);
+        /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
+        if (is_orthographic(&p[0]))
+            p[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
+    }
+    smear_depths_make(&p[0].depths, camera, p[0].distance_scale);
 }

@@ -7,7 +7,7 @@
 
 #include "smear.h"
 
-#include "base/fixed.h"
+#include "base/fixmath.h"
 
 /* What clipping and the division know of a projection: its near and far plane, and what makes depths of distances. */
 struct smear_depths {
@@ -16,6 +16,7 @@ struct smear_depths {
                                  * 2^depth_shift, see transform.c */
     int16_t depth_shift;
     bool orthographic;
+    uint8_t coarse;             /* X / W and Y / W are in units of 2^coarse pixels, up to 2^11 */
 };
 
 /* Whether the camera is orthographic: depths go with distances, not with 1/distance. */
@@ -29,7 +30,7 @@ static inline bool depths_are_even(const struct smear_depths *d)
  *     row r = floor(sum v_j m[r][j] / 2^16) + m[r][3],      |row| < 2^30 for every v, however wild the input
  *
  * The factors m[r][0..2] are multiples of 4, which lets cores without a wide multiply find the same floor.
- * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels right of and
+ * Rows 0, 1, 2 are X, Y, W in one scale of 2^scale: X / W and Y / W are pixels (or some) right of and
  * below the frame's centre. `distance` is W for perspective; an orthographic camera has W
  * constant and distance in row 3, in steps of its own. */
 struct smear_projection {
@@ -48,24 +49,28 @@ struct smear_view {
     int basis_exp;
 };
 
+/* Returns the units of X / W with which X, Y and W have about as many bits: a frame's height is one or two of them. Where
+ * triangles are cut, near the eye, distances must be more exact than vertices are that have W in units of a pixel's X. */
+static inline int projection_coarse(int32_t height_px, bool orthographic)
+{
+    return orthographic ? 0 : 31 - count_leading_zeros((uint32_t)height_px);
+}
+
+/* Fills in the near and far plane and the factor of depth units of a camera, where `distance` has 2^scale per unit. */
+void smear_depths_make(struct smear_depths *depths, const smear_camera *camera, int scale);
+
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
                         const smear_mesh *mesh, const smear_transform *camera);
 
-/* Makes the projection of a view for frames of height_px rows. */
+/* Makes the projection of a view for frames of height_px rows. `coarse`: as struct smear_depths has it, projection_coarse or 0. */
 void smear_projection_make(struct smear_projection *projection, const struct smear_view *view,
-                           const smear_camera *camera, int height_px);
+                           const smear_camera *camera, int height_px, int coarse);
 
-/* Makes the terms of a pose between known ones: the sum of weight[i] x projection[i], which is linear in clip space.
- * The `count` projections are of one draw; weights in q24 add up to one. All projections get one scale, with room for
- * the sum of vertices that differ from pose to pose: `room` bits less, or more where large weights ask for them. The
- * distances of projection[0] then hold for the sum. */
-void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], int count, int room,
+/* Makes the terms of a pose between known ones: the sum of weight[i] x projection[i], which is linear in clip space. The `count`
+ * projections are of one draw; weights in q24 add up to one. Those whose vertices, position[i], are the first one's are added to
+ * it, and rounded once: where nothing turns, the sum is as a pose's own. The others stay terms of their own; all do where `position`
+ * is null. They get one scale, with room for the sum, and the distances of projection[0] hold for it. */
+void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], const int16_t *const position[], int count,
                             const smear_camera *camera);
-
-/* Weights of a 3600-degree shutter reach 11 and -10: four bits of room. Within the poses of an exposure one will do. */
-enum { ROOM_USUAL = 4, ROOM_WITHIN = 1 };
-
-/* Adds the rows of `b` to `a`, for draws whose vertices are the same in both poses. */
-void smear_projection_add(struct smear_projection *a, const struct smear_projection *b);
 
 #endif

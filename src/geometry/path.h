@@ -78,6 +78,15 @@ static inline void path_place(int32_t out[3], const int32_t *record, const int32
 #endif
 }
 
+/* Whether a vertex whose places at open and close are given is shifted along an axis from instant to instant, for smooth edges.
+ * Along its way it moves by itself, and steps that were not even would show; a way below two pixels does not do for that. */
+static inline bool path_is_shifted(const int32_t *open, int axis)
+{
+    const int32_t *close = open + PATH_POSE_WORDS;
+    const int32_t along = abs_i32(close[axis] - open[axis]);
+    return along < 512 || along < abs_i32(close[1 - axis] - open[1 - axis]);
+}
+
 /* Finds x, y and depth of three vertices at a phase, of which `vertex` has the first words from `base` on, and the box of them: the
  * least x and y, and the largest. `near`: no curvature, open + close - 2 middle, reaches 2^16 along x or y. */
 static inline void path_triangle_reference(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3],
@@ -114,16 +123,6 @@ static inline void path_triangle(int32_t box[4], struct path_record out[3], cons
 static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
 {
     path_place(out, record, record + s->motion, path_phase(time));
-}
-
-/* Turns a time of the exposure into one of the interval for which a triangle's places hold (struct
- * smear_path_bounds.interval). Returns false where it lies outside. */
-static inline bool path_interval_time(int32_t *time, int interval)
-{
-    if (interval == 0)
-        return true;
-    *time = *time * PATH_INTERVALS - (interval - 1) * SHUTTER_CLOSE;
-    return (uint32_t)*time < SHUTTER_CLOSE;
 }
 
 /* Returns twice the distance of the middle from the chord, in q8 px: |open + close - 2 middle|, the larger of x and

@@ -198,6 +198,7 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
         p->position[i] = d->mesh->position;
         p->projected[i] = false;
     }
+    p->coarse = 0;
     p->deform = 256;
     if (SMEAR_BLURS && moves) {
         p->camera[1] = &camera[1];
@@ -219,7 +220,7 @@ static const struct smear_projection *project_pose(struct smear_draw_poses *p, c
     if (!p->projected[i]) {
         struct smear_view view;
         smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-        smear_projection_make(&p->projection[i], &view, p->camera[i], shot->height);
+        smear_projection_make(&p->projection[i], &view, p->camera[i], shot->height, p->coarse);
         p->projected[i] = true;
     }
     return &p->projection[i];
@@ -253,7 +254,7 @@ static void place_deformed(struct smear_placement *out, const struct smear_draw_
     const int32_t older = part_at(p, -bend), last = part_at(p, time) - 2 * older;
     const int32_t weight[3] = { (1 << 24) - last - older, last, older };
     out->extra_count = bends ? 2 : 1;
-    smear_projection_weigh(term, weight, out->extra_count + 1, ROOM_WITHIN, p->camera[0]);
+    smear_projection_weigh(term, weight, NULL, out->extra_count + 1, p->camera[0]);
     out->now = term[0];
     for (int i = 0; i < out->extra_count; i++) {
         out->extra[i] = term[i + 1];
@@ -290,17 +291,15 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         }
     }
     if (count > 1)
-        smear_projection_weigh(sum, weight, count, shot_is_curved(shot) ? ROOM_WITHIN : ROOM_USUAL, p->camera[0]);
+        smear_projection_weigh(sum, weight, position, count, p->camera[0]);
     out->now = sum[0];
     out->position = position[0];
     for (int k = 1; k < count; k++) {
-        if (!SMEAR_WITH_DEFORM || position[k] == out->position) {
-            smear_projection_add(&out->now, &sum[k]);
-        } else {
-            SMEAR_ASSERT(out->extra_count < 2);         /* that of now is the first, or there is one more */
-            out->extra[out->extra_count] = sum[k];
-            out->extra_position[out->extra_count++] = position[k];
-        }
+        if (!SMEAR_WITH_DEFORM || position[k] == out->position)
+            continue;
+        SMEAR_ASSERT(out->extra_count < 2);             /* that of now is the first, or there is one more */
+        out->extra[out->extra_count] = sum[k];
+        out->extra_position[out->extra_count++] = position[k];
     }
     if (deforms_on_curve(p, shot) && instant->time != 0)
         place_deformed(out, p, instant->time);
@@ -320,7 +319,7 @@ void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, 
                                 : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
     const int32_t weight[2] = { part, (1 << 24) - part };
     a->has_rest = a->has_rest || weight[1] != 0;
-    smear_projection_weigh(both, weight, 2, curves ? ROOM_WITHIN : ROOM_USUAL, p->camera[0]);
+    smear_projection_weigh(both, weight, NULL, 2, p->camera[0]);
     m->pose[i] = both[0];
     m->rest[i] = both[1];
 }

@@ -7,16 +7,6 @@ void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_pr
     transform_inline(out, p, v);
 }
 
-/* Returns a r 2^shift with r = 2^61 / m in [2^29, 2^30]. The high product comes first, so only the last bits are
- * lost. */
-static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
-{
-    int32_t high = mulh_i32(a, (int32_t)r);
-    if (shift < 0 && shift > -32)
-        return (high + (1 << (-shift - 1))) >> -shift;      /* |high| < 2^30: no overflow */
-    return scale_sat(high, clamp_i32(shift, -31, 31));
-}
-
 void smear_project(struct smear_screen *out, const struct smear_depths *d, const struct smear_homogeneous *in,
                    const struct smear_viewport *viewport)
 {
@@ -26,7 +16,7 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
 
     /* x r / 2^32 = x/w 2^(29 - zeros); q8 wants 2^8. */
     int32_t x = mulh_i32(in->x, (int32_t)r), y = mulh_i32(in->y, (int32_t)r);
-    int down = 21 - zeros;
+    int down = 21 - zeros - d->coarse;
     if (down > 0) {
         int32_t half = 1 << (down - 1);
         x = (x + half) >> down;
@@ -39,11 +29,8 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
     out->x = (viewport->width << 7) + x;
     out->y = (viewport->height << 7) + y;
 
-    int32_t depth;
-    if (depths_are_even(d))
-        depth = times_recip(sub_wrap(d->far_distance, in->distance), (uint32_t)d->depth_mantissa, d->depth_shift);
-    else
-        depth = times_recip(d->depth_mantissa, r, d->depth_shift + zeros);
+    const int32_t depth = depths_are_even(d) ? depth_even(d, in->distance)
+                                             : times_recip(d->depth_mantissa, r, d->depth_shift + zeros);
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 

@@ -65,6 +65,22 @@ static inline void transform_inline(struct smear_homogeneous *out, const struct 
 /* Does what transform_inline does, as a call. */
 void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_projection *p, const int16_t v[3]);
 
+/* Returns a r 2^shift with r = 2^61 / m in [2^29, 2^30]. The high product comes first, so only the last bits are
+ * lost. */
+static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
+{
+    int32_t high = mulh_i32(a, (int32_t)r);
+    if (shift < 0 && shift > -32)
+        return (high + (1 << (-shift - 1))) >> -shift;      /* |high| < 2^30: no overflow */
+    return scale_sat(high, clamp_i32(shift, -31, 31));
+}
+
+/* Returns the depth, q11, of a distance from an orthographic camera. */
+static inline int32_t depth_even(const struct smear_depths *d, int32_t distance)
+{
+    return times_recip(sub_wrap(d->far_distance, distance), (uint32_t)d->depth_mantissa, d->depth_shift);
+}
+
 /* Divides a position by its w, which must be positive. |x| and |y| of the result stay below 2^30, far outside the guard
  * band: sums of two fit. */
 void smear_project(struct smear_screen *out, const struct smear_depths *d, const struct smear_homogeneous *in,
@@ -74,7 +90,7 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
 static inline void project_inline(struct smear_screen *out, const struct smear_depths *d,
                                   const struct smear_homogeneous *in, const struct smear_viewport *viewport)
 {
-    SMEAR_ASSERT(in->w > 0);
+    SMEAR_ASSERT(in->w > 0 && d->coarse == 0);
     int zeros = count_leading_zeros((uint32_t)in->w);
     const int down = 21 - zeros;
     if (down <= 0 || depths_are_even(d)) {

@@ -205,24 +205,29 @@ void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uin
 void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_assembly *d,
                                const struct smear_segment *s, uint32_t index, const struct smear_face *face)
 {
-    if (segment_textured(s)) {
-        v->uv[0] = d->mesh->uv[2 * index];
-        v->uv[1] = d->mesh->uv[2 * index + 1];
-    }
-    if (segment_colored(s)) {
-        struct smear_color color;
+    struct smear_color color = { { 0 } };
+    for (int i = 0; i < 2; i++)
+        v->uv[i] = segment_textured(s) ? d->mesh->uv[2 * index + (uint32_t)i] : 0;
+    if (segment_colored(s))
         shade_vertex(&color, d, index, face);
-        for (int c = 0; c < CLIP_COLORS; c++)
-            v->color[c] = color.channel[c];
-    }
+    for (int c = 0; c < CLIP_COLORS; c++)
+        v->color[c] = color.channel[c];
+}
+
+void smear_vertex_take_clipped(struct smear_clip_vertex *v, const struct smear_segment *s, const int32_t *record)
+{
+    for (int i = 0; i < 2; i++)
+        v->uv[i] = segment_textured(s) ? (int16_t)(record[s->uv] >> 16 * i) : 0;
+    for (int c = 0; c < CLIP_COLORS; c++)
+        v->color[c] = segment_colored(s) ? (uint16_t)((uint32_t)record[s->color + c / 2] >> 16 * (c % 2)) : 0;
 }
 
 void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v)
 {
     if (segment_textured(s))
         store_uv(record + s->uv, v->uv[0], v->uv[1]);
-    if (SMEAR_WITH_GOURAUD && segment_colored(s))
-        store_color(record + s->color, v->color);
+    for (int c = 0; SMEAR_WITH_GOURAUD && segment_colored(s) && c < 4; c += 2)
+        record[s->color + c / 2] = (uint32_t)v->color[c] | (uint32_t)v->color[c + 1] << 16;
 }
 
 #if SMEAR_LIGHT_IS_DEAR

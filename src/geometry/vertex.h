@@ -141,8 +141,10 @@ struct smear_assembly {
     bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */
     bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
-    int32_t apart;                      /* with a path: nothing of it that is nearer is seen; 0: assemble_path.c has yet to find it */
     struct smear_placement at;          /* the instant that is drawn */
+    /* Finds the placement at open (0) or close (1) or the instant that is drawn (2) in units of 2^coarse pixels, for what is cut. */
+    void (*place_fine)(struct smear_placement *place, const struct smear_assembly *d, int key, int coarse);
+    const void *place_of, *instant;
     union {                             /* large, and on the stack: `measured` where moves is not 0, `key` with a path */
         struct smear_measured_poses measured;
         struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];   /* shutter open and close */
@@ -311,6 +313,9 @@ struct smear_clip_vertex;
 void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_assembly *d,
                                const struct smear_segment *s, uint32_t index, const struct smear_face *face);
 
+/* The same of a record. */
+void smear_vertex_take_clipped(struct smear_clip_vertex *v, const struct smear_segment *s, const int32_t *record);
+
 /* Stores those attributes. */
 void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v);
 
@@ -424,18 +429,18 @@ static inline bool shares_vertices(const struct smear_assembly *d, const struct 
         || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 
-/* Makes room for `entries` more triangles with three new vertices: returns the segment, or a new one where offsets run
+/* Makes room for `entries` more triangles with three new vertices and `words` besides: returns the segment, or a new one where offsets run
  * out, or null where the store is full. */
 static inline struct smear_segment *make_room(struct smear_assembler *a, const struct smear_assembly *d,
-                                              struct smear_segment *s, uint32_t entries)
+                                              struct smear_segment *s, uint32_t entries, uint32_t words)
 {
     struct smear_bins *g = a->bins;
-    if (s == NULL || g->vertex_words + 3u * s->stride - s->base > 65536u) {
+    if (s == NULL || g->vertex_words + 3u * s->stride + words - s->base > 65536u) {
         s = smear_vertex_segment(a, d);
         if (s == NULL)
             return NULL;
     }
-    return bins_has_room(g, 3u * s->stride, entries) ? s : NULL;
+    return bins_has_room(g, 3u * s->stride + words, entries) ? s : NULL;
 }
 
 static inline uint32_t *row_list(struct smear_bins *g, const struct smear_assembly *d, int row)

@@ -459,7 +459,7 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
 static int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
     const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
-    struct smear_travel_areas areas = { .interval_area = 0 };
+    struct smear_travel_areas areas = { { 0 } };
     for (int row = first; rows->refill == NULL && row < end; row++) {
         const uint32_t last = rows->bins.moving_last[row];
         if (last != SMEAR_NO_TRIANGLE)

@@ -10,7 +10,7 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
         FLOOR = 11744051        /* q24: 0.7 of what an instant per pixel of the path leaves */
     };
     const uint32_t square = (uint32_t)(x * x + y * y) + 1u, apart = (uint32_t)min_i32(unlike, 32767) * (uint32_t)min_i32(unlike, 32767);
-    struct smear_closing c = { 256, 0, 0 };
+    struct smear_closing c = { 256, 0, 0, unlike };
     if (apart >> 1 >= 2 * square)
         return c;
     c.left = min_u32(LEFT + apart / max_u32(square >> UNLIKE_LOG2, 1), 256);
@@ -23,7 +23,8 @@ struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32
 {
     static const int8_t beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
     const struct smear_block *here = block_at(b, column, row);
-    int32_t unlike = here->curvature << 2;      /* instants of a curve go on along its chord in the middle alone */
+    /* Instants of a curve go on along its chord in the middle alone. */
+    int32_t unlike = block_curvature(here);
     for (int i = 0; i < 4; i++) {
         const int32_t c = column + beside[i][0], r = row + beside[i][1];
         if (c < 0 || c >= b->columns || r < 0 || r >= rows)

@@ -15,7 +15,7 @@ enum {
 struct smear_block {
     int16_t x, y;               /* displacement of the nearest moving surface in the block's middle, 1/16 px */
     uint16_t depth;             /* of that surface: larger is nearer. 0: none is there */
-    uint8_t curvature;          /* by how much the displacement changes along the path, about, 1/4 px, saturated */
+    uint8_t curvature;          /* by how much the displacement changes along the path, about: block_curvature() */
     uint8_t last;               /* gaps are closed where there are no more instants than so many */
 };
 
@@ -23,6 +23,24 @@ struct smear_row_blocks {
     struct smear_block *block;  /* row after row */
     int32_t columns;
 };
+
+/* Curvatures are kept in steps of 1/4 px up to 48 px, then of 4 px; the largest is one with which nothing is closed. */
+enum { CURVATURE_FINE = 192, CURVATURE_MAX = 255, CURVATURE_COARSE_LOG2 = 4 };
+
+/* Returns what is kept of a curvature, 1/16 px, and the way back. */
+static inline uint8_t block_curvature_of(int32_t curvature)
+{
+    const int32_t steps = curvature >> 2;
+    return (uint8_t)(steps < CURVATURE_FINE ? steps : min_i32(CURVATURE_FINE + ((steps - CURVATURE_FINE) >> CURVATURE_COARSE_LOG2),
+                                                              CURVATURE_MAX - 1));
+}
+
+static inline int32_t block_curvature(const struct smear_block *b)
+{
+    const int32_t c = b->curvature;
+    return c < CURVATURE_FINE ? c << 2 : c == CURVATURE_MAX ? INT16_MAX
+                                                            : (CURVATURE_FINE + ((c - CURVATURE_FINE) << CURVATURE_COARSE_LOG2)) << 2;
+}
 
 /* Blocks beside each other in a row of pixels, and above each other in a tile row. */
 static inline int32_t block_columns(int32_t width) { return (width + BLOCK_PX - 1) >> BLOCK_SHIFT; }
@@ -52,6 +70,7 @@ struct smear_closing {
     uint32_t left;              /* q8; 256: gaps are not closed */
     uint32_t floor;             /* q16 */
     int32_t last;               /* instants up to which it pays, where nothing else is known; 0: never */
+    int32_t unlike;             /* by how much the displacement is not what it is beside it, 1/16 px */
 };
 
 /* Of a displacement that is `unlike` that of things beside it, or what it is at other times, by so much, all 1/16 px. */

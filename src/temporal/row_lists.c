@@ -3,6 +3,7 @@
 #include "temporal/row_lists.h"
 
 #include "base/fixmath.h"
+#include "temporal/row_space.h"
 
 struct range {
     int32_t low, high;              /* [low, high) */
@@ -254,12 +255,10 @@ static void add_to_tiles(const struct smear_window *window, struct smear_row_mov
         if (b == NULL)
             continue;
         tile->flags |= (uint16_t)(b->flags | TILE_MOVES);
-        if (b->interval != 0)
-            continue;
-        if (!w->large)
+        if (b->space == 0 && !w->large)
             add_displacement(tile, w->x0, w->x1, w->y0, w->y1, w->curvature);
     }
-    if (b == NULL || b->interval != 0 || !w->large)
+    if (b == NULL || b->space != 0 || !w->large)
         return;
     const struct range seen = columns_of(w, b, top, window->tile);
     if (seen.low < seen.high)
@@ -289,8 +288,10 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
             const struct smear_path_bounds *b = bins_bounds(g, i);
             struct corners c;
             struct displacements d;
-            corners_of(&c, g, i);
-            displacements_of(&d, g, i, &c);
+            if (b->space == 0) {
+                corners_of(&c, g, i);
+                displacements_of(&d, g, i, &c);
+            }
             add_to_tiles(w, r, b->x0, b->x1, b, &d, TILE_BLENDED, top, all);
         } else {
             static_columns(g, t, &x0, &x1);
@@ -306,7 +307,9 @@ static inline uint16_t nearness(int32_t depth) { return (uint16_t)clamp_i32(dept
 static void put_block(struct smear_block *b, int32_t x, int32_t y, int32_t curvature, uint16_t near)
 {
     *b = (struct smear_block){ (int16_t)clamp_i32(x, -MEAN_MAX, MEAN_MAX), (int16_t)clamp_i32(y, -MEAN_MAX, MEAN_MAX), near,
-                               (uint8_t)min_i32(curvature >> 2, UINT8_MAX), 0 };
+                               block_curvature_of(curvature), 0 };
+    if (max_i32(abs_i32(x), abs_i32(y)) > MEAN_MAX)     /* its direction is not that which is kept */
+        b->curvature = CURVATURE_MAX;
 }
 
 /* Twice the areas between a place and a triangle's sides, and how they change from block to block. */
@@ -395,6 +398,39 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct corners
     }
 }
 
+/* Puts a triangle that has a path in space into the wanted blocks whose middle it covers in the middle of the exposure, and adds
+ * what it does there to their tiles. */
+static SMEAR_NOINLINE void add_in_space(const struct smear_row_moving *r, const struct smear_bins *g, uint32_t triangle,
+                                        const struct smear_window *window, int32_t top, struct range wanted)
+{
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
+    const struct smear_path_bounds *b = bins_bounds(g, triangle);
+    const int32_t *const record[3] = { bins_vertex(g, s, t->vertex[0]), bins_vertex(g, s, t->vertex[1]), bins_vertex(g, s, t->vertex[2]) };
+    const int32_t left = max_i32(b->x0 >> BLOCK_SHIFT, wanted.low), right = min_i32((b->x1 - 1) >> BLOCK_SHIFT, wanted.high - 1);
+    const int32_t upper = max_i32((b->y0 - top) >> BLOCK_SHIFT, 0),
+                  lower = min_i32((b->y1 - 1 - top) >> BLOCK_SHIFT, (window->tile >> BLOCK_SHIFT) - 1);
+    struct smear_space space;
+    struct smear_plane_motion row;
+    smear_space_make(&space, g, s, window->width, window->height);
+    if (left > right || upper > lower
+        || !smear_plane_motion_make(&row, &space, record, (left << BLOCK_SHIFT) + BLOCK_PX / 2,
+                                    top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2, BLOCK_PX))
+        return;
+    for (int32_t y = upper; y <= lower; y++, smear_plane_motion_down(&row)) {
+        struct smear_plane_motion here = row;
+        for (int32_t x = left; x <= right; x++, smear_plane_motion_right(&here)) {
+            struct smear_block *const block = block_at(&r->blocks, x, y);
+            struct smear_place_motion d;
+            if (!smear_plane_motion_at(&d, &here, (x << BLOCK_SHIFT) + BLOCK_PX / 2, top + (y << BLOCK_SHIFT) + BLOCK_PX / 2))
+                continue;
+            add_displacement(&r->travel[x >> (window->tile_shift - BLOCK_SHIFT)], d.x, d.x, d.y, d.y, 4 * d.bend);
+            if (d.depth > block->depth)
+                put_block(block, d.x, d.y, 4 * d.bend, d.depth);
+        }
+    }
+}
+
 /* ------------------------------------------------------------------ lists */
 
 void smear_list_begin(struct smear_row_moving *r, const struct smear_window *w)
@@ -422,10 +458,16 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *g, 
             continue;
         struct corners c;
         struct displacements d;
+        if (b->space != 0) {
+            add_to_tiles(w, r, b->x0, b->x1, b, NULL, 0, top, columns);
+            if (r->blocks.columns != 0)
+                add_in_space(r, g, i, w, top, blocks);
+            continue;
+        }
         corners_of(&c, g, i);
         displacements_of(&d, g, i, &c);
         add_to_tiles(w, r, b->x0, b->x1, b, &d, 0, top, columns);
-        if (r->blocks.columns != 0 && b->interval == 0)
+        if (r->blocks.columns != 0)
             add_to_blocks(r, &c, &d, w, top, blocks);
     }
 }
@@ -444,7 +486,7 @@ void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, c
 /* ------------------------------------------------------------------ areas */
 
 /* Returns the pixels of a moving triangle in the middle of the exposure: at least 1 and no more than the box of its path
- * has. */
+ * has; where it has a path in space, as many as that. */
 static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
 {
     const struct smear_triangle *t = bins_triangle(g, triangle);
@@ -458,6 +500,8 @@ static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
     const int64_t twice = (int64_t)x1 * y2 - (int64_t)x2 * y1;
     const uint64_t area = (uint64_t)(twice < 0 ? -twice : twice) >> 9;
     const uint32_t box = (uint32_t)((b->x1 - b->x0) * (b->y1 - b->y0));
+    if (b->space != 0)
+        return box;
     return area < box ? (uint32_t)area + 1 : box;
 }
 
@@ -466,9 +510,7 @@ void smear_add_areas(struct smear_travel_areas *areas, const struct smear_bins *
     for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
         const struct smear_path_bounds *b = bins_bounds(g, i);
         const int32_t length = min_i32((b->travel + b->curvature) >> TRAVEL_CLASS_SHIFT, TRAVEL_CLASSES - 1);
-        uint32_t *sum = b->interval != 0 ? &areas->interval_area : &areas->area[length], area = moving_area(g, i);
-        if (b->interval != 0)      /* it is there in one of so many sub-intervals of the exposure */
-            area = (area + PATH_INTERVALS - 1) / PATH_INTERVALS;
+        uint32_t *sum = &areas->area[length], area = moving_area(g, i);
         *sum = min_u32(*sum, UINT32_MAX - area) + area;
         if (i == last)
             return;

@@ -41,7 +41,7 @@ static inline void pack_end(struct subframe_pack *pack, const struct smear_bins 
 /* The segment of a triangle that may be drawn with others; or null. */
 static inline const struct smear_segment *segment_of(const struct smear_bins *g, uint32_t triangle)
 {
-    return bins_bounds(g, triangle)->interval != 0 ? NULL : &g->segment[bins_triangle(g, triangle)->segment];
+    return bins_bounds(g, triangle)->space != 0 ? NULL : &g->segment[bins_triangle(g, triangle)->segment];
 }
 
 /* Adds the next triangle; false where there is no room for it. */

@@ -20,15 +20,6 @@ static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
     return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
 }
 
-/* Whether a vertex whose places at open and close are given is shifted along an axis from instant to instant. Along its way
- * it moves by itself, and steps that were not even would show; a way below two pixels does not do for that. */
-static inline bool is_shifted(const int32_t *open, int axis)
-{
-    const int32_t *close = open + PATH_POSE_WORDS;
-    const int32_t along = abs_i32(close[axis] - open[axis]);
-    return along < 512 || along < abs_i32(close[1 - axis] - open[1 - axis]);
-}
-
 static inline struct range range_along(const struct posed *p, int axis)
 {
     return range_of(p->v[0][axis], p->v[1][axis], p->v[2][axis]);
@@ -39,7 +30,7 @@ static SMEAR_RARE struct range shift_along(struct posed *p, const struct smear_b
                                            int32_t shift)
 {
     for (int i = 0; i < 3; i++)
-        if (is_shifted(bins_vertex(g, p->segment, t->vertex[i]) + p->segment->motion, axis))
+        if (path_is_shifted(bins_vertex(g, p->segment, t->vertex[i]) + p->segment->motion, axis))
             p->record[i].word[axis] += shift;
     return range_along(p, axis);
 }
@@ -122,20 +113,62 @@ static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int3
     return (int64_t)x1 * y2 <= (int64_t)x2 * y1;
 }
 
+/* Finds the box of the vertices within the tiles. False where it is empty, or they are turned away. */
+static inline bool find_box(struct posed *p, const struct subframes *f, bool turns)
+{
+    const struct smear_raster_target *tile = &f->t->background;
+    const struct range x = { p->bounds.x0, p->bounds.x1 }, y = { p->bounds.y0, p->bounds.y1 };
+    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
+    if (columns.low >= columns.high || rows.low >= rows.high || (turns && is_turned_away(p->v[0], p->v[1], p->v[2])))
+        return false;
+    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
+    return true;
+}
+
+bool smear_subframe_pose_next(struct posed *p, const struct subframes *f)
+{
+    for (int i = p->next; i < p->count; i++) {
+        p->v[0] = p->record[0].word;
+        p->v[1] = p->record[i - 1].word;
+        p->v[2] = p->record[i].word;
+        const struct range x = range_along(p, VERTEX_X), y = range_along(p, VERTEX_Y);
+        p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+        p->next = i + 1;
+        if (find_box(p, f, true))
+            return true;
+    }
+    return false;
+}
+
+/* Poses a triangle in space, of which some may be left. */
+static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes *f, const struct smear_triangle *t, unsigned in_space,
+                                         int32_t u)
+{
+    const struct smear_raster_frame *frame = f->t->frame;
+    const int32_t *const record[3] = { bins_vertex(frame->bins, p->segment, t->vertex[0]),
+                                       bins_vertex(frame->bins, p->segment, t->vertex[1]),
+                                       bins_vertex(frame->bins, p->segment, t->vertex[2]) };
+    if (f->space->segment != p->segment)
+        smear_space_make(f->space, frame->bins, p->segment, frame->width, frame->height);
+    p->count = smear_space_pose(p->record, f->space, record, in_space, u, f->shift);
+    p->next = 2;
+    return smear_subframe_pose_next(p, f);
+}
+
 bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time)
 {
     enum { NEAR = 65536 >> 4 };
     const struct smear_bins *g = f->t->frame->bins;
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
-    const struct smear_raster_target *tile = &f->t->background;
     p->segment = s;
     p->color = t->color;
+    p->next = p->count = 0;
     bool moves = false;
     if (s->path) {
         const struct smear_path_bounds *b = bins_bounds(g, triangle);
-        if (!path_interval_time(&time, b->interval))
-            return false;
+        if (b->space != 0)
+            return pose_in_space(p, f, t, b->space, path_phase(time));
         /* In the middle, vertices are where their records say. */
         moves = time != SHUTTER_CLOSE / 2 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0);
         if (moves)
@@ -143,11 +176,8 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     }
     if (!moves)
         take(p, g, t);
-    const struct range x = { p->bounds.x0, p->bounds.x1 }, y = { p->bounds.y0, p->bounds.y1 };
-    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
-    if (columns.low >= columns.high || rows.low >= rows.high || (s->path && is_turned_away(p->v[0], p->v[1], p->v[2])))
+    if (!find_box(p, f, s->path != 0))
         return false;
-    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
     if (moves)
         complete(p, g, t);
     return true;

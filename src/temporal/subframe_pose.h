@@ -12,10 +12,14 @@ struct posed {
     const int32_t *v[3];        /* `record`, or the vertices themselves where they do not move */
     struct bounds bounds;       /* of the vertices */
     struct subframe_box box;       /* within the tiles */
-    struct path_record record[3];       /* without paths, which come last */
+    int count, next;            /* corners of what was cut (space.h), and the next one of its fan */
+    struct path_record record[SMEAR_CLIP_MAX];          /* without paths, which come last */
 };
 
 /* False where the triangle is not seen in the tiles at this time, 0 .. SHUTTER_CLOSE: elsewhere, or turned away. */
 bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time);
+
+/* Goes on to the next triangle that is left of one that was cut. False where there is none. */
+bool smear_subframe_pose_next(struct posed *p, const struct subframes *f);
 
 #endif

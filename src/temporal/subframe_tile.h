@@ -3,6 +3,7 @@
 #ifndef SMEAR_SUBFRAME_TILE_H
 #define SMEAR_SUBFRAME_TILE_H
 
+#include "geometry/space.h"
 #include "kernels/packed_sums.h"
 #include "temporal/moving.h"
 
@@ -33,6 +34,7 @@ struct subframes {
     struct packed_sums sums;            /* of what is not background: of codes, or of light (light_sums.h) */
     bool blends;                /* blended draws change the background, too */
     uint32_t instants;
+    struct smear_space *space;  /* of the segment that was asked for last */
     int32_t shift[2];           /* smooth edges: how far what moves is shifted along x and y at this instant, q8 px */
 
     /* What may be seen in the tile. Triangles beyond those listed are found by walking on from here. */

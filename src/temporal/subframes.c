@@ -161,7 +161,7 @@ static inline void draw(const struct posed *p, const struct subframes *f, const 
 static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, int32_t time, struct subframe_box *all)
 {
     struct posed p;
-    if (smear_subframe_pose(&p, f, triangle, time)) {
+    for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f)) {
         draw(&p, f, &f->work);
         box_add(all, &p.box);
     }
@@ -226,12 +226,13 @@ static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time
     const struct smear_bins *g = f->t->frame->bins;
     bool moves = g->segment[bins_triangle(g, triangle)->segment].path;
     struct posed p;
-    if ((pass == BLEND_BOX && !moves) || (pass == BLEND_BACKGROUND && moves) || !smear_subframe_pose(&p, f, triangle, time))
+    if ((pass == BLEND_BOX && !moves) || (pass == BLEND_BACKGROUND && moves))
         return;
-    if (pass == BLEND_BOX)
-        box_add(all, &p.box);
-    else
-        draw(&p, f, target);
+    for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f))
+        if (pass == BLEND_BOX)
+            box_add(all, &p.box);
+        else
+            draw(&p, f, target);
 }
 
 static SMEAR_RARE void blend_listed(const struct subframes *f, int32_t time, enum blend_pass pass,
@@ -377,13 +378,14 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
     return samples;
 }
 
-static inline void make(struct subframes *f, const struct smear_tile_run *t, int32_t instants)
+static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
 {
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
     *f = (struct subframes){
-        .t = t, .instants = (uint32_t)instants
+        .t = t, .instants = (uint32_t)instants, .space = space
     };
+    space->segment = NULL;
     f->listed = (uint32_t *)t->work;
     f->sums = packed_sums_in(f->listed + LISTED, pixels);
     f->work = *s;
@@ -399,9 +401,10 @@ static inline void make(struct subframes *f, const struct smear_tile_run *t, int
 uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
 {
     struct subframes f;
+    struct smear_space space;
     struct subframe_box all;
     struct smear_tile_run own;
-    make(&f, t, instants);
+    make(&f, &space, t, instants);
     if (t->fill != NULL) {
         own = *t;
         f.t = f.refilled = &own;
@@ -420,8 +423,9 @@ uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int3
 {
     struct smear_tile_run part = *t;
     struct subframes f;
+    struct smear_space space;
     struct subframe_box all = no_box;
-    make(&f, t, 1);
+    make(&f, &space, t, 1);
     const struct subframe_box box = { max_i32(x0 & ~15, f.work.x0), f.work.y0, min_i32((x1 + 15) & ~15, f.work.x1), f.work.y1 };
     f.work.color = f.listed + LISTED;       /* of no use to anybody */
     smear_subframe_restore_depth(&f, &box);

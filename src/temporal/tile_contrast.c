@@ -13,6 +13,7 @@ struct look {
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
     bool at_border; /* the tiles end above or below */
+    bool spreads; /* displacements go apart by more than a pixel or two */
 };
 
 /* Squared differences of pixels behind one another on their path, and of those beside each other. */
@@ -86,7 +87,7 @@ static struct look_sums sums_of_look(const struct subframes *f, const struct loo
     struct look_sums d = { 0, 0, 0 };
     uint32_t ignored = 0;
     d.along = look_along(f, l, l->dx, l->dy, &d.moving);
-    if (is_slant(l))
+    if (is_slant(l) || l->spreads)
         d.beside = look_along(f, l, -l->dy, l->dx, &ignored);
     return d;
 }
@@ -118,7 +119,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     enum { MOST = 1 << 22,
            FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
-    const uint32_t plain = min_u32((d->along >> 6) * (uint32_t)longer >> 4, MOST);
+    const uint32_t whole = (d->along >> 6) * (uint32_t)longer >> 4, plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
     const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
@@ -126,8 +127,10 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     if (last != 0 && d->along + d->beside >= FLAT)
         last = closed_instants(plain * (256 - closing->left) >> 8, max_u32(floor, 1));
     const int at = (last + 1) >> 1;
-    c->plain[at] = add_saturated(c->plain[at], plain);
-    c->closed[at] = add_saturated(c->closed[at], plain * closing->left >> 8);
+    c->plain[at] = add_saturated(c->plain[at], whole);
+    /* Where displacements go apart, taps of a gap leave the path for what lies beside it. */
+    const uint32_t beside = l->spreads ? min_u32((d->beside >> 6) * (uint32_t)min_i32(closing->unlike, 1024) >> 7, MOST) : 0;
+    c->closed[at] = add_saturated(c->closed[at], (plain * closing->left >> 8) + beside);
     c->floor[at] = add_saturated(c->floor[at], floor);
     if (l->at_border && last != 0)
         add_border(c, plain, y, last);
@@ -142,7 +145,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
                   column = l->x >> BLOCK_SHIFT, row = (l->y - y0) >> BLOCK_SHIFT;
     struct smear_block *b = block_at(plan->blocks, column, row);
-    struct smear_closing closing = { 256, 0, 0 };
+    struct smear_closing closing = { 256, 0, 0, 0 };
     const bool has_surface = b->depth != 0;
     if (!f->blends && smear_tile_may_close(plan->chooser, tile))
         closing = has_surface ? smear_block_closing(plan->blocks, column, row, rows) : smear_tile_closing(tile);
@@ -154,6 +157,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
     l->dx = next_on_path(l->way_x, longest);
     l->dy = next_on_path(l->way_y, longest);
+    l->spreads = closing.last != 0 && closing.unlike >= 32;
     const struct look_sums d = sums_of_look(f, l);
     c->moving += d.moving;
     if (d.moving != 0)

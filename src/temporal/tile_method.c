@@ -8,6 +8,7 @@
 
 enum {
     INSTANTS_MAX = 63,
+    PASSING = 16,           /* instants of what comes and goes before the eye */
     STEP_MAX = 256 /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
 
@@ -41,7 +42,7 @@ static int32_t reach_of(const struct smear_tile_travel *tile)
  * are hard. */
 static int32_t instants_for(const struct smear_tile_travel *tile, int32_t most)
 {
-    if ((tile->flags & PATH_INTERVAL) != 0) /* its displacement is not known */
+    if ((tile->flags & PATH_SPACE) != 0) /* its displacement is not known */
         return most;
     return min_i32(max_i32((travel_of(tile) + 7) >> 3, 2), most);
 }
@@ -76,29 +77,12 @@ int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct
     return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
 }
 
-/* Returns the least instants of what passes through the near plane. It is in sub-intervals of the exposure, of which an
- * instant draws one; how it moves is not known, as clipping moves its ends. */
-static int32_t interval_instants(int32_t target)
-{
-    return target >= 64 ? PATH_INTERVALS / 2 : PATH_INTERVALS;
-}
-
-/* Whether things pass through the near plane that most pixels of a run do not show in the middle of the exposure: they come and
- * go, and each sub-interval that is not drawn is missed. A floor is there all the time, and another part of it looks much the
- * same. */
+/* Whether things pass the eye that most pixels of a run do not show in the middle of the exposure: they come and go. A floor is
+ * there all the time, and another part of it looks much the same. */
 static bool comes_and_goes(const struct smear_contrast *c)
 {
     enum { LOOKED_AT = BLOCK_PX * BLOCK_PX / 2 }; /* of a block: every other row */
     return 2 * c->moving < c->blocks * LOOKED_AT;
-}
-
-/* Returns the nearest number of instants that draws each sub-interval as often as the others, or every other one once. */
-static int32_t whole_intervals(int32_t instants)
-{
-    if (instants <= PATH_INTERVALS / 2 + 1)
-        return PATH_INTERVALS / 2;
-    const int32_t times = (instants + PATH_INTERVALS / 2) / PATH_INTERVALS;
-    return min_i32(times, (int)INSTANTS_MAX / (int)PATH_INTERVALS) * (int)PATH_INTERVALS;
 }
 
 /* Returns the least instants of a tile: the first may show nothing of what passes later. */
@@ -106,9 +90,10 @@ static int32_t least_instants(const struct smear_chooser *chooser, const struct 
 {
     const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8); /* 1/16 */
     const int32_t target = max_i32(chooser->target, 1), n = 2 + (int32_t)(3 * root / (4 * (uint32_t)target));
+    const bool is_known = (tile->flags & PATH_SPACE) == 0 || is_displaced(tile);
     if (target < 64)        /* pictures of slow things jump where the number changes: it does not, up to some px */
-        return max_i32(max_i32(n, 288 / target), (tile->flags & PATH_INTERVAL) != 0 ? PATH_INTERVALS : 1);
-    return (tile->flags & PATH_INTERVAL) != 0 ? max_i32(n, interval_instants(chooser->target)) : n;
+        return max_i32(max_i32(n, 288 / target), is_known ? 1 : PASSING);
+    return is_known ? n : max_i32(n, PASSING / 2);
 }
 
 /* Return logarithms to base 2 and the way back, q8, with straight lines between powers of two. */
@@ -172,12 +157,12 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const struct smear_chooser *chooser = plan->chooser;
     int32_t instants = 1, reach = 0;
     uint32_t left = 0, unseen = 0;
-    bool passes_near = false;
+    bool passes = false;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
         instants = max_i32(instants, least_instants(chooser, tile));
         reach = max_i32(reach, reach_of(tile));
-        passes_near = passes_near || (tile->flags & PATH_INTERVAL) != 0;
+        passes = passes || (tile->flags & PATH_SPACE) != 0;
         if (c->moving == 0)
             unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
@@ -189,10 +174,8 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
     instants = min_i32(instants, INSTANTS_MAX);
-    if (passes_near && chooser->target <= SMEAR_BALANCED && comes_and_goes(c))
-        instants = max_i32(instants, PATH_INTERVALS);
-    if (passes_near) /* all sub-intervals that are drawn weigh the same */
-        instants = whole_intervals(instants);
+    if (passes && chooser->target <= SMEAR_BALANCED && comes_and_goes(c))
+        instants = max_i32(instants, PASSING + 1);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
@@ -230,11 +213,8 @@ static uint32_t common_instants(int32_t target, int32_t travel)
 static uint32_t predicted(int32_t target, const struct smear_travel_areas *areas)
 {
     uint32_t sum = 0;
-    for (int i = 0; i <= TRAVEL_CLASSES; i++) {
-        const bool is_interval = i == TRAVEL_CLASSES;
-        const uint32_t area = is_interval ? areas->interval_area : areas->area[i];
-        const uint32_t instants = is_interval ? (uint32_t)interval_instants(target)
-                                              : common_instants(target, (2 * i + 1) << (TRAVEL_CLASS_SHIFT - 1));
+    for (int i = 0; i < TRAVEL_CLASSES; i++) {
+        const uint32_t area = areas->area[i], instants = common_instants(target, (2 * i + 1) << (TRAVEL_CLASS_SHIFT - 1));
         if (area > (UINT32_MAX - sum) / instants)
             return UINT32_MAX;
         sum += area * instants;

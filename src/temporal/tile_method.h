@@ -76,7 +76,6 @@ enum { TRAVEL_CLASSES = 32, TRAVEL_CLASS_SHIFT = 6 };   /* log2 of a class, 1/16
 
 struct smear_travel_areas {
     uint32_t area[TRAVEL_CLASSES];
-    uint32_t interval_area;     /* of what passes through the near plane, whose travel is not known */
 };
 
 /* Returns the finest target, from the chooser's own on, whose predicted work fits `budget`, else the coarsest; stores
@@ -94,7 +93,7 @@ bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smea
 struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile);
 
 /* Returns how many instants the tiles of a run take, whose first one costs about so many instructions: an odd number, of
- * which that is one, unless triangles pass through the near plane. */
+ * which that is one. */
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *contrast, int tiles,
                                  uint32_t cost);
 

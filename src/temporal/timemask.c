@@ -4,6 +4,7 @@
 #include "temporal/timemask.h"
 
 #include "geometry/shutter.h"
+#include "geometry/space.h"
 #include "temporal/timemask_cover.h"
 #include "temporal/timemask_shade.h"
 #include "temporal/timemask_samples.h"
@@ -12,7 +13,7 @@
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
 enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
-enum { PIXELS_LOG2 = 7, INTERVALS_LOG2 = 4 };     /* entries of a block, at most */
+enum { PIXELS_LOG2 = 7 };       /* entries of a block, at most */
 
 enum {
     LISTED = 100,                               /* moving triangles that are drawn in order of depth */
@@ -113,7 +114,7 @@ static void choose_segments(struct job *j)
     int32_t curvature = 0, travel = 0;               /* q8 px */
     for (uint32_t i = 0; i < t->moving_count; i++) {
         const struct smear_path_bounds *b = bins_bounds(t->frame->bins, t->moving[i].triangle);
-        if (moving_is_in(&t->moving[i], t) && b->interval == 0) {
+        if (moving_is_in(&t->moving[i], t) && b->space == 0) {
             travel = max_i32(travel, b->travel << 4);
             curvature = max_i32(curvature, b->curvature << 3);
         }
@@ -268,11 +269,6 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
                          (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
-    if (m->bounds->interval != 0) {    /* its ends may lie before the near plane, where
-                                     * depths end: its middle tells */
-        s.depth.change = s.depth.change_dx = s.depth.change_dy = s.depth.curve = 0;
-        s.slope = 0;
-    }
     struct painter p = { .shade = &s, .first = first, .last_sample = (1 << j->samples.samples_log2) - 1 - 2 * first,
                          .time_shift = TIMEMASK_TIME_LOG2 - 1 - samples_log2 };
     for (int i = 0; i < 2; i++) {
@@ -303,27 +299,29 @@ static void draw_whole(struct job *j, const struct moving *m)
     }
 }
 
-/* Draws a triangle that is there for a sub-interval of the exposure: in a segment of its samples, where samples are
- * evenly spaced and it has one at least; else as it is in the middle of each sample. */
-static void draw_interval(struct job *j, const struct moving *m)
+/* Draws a triangle of which vertices have a path in space as it is in the middle of each sample. */
+static void draw_in_space(struct job *j, const struct moving *m)
 {
-    struct timemask_pose pose[3];
-    const struct timemask_pose *poses[3] = { &pose[0], &pose[1], &pose[2] };
-    int32_t samples = 1 << j->samples.samples_log2;
-    if (samples >= PATH_INTERVALS && j->even) {
-        for (int i = 0; i < 3; i++)
-            pose_at(&pose[i], j, m, i * (SHUTTER_CLOSE / 2));
-        draw_segment(j, m, poses, (m->bounds->interval - 1) * (samples / PATH_INTERVALS),
-                     j->samples.samples_log2 - INTERVALS_LOG2);
-        return;
-    }
-    poses[1] = poses[2] = &pose[0];
+    const struct smear_tile_run *t = j->tile;
+    const int32_t samples = 1 << j->samples.samples_log2;
+    static const int32_t no_shift[2] = { 0, 0 };
+    struct smear_space space;
+    smear_space_make(&space, t->frame->bins, m->segment, t->frame->width, t->frame->height);
     for (int32_t sample = 0; sample < samples; sample++) {
-        int32_t time = smear_shutter_instant(j->tile->shutter, sample, samples);
-        if (!path_interval_time(&time, m->bounds->interval))
-            continue;
-        pose_at(&pose[0], j, m, time);
-        draw_segment(j, m, poses, sample, 0);
+        const int32_t u = path_phase(smear_shutter_instant(t->shutter, sample, samples));
+        struct path_record record[SMEAR_CLIP_MAX];
+        const int count = smear_space_pose(record, &space, m->record, m->bounds->space, u, no_shift);
+        for (int i = 2; i < count; i++) {
+            const struct moving part = { m->bounds, m->triangle, m->segment, { record[0].word, record[i - 1].word, record[i].word } };
+            struct timemask_pose pose;
+            const struct timemask_pose *const poses[3] = { &pose, &pose, &pose };
+            for (int k = 0; k < 3; k++) {
+                pose.x[k] = part.record[k][VERTEX_X] - (j->x * 256 + 128);
+                pose.y[k] = part.record[k][VERTEX_Y] - (j->y * 256 + 128);
+                pose.depth[k] = part.record[k][VERTEX_DEPTH];
+            }
+            draw_segment(j, &part, poses, sample, 0);
+        }
     }
 }
 
@@ -334,10 +332,10 @@ static void draw_moving(struct job *j, uint32_t i)
     const struct smear_path_bounds *b = m.bounds;
     if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
         return;
-    if (b->interval == 0)
+    if (b->space == 0)
         draw_whole(j, &m);
     else
-        draw_interval(j, &m);
+        draw_in_space(j, &m);
 }
 
 /* The listed moving triangles, the nearest first, until the rest is hidden. */

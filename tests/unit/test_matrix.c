@@ -67,8 +67,9 @@ static void test_rows_stay_below_2_to_the_30_for_any_input(void)
         smear_camera camera = wild_camera();
         struct smear_view view;
         struct smear_projection p;
+        const int height = between(1, 2048);
         smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, between(1, 2048));
+        smear_projection_make(&p, &view, &camera, height, n % 3 == 2 ? projection_coarse(height, camera.half_height > 0) : 0);
         for (int row = 0; row < (p.depths.orthographic ? 4 : 3); row++)
             if (!CHECK(row_bound(p.m[row]) <= 1 << 30)) {
                 CHECK_EQ(n, row);
@@ -93,7 +94,7 @@ static void test_the_scale_uses_the_bits_there_are(void)
         struct smear_view view;
         struct smear_projection p;
         smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, 240);
+        smear_projection_make(&p, &view, &camera, 240, 0);
         int64_t largest = 0;
         for (int row = 0; row < 3; row++)
             largest = row_bound(p.m[row]) > largest ? row_bound(p.m[row]) : largest;
@@ -115,7 +116,7 @@ static void test_planes_lie_at_their_distances(void)
         struct smear_view view;
         struct smear_projection p;
         smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, 240);
+        smear_projection_make(&p, &view, &camera, 240, 0);
         double unit = ldexp(1, p.distance_scale);
         CHECK_CLOSE(p.depths.near_distance, camera.near_plane / 65536.0 * unit, 1);
         double far = camera.far_plane / 65536.0 * unit;
@@ -132,7 +133,7 @@ static void test_planes_lie_at_their_distances(void)
     struct smear_view view;
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &open_end.pose);
-    smear_projection_make(&p, &view, &open_end, 240);
+    smear_projection_make(&p, &view, &open_end, 240, 0);
     CHECK_EQ(p.depths.far_distance, INT32_MAX);
 }
 
@@ -181,7 +182,9 @@ static double worst_sum(bool orthographic, bool apart)
 {
     double worst = 0;
     for (int n = 0; n < 600; n++) {
-        int count = between(2, 3);
+        const int count = between(2, 3), coarse = n % 3 == 2 ? projection_coarse(240, orthographic) : 0;
+        static const int16_t here[3], there[2][3];
+        const int16_t *const position[3] = { here, apart ? there[0] : here, apart ? there[1] : here };
         smear_mesh mesh = { .shift = 14 };
         smear_camera camera[3];
         smear_transform object[3];
@@ -200,7 +203,7 @@ static double worst_sum(bool orthographic, bool apart)
             object[k].origin[2] = between(-10 * 65536, -8 * 65536);
             struct smear_view view;
             smear_view_compose(&view, &object[k], &mesh, &camera[k].pose);
-            smear_projection_make(&p[k], &view, &camera[k], 240);
+            smear_projection_make(&p[k], &view, &camera[k], 240, coarse);
         }
         /* Up to five frames away, as a shutter of 3600 degrees; they add up to one. */
         int32_t weight[3] = { 0 }, rest = 1 << 24;
@@ -209,12 +212,9 @@ static double worst_sum(bool orthographic, bool apart)
             rest -= weight[k];
         }
         weight[0] = rest;
-        smear_projection_weigh(p, weight, count, ROOM_USUAL, &camera[0]);
-        for (int k = 1; k < count; k++) {
+        smear_projection_weigh(p, weight, apart && n % 5 == 0 ? NULL : position, count, &camera[0]);
+        for (int k = 1; k < count; k++)
             CHECK_EQ(p[k].scale, p[0].scale);
-            if (!apart)
-                smear_projection_add(&p[0], &p[k]);
-        }
         for (int vertex = 0; vertex < 6; vertex++) {
             int16_t v[3][3];
             double sum[4] = { 0, 0, 0, 0 };
@@ -240,7 +240,8 @@ static double worst_sum(bool orthographic, bool apart)
                 return INFINITY;
             if (sum[2] < 0.5 || fabs(sum[0] / sum[2]) > 240 || fabs(sum[1] / sum[2]) > 240)
                 continue;
-            worst = fmax(worst, fmax(fabs((double)h.x / h.w - sum[0] / sum[2]), fabs((double)h.y / h.w - sum[1] / sum[2])));
+            worst = fmax(worst, fmax(fabs(ldexp((double)h.x / h.w, coarse) - sum[0] / sum[2]),
+                                      fabs(ldexp((double)h.y / h.w, coarse) - sum[1] / sum[2])));
         }
     }
     return worst;
@@ -261,11 +262,13 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
 {
     random_state = 5;
     for (int n = 0; n < 4000; n++) {
-        int count = between(2, 3);
+        bool orthographic = n & 1;
+        const int count = between(2, 3), coarse = n % 3 == 2 ? projection_coarse(240, orthographic) : 0;
+        static const int16_t here[3];
+        const int16_t *const position[3] = { here, here, here };
         smear_mesh mesh = { .scale = wild_positive(), .shift = (int8_t)between(-32, 62) };
         smear_camera camera[3];
-        struct smear_projection p[3];
-        bool orthographic = n & 1;
+        struct smear_projection p[3], whole[3];
         for (int k = 0; k < count; k++) {
             smear_transform object;
             for (int i = 0; i < 9; i++)
@@ -277,7 +280,7 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
             while ((camera[k].half_height > 0) != orthographic);
             struct smear_view view;
             smear_view_compose(&view, &object, &mesh, &camera[k].pose);
-            smear_projection_make(&p[k], &view, &camera[k], 240);
+            smear_projection_make(&p[k], &view, &camera[k], 240, coarse);
         }
         /* The largest weights there are: ten frames back (3600 degrees, trailing), or parabolas. */
         int32_t weight[3];
@@ -289,19 +292,20 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
             weight[2] = -7 * back;
         }
         weight[0] = (1 << 24) - weight[1] - weight[2];
-        smear_projection_weigh(p, weight, count, ROOM_USUAL, &camera[0]);
+        for (int k = 0; k < count; k++)
+            whole[k] = p[k];
+        smear_projection_weigh(p, weight, NULL, count, &camera[0]);
+        smear_projection_weigh(whole, weight, position, count, &camera[0]);
         for (int row = 0; row < (orthographic ? 4 : 3); row++) {
             int64_t sum = 0;
             for (int k = 0; k < count; k++)
                 sum += row_bound(p[k].m[row]);
-            if (!CHECK(sum < INT32_MAX))
+            if (!CHECK(sum < INT32_MAX) || !CHECK(row_bound(whole[0].m[row]) < INT32_MAX))
                 return;
         }
         const int16_t v[3] = { -32768, 32767, -32768 };
         struct smear_homogeneous h;
-        for (int k = 1; k < count; k++)
-            smear_projection_add(&p[0], &p[k]);
-        smear_transform_vertex(&h, &p[0], v);
+        smear_transform_vertex(&h, &whole[0], v);
         CHECK(p[0].depths.near_distance >= 1 && p[0].depths.far_distance > p[0].depths.near_distance);
         if (!CHECK(!orthographic || h.w >= 1))
             return;

@@ -111,22 +111,6 @@ static void test_records_are_read_at_their_offsets(void)
     CHECK_EQ(path_curvature(record, &s), 0);
 }
 
-static void test_parts_of_the_exposure_follow_each_other(void)
-{
-    for (int32_t time = 0; time < SHUTTER_CLOSE; time += 7) {
-        int found = 0;
-        for (int piece = 1; piece <= PATH_INTERVALS; piece++) {
-            int32_t in = time;
-            if (path_interval_time(&in, piece)) {
-                found++;
-                CHECK_EQ(in, (time * PATH_INTERVALS) & (SHUTTER_CLOSE - 1));
-                CHECK_EQ(piece - 1, time * PATH_INTERVALS / SHUTTER_CLOSE);
-            }
-        }
-        CHECK_EQ(found, 1);
-    }
-}
-
 void suite_path(void)
 {
     RUN(test_the_three_places_are_met);
@@ -134,5 +118,4 @@ void suite_path(void)
     RUN(test_depths_are_near_the_parabola);
     RUN(test_what_stands_still_keeps_its_place);
     RUN(test_records_are_read_at_their_offsets);
-    RUN(test_parts_of_the_exposure_follow_each_other);
 }

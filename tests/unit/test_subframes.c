@@ -6,6 +6,7 @@
 #include "temporal/tile_method.h"
 
 #include "base/pixel.h"
+#include "geometry/space.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
 #include "tests/random.h"
@@ -21,7 +22,9 @@ static uint32_t store[POOL_WORDS];
 static struct smear_moving_triangle mover[MOVERS];
 static uint32_t mover_count, still_head, still_last, blend_head, blend_last;
 static uint32_t texels[32 * 16];
-static uint8_t piece;           /* of the exposure, in which triangles with a path are there; 0: all of it */
+static uint8_t in_space;        /* vertices of the next triangle with a path that have it in space, a bit for each */
+static const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536, .far_plane = 20 * 65536 };
+enum { SPACE_SCALE = 12 };      /* log2 of W per unit */
 
 /* Its still surfaces, in a ring of rows like the window's. */
 static uint32_t still_color[W * RING];
@@ -40,7 +43,8 @@ static void scene_begin(bool linear)
 {
     store_begin(store, POOL_WORDS, SEGMENTS, W, H, linear);
     mover_count = 0;
-    piece = 0;
+    in_space = 0;
+    geometry.camera = &camera;
     still_head = still_last = blend_head = blend_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
@@ -65,12 +69,14 @@ static int64_t area_at(const struct corners *c, int pose)
 
 static bool has_room(void)
 {
-    return bins_has_room(&geometry, 3 * 16, 2) && mover_count < MOVERS;
+    return bins_has_room(&geometry, 3 * (16 + SCREEN_PATH_WORDS), 2) && mover_count < MOVERS;
 }
 
-/* Pixels near its way, and the part of the exposure in which it is there. */
+/* Pixels near its way; of what moves in space, all. */
 static struct smear_path_bounds bounds_of(const struct corners *c)
 {
+    if (in_space != 0)
+        return (struct smear_path_bounds){ .x1 = W, .y1 = H, .flags = PATH_SPACE, .space = in_space };
     int32_t low[2] = { INT32_MAX, INT32_MAX }, high[2] = { INT32_MIN, INT32_MIN };
     for (int32_t time = 0; time <= SHUTTER_CLOSE; time += 64)
         for (int k = 0; k < 3; k++)
@@ -81,8 +87,34 @@ static struct smear_path_bounds bounds_of(const struct corners *c)
             }
     return (struct smear_path_bounds){
         .x0 = (int16_t)((low[0] + 125) >> 8), .y0 = (int16_t)((low[1] + 125) >> 8),
-        .x1 = (int16_t)((high[0] + 129) >> 8), .y1 = (int16_t)((high[1] + 129) >> 8), .interval = piece
+        .x1 = (int16_t)((high[0] + 129) >> 8), .y1 = (int16_t)((high[1] + 129) >> 8)
     };
+}
+
+/* A place about the near plane, mostly in view or beside it. */
+static struct smear_homogeneous random_place(const struct smear_segment *s)
+{
+    const int32_t w = chance(8) ? between(-(100 << SPACE_SCALE), 100 << SPACE_SCALE) : between(-(1 << SPACE_SCALE), 6 << SPACE_SCALE);
+    const int32_t part = chance(8) ? 100 : 1;
+    if (s->flat_depth)
+        return (struct smear_homogeneous){ between(-W, W) * 2048 * part, between(-H, H) * 2048 * part, 4096,
+                                           between(-(1 << 29), SMEAR_DEPTH_MAX) };
+    return (struct smear_homogeneous){ w / 16 * between(-20, 20) * part, w / 16 * between(-16, 16) * part, w, w };
+}
+
+/* Fills in a vertex of a path in space; one that has a path on the screen besides has that behind its record. */
+static void store_in_space(uint32_t word, const struct smear_segment *s, const struct corners *c, int k)
+{
+    struct smear_homogeneous place[3] = { random_place(s), random_place(s), random_place(s) };
+    if (chance(2))
+        place[0] = place[2] = place[1];
+    smear_space_store(&pool[word], s, &place[0], &place[1], &place[2]);
+    if ((in_space >> k & 1u) != 0)
+        return;
+    static const uint8_t order[3] = { 1, 0, 2 };
+    for (int pose = 0; pose < 3; pose++)
+        for (int j = 0; j < PATH_POSE_WORDS; j++)
+            pool[geometry.vertex_words++] = (uint32_t)c->at[order[pose]][k][j];
 }
 
 /* Stores a triangle; of a still segment the middle alone. */
@@ -106,6 +138,8 @@ static uint32_t add_triangle(int at, const struct corners *c, uint32_t color)
                 pool[word + s->motion + PATH_POSE_WORDS + (uint32_t)j] = (uint32_t)c->at[2][k][j];
             }
         }
+        if (s->path && in_space != 0)
+            store_in_space(word, s, c, k);
         if (s->uv != 0)
             pool[word + s->uv] = random_u32();
         for (uint32_t j = 0; j < 2 && s->color != 0; j++)
@@ -138,29 +172,10 @@ static int32_t time_of(int32_t k, int32_t n)
     return shutter.time[slot] + (int32_t)(step * (place & 0xffff) >> 16);
 }
 
-/* A triangle of the scene at a time, at the end of the instant's list. */
-static void pose_triangle(uint32_t i, int32_t time)
+/* Appends a triangle of so many words a vertex to the instant's list, where it is seen from the front. */
+static void append_posed(const struct smear_triangle *from, const struct smear_segment *s, const int32_t *const record[3], int words)
 {
-    const struct smear_triangle *from = bins_triangle(&geometry, i);
-    const struct smear_segment *s = &segment[from->segment];
-    int32_t place[3][3], part = s->path ? bins_bounds(&geometry, i)->interval : 0;
-    if (part != 0) {        /* a 16th of the exposure */
-        if (time >> 12 != part - 1)
-            return;
-        time = (time & 4095) << 4;
-    }
-    for (int k = 0; k < 3; k++) {
-        const int32_t *v = (const int32_t *)pool + from->vertex[k];
-        if (s->path)
-            path_at(place[k], v, s, time);
-        for (int j = 0; j < 3 && !s->path; j++)
-            place[k][j] = v[j];
-        const int32_t guard = SMEAR_GUARD_PX << 8;
-        place[k][0] = clamp_i32(place[k][0], W * 128 - guard, W * 128 + guard);
-        place[k][1] = clamp_i32(place[k][1], H * 128 - guard, H * 128 + guard);
-        place[k][2] = clamp_i32(place[k][2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-    }
-    if (edge_value(place[0], place[1], place[2][0], place[2][1]) <= 0)
+    if (edge_value(record[0], record[1], record[2][0], record[2][1]) <= 0)
         return;
     uint32_t n = posed.triangle_count++;
     struct smear_triangle *t = bins_triangle(&posed, n);
@@ -170,11 +185,52 @@ static void pose_triangle(uint32_t i, int32_t time)
         uint32_t word = posed.vertex_words;
         posed.vertex_words += s->stride;
         t->vertex[k] = (uint16_t)word;
-        for (uint32_t j = 0; j < s->stride; j++)
-            posed_pool[word + j] = j < 3 ? (uint32_t)place[k][j] : pool[from->vertex[k] + j];
+        for (int j = 0; j < s->stride; j++)
+            posed_pool[word + (uint32_t)j] = j < words ? (uint32_t)record[k][j] : 0;
     }
     if (n > 0)
         bins_triangle(&posed, n - 1)->next = n;
+}
+
+/* What is seen of a triangle in space, as test_space.c has it. */
+static void pose_in_space(const struct smear_triangle *from, const struct smear_segment *s, unsigned bits, int32_t time)
+{
+    static const int32_t no_shift[2];
+    const int32_t *const v[3] = { bins_vertex(&geometry, s, from->vertex[0]), bins_vertex(&geometry, s, from->vertex[1]),
+                                  bins_vertex(&geometry, s, from->vertex[2]) };
+    struct smear_space space;
+    struct path_record corner[SMEAR_CLIP_MAX];
+    smear_space_make(&space, &geometry, s, W, H);
+    const int count = smear_space_pose(corner, &space, v, bits, path_phase(time), no_shift);
+    for (int i = 2; i < count; i++) {
+        const int32_t *const record[3] = { corner[0].word, corner[i - 1].word, corner[i].word };
+        append_posed(from, s, record, s->motion);
+    }
+}
+
+/* A triangle of the scene at a time, at the end of the instant's list. */
+static void pose_triangle(uint32_t i, int32_t time)
+{
+    const struct smear_triangle *from = bins_triangle(&geometry, i);
+    const struct smear_segment *s = &segment[from->segment];
+    if (s->path && bins_bounds(&geometry, i)->space != 0) {
+        pose_in_space(from, s, bins_bounds(&geometry, i)->space, time);
+        return;
+    }
+    const int32_t guard = SMEAR_GUARD_PX << 8;
+    int32_t corner[3][16];
+    const int32_t *const record[3] = { corner[0], corner[1], corner[2] };
+    for (int k = 0; k < 3; k++) {
+        const int32_t *v = bins_vertex(&geometry, s, from->vertex[k]);
+        for (int j = 0; j < s->stride; j++)
+            corner[k][j] = v[j];
+        if (s->path)
+            path_at(corner[k], v, s, time);
+        corner[k][0] = clamp_i32(corner[k][0], W * 128 - guard, W * 128 + guard);
+        corner[k][1] = clamp_i32(corner[k][1], H * 128 - guard, H * 128 + guard);
+        corner[k][2] = clamp_i32(corner[k][2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+    }
+    append_posed(from, s, record, s->stride);
 }
 
 static void draw_posed(void)
@@ -399,6 +455,7 @@ static void random_scene(bool blends)
         bool uv = random_u32() & 1u, color = random_u32() & 1u, path = i >= STILL_SEGMENTS;
         set_path_layout(i, uv, color, path, color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
         segment[i].flat_depth = chance(4);
+        segment[i].scale = SPACE_SCALE;
         draw[i].alpha = (uint8_t)(i == 2 || i == 9 ? SMEAR_BLEND : chance(3) ? SMEAR_CUTOUT : SMEAR_OPAQUE);
         draw[i].cutoff = (uint8_t)between(1, 255);
         set_texture(i, chance(3));
@@ -413,7 +470,7 @@ static void random_scene(bool blends)
         if (area_at(&c, 1) == 0)
             continue;
         uint32_t color = random_u32();
-        piece = (uint8_t)(chance(4) ? between(1, PATH_INTERVALS) : 0);
+        in_space = (uint8_t)(chance(3) && segment[kind].path ? between(1, 7) : 0);
         if (kind == 2 || kind == 9) {
             uint32_t i = add_triangle(kind, &c, color);
             link_in(&blend_head, &blend_last, i);
@@ -423,6 +480,7 @@ static void random_scene(bool blends)
         } else {
             add_mover(kind, &c, color);
         }
+        in_space = 0;
     }
 }
 

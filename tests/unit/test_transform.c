@@ -123,7 +123,7 @@ static double worst_position(enum kind kind, bool orthographic, int height, doub
         struct smear_view view;
         struct smear_projection p;
         smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, height);
+        smear_projection_make(&p, &view, &camera, height, 0);
         const struct smear_viewport viewport = { height * 4 / 3, height };
         for (int k = 0; k < 8; k++) {
             const int16_t v[3] = { (int16_t)between(-32768, 32767), (int16_t)between(-32768, 32767),
@@ -185,7 +185,7 @@ static void test_the_near_plane_has_the_largest_depth_and_far_things_the_smalles
     struct smear_view view;
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &camera.pose);
-    smear_projection_make(&p, &view, &camera, 240);
+    smear_projection_make(&p, &view, &camera, 240, 0);
     const struct smear_viewport viewport = { 320, 240 };
     int32_t last = INT32_MAX;
     for (int z = 256; z <= 32767; z += z < 1024 ? 1 : 97) {
@@ -213,7 +213,7 @@ static void test_orthographic_depth_runs_evenly_from_near_to_far(void)
     struct smear_view view;
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &camera.pose);
-    smear_projection_make(&p, &view, &camera, 200);
+    smear_projection_make(&p, &view, &camera, 200, 0);
     CHECK(p.depths.orthographic);
     const struct smear_viewport viewport = { 200, 200 };
     for (int z = 256; z <= 101 * 256; z += 256) {
@@ -238,7 +238,7 @@ static void test_any_positive_w_and_any_place_project_without_overflow(void)
     struct smear_view view;
     struct smear_projection p;
     smear_view_compose(&view, &object, &mesh, &camera.pose);
-    smear_projection_make(&p, &view, &camera, 240);
+    smear_projection_make(&p, &view, &camera, 240, 0);
     const struct smear_viewport viewport = { 2048, 2048 };
     const double guard = SMEAR_GUARD_PX * 256.0;
     for (int i = 0; i < 9; i++)

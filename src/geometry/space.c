@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: MIT */
+/* space.c - see space.h. */
+#include "geometry/space.h"
+
+#include "base/fixmath.h"
+#include "geometry/vertex.h"
+
+/* An orthographic camera's x and y from the frame's centre, before they are divided by W, have four bits more than q8. */
+enum { EVEN_SHIFT = 4, EVEN_W = 256 << EVEN_SHIFT };
+
+void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
+                      int32_t height)
+{
+    space->segment = s;
+    space->viewport = (struct smear_viewport){ width, height };
+    if (segment_flat_depth(s)) {
+        /* Distances are what depths lack of the largest. */
+        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX, 1 << 30, 2, true, 0 };
+        return;
+    }
+    smear_depths_make(&space->depths, g->camera, s->scale);
+    space->depths.coarse = (uint8_t)projection_coarse(height, false);
+}
+
+/* Makes a place before an orthographic camera of one on the screen, of which the depth may lie beyond its range. */
+static void take_even(struct smear_homogeneous *h, const struct smear_space *space, const struct smear_screen *screen, int32_t depth)
+{
+    enum { DEEPEST = -(1 << 29) };
+    *h = (struct smear_homogeneous){ (screen->x - (space->viewport.width << 7)) * (1 << EVEN_SHIFT),
+                                     (screen->y - (space->viewport.height << 7)) * (1 << EVEN_SHIFT), EVEN_W,
+                                     SMEAR_DEPTH_MAX - max_i32(depth, DEEPEST) };
+}
+
+void smear_space_take(struct smear_homogeneous *h, const struct smear_space *space, const struct smear_projection *p)
+{
+    if (depths_are_even(&space->depths)) {
+        struct smear_screen screen;
+        smear_project(&screen, &p->depths, h, &space->viewport);
+        take_even(h, space, &screen, depth_even(&p->depths, h->distance));
+        return;
+    }
+    const int up = clamp_i32(space->segment->scale - p->scale, -31, 31);
+    h->x = scale_sat(h->x, up);
+    h->y = scale_sat(h->y, up);
+    h->w = h->distance = scale_sat(h->w, up);
+}
+
+static void store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *h)
+{
+    record[VERTEX_X] = (uint32_t)h->x;
+    record[VERTEX_Y] = (uint32_t)h->y;
+    record[VERTEX_DEPTH] = (uint32_t)(segment_flat_depth(s) ? h->distance : h->w);
+}
+
+void smear_space_store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *open,
+                       const struct smear_homogeneous *middle, const struct smear_homogeneous *close)
+{
+    store(record, s, middle);
+    store(record + s->motion, s, open);
+    store(record + s->motion + PATH_POSE_WORDS, s, close);
+}
+
+/* Returns floor(a p / 2^15) for |p| <= 2^15. */
+static inline int32_t times_phase(int32_t a, int32_t p)
+{
+    return add_wrap(mul_wrap(a >> 15, p), (a & 0x7fff) * p >> 15);
+}
+
+/* Returns a coordinate at a phase, q15, of the path from open over middle to close. Projections leave room for what lies between
+ * (smear_projection_make); wilder numbers wrap. */
+static inline int32_t along(int32_t open, int32_t middle, int32_t close, int32_t p)
+{
+    const int32_t bend = add_wrap(add_wrap(open, close), mul_wrap(middle, -2));
+    return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(bend, p)), p) >> 1);
+}
+
+void smear_space_at(struct smear_homogeneous *h, const struct smear_space *space, const int32_t *record, int32_t phase)
+{
+    const int32_t *const open = record + space->segment->motion, *const close = open + PATH_POSE_WORDS, p = phase >> 15;
+    h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], p);
+    h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], p);
+    h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], p);
+    h->w = depths_are_even(&space->depths) ? EVEN_W : h->distance;
+}
+
+/* Projects a place; returns its outcode. One behind the near plane is not projected. */
+static int project_place(struct smear_screen *screen, const struct smear_space *space, const struct smear_homogeneous *h)
+{
+    if (h->distance < space->depths.near_distance)
+        return OUT_NEAR;
+    smear_project(screen, &space->depths, h, &space->viewport);
+    return outcode_sides(screen, &space->viewport) | (h->distance > space->depths.far_distance ? OUT_FAR : 0);
+}
+
+static void take_screen(struct path_record *out, const struct smear_screen *screen)
+{
+    out->word[VERTEX_X] = screen->x;
+    out->word[VERTEX_Y] = screen->y;
+    out->word[VERTEX_DEPTH] = screen->depth;
+}
+
+/* Cuts the triangle. */
+static SMEAR_NOINLINE int cut(struct path_record out[SMEAR_CLIP_MAX], const struct smear_screen corner[3],
+                              const struct smear_homogeneous place[3], const struct smear_space *space, const int32_t *const record[3],
+                              int codes)
+{
+    const struct smear_screen *const own[3] = { &corner[0], &corner[1], &corner[2] };
+    struct smear_clip_polygon p;
+    struct smear_screen screen[SMEAR_CLIP_MAX];
+    for (int i = 0; i < 3; i++) {
+        p.vertex[i].now = place[i];
+        smear_vertex_take_clipped(&p.vertex[i], space->segment, record[i]);
+    }
+    smear_clip_start(&p, 0, segment_textured(space->segment), segment_colored(space->segment));
+    smear_clip_polygon(&p, &space->depths, codes);
+    smear_clip_project(screen, &p, own, &space->depths, &space->viewport);
+    for (int i = 0; i < p.count; i++) {
+        take_screen(&out[i], &screen[i]);
+        smear_vertex_store_clipped((uint32_t *)(void *)out[i].word, space->segment, clip_corner(&p, i));
+    }
+    return p.count;
+}
+
+/* Finds where a vertex with a path on the screen is. */
+static void place_on_screen(struct smear_screen *screen, const struct smear_space *space, const int32_t *record, int32_t phase,
+                            const int32_t shift[2])
+{
+    const int32_t *const middle = record + space->segment->stride, *const open = middle + PATH_POSE_WORDS;
+    int32_t at[PATH_POSE_WORDS];
+    path_place(at, middle, open, phase);
+    *screen = (struct smear_screen){ at[PATH_X], at[PATH_Y], clamp_i32(at[PATH_DEPTH], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX) };
+    if (SMEAR_EDGES && path_is_shifted(open, PATH_X))
+        screen->x += shift[PATH_X];
+    if (SMEAR_EDGES && path_is_shifted(open, PATH_Y))
+        screen->y += shift[PATH_Y];
+    screen_clamp(screen, &space->viewport);
+}
+
+int smear_space_pose(struct path_record out[SMEAR_CLIP_MAX], const struct smear_space *space, const int32_t *const record[3],
+                     unsigned in_space, int32_t phase, const int32_t shift[2])
+{
+    struct smear_homogeneous place[3];
+    struct smear_screen corner[3];
+    int codes = 0, shared = OUT_REJECT;
+    for (int i = 0; i < 3; i++) {
+        smear_space_at(&place[i], space, record[i], phase);
+        int code = project_place(&corner[i], space, &place[i]);
+        if ((in_space >> i & 1u) == 0) {
+            place_on_screen(&corner[i], space, record[i], phase, shift);
+            code &= ~OUT_GUARD;
+        }
+        codes |= code;
+        shared &= code;
+    }
+    if (shared != 0)
+        return 0;
+    if ((codes & OUT_CLIP) != 0)
+        return cut(out, corner, place, space, record, codes);
+    for (int i = 0; i < 3; i++) {
+        take_screen(&out[i], &corner[i]);
+        for (int k = VERTEX_BASE_WORDS; k < space->segment->motion; k++)
+            out[i].word[k] = record[i][k];
+    }
+    return 3;
+}
