@@ -34,6 +34,8 @@ struct job {
     int32_t x, y, width, height;                /* the block's pixels */
     int32_t stride;                             /* from a row of entries to the next */
     bool even;                                  /* samples are evenly spaced */
+    bool has_space;                             /* a triangle moves in space: the others are drawn sample by sample, too, so that
+                                                 * no gap opens between them */
     uint32_t fragments;
 };
 
@@ -114,7 +116,10 @@ static void choose_segments(struct job *j)
     int32_t curvature = 0, travel = 0;               /* q8 px */
     for (uint32_t i = 0; i < t->moving_count; i++) {
         const struct smear_path_bounds *b = bins_bounds(t->frame->bins, t->moving[i].triangle);
-        if (moving_is_in(&t->moving[i], t) && b->space == 0) {
+        if (!moving_is_in(&t->moving[i], t))
+            continue;
+        j->has_space = j->has_space || b->space != 0;
+        if (b->space == 0) {
             travel = max_i32(travel, b->travel << 4);
             curvature = max_i32(curvature, b->curvature << 3);
         }
@@ -287,6 +292,18 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         j->fragments += paint(j, &c, &p, true, false);
 }
 
+/* Draws a triangle as it is in the middle of each sample. */
+static void draw_sampled(struct job *j, const struct moving *m)
+{
+    const int32_t samples = 1 << j->samples.samples_log2;
+    struct timemask_pose pose;
+    const struct timemask_pose *const poses[3] = { &pose, &pose, &pose };
+    for (int32_t sample = 0; sample < samples; sample++) {
+        pose_at(&pose, j, m, smear_shutter_instant(j->tile->shutter, sample, samples));
+        draw_segment(j, m, poses, sample, 0);
+    }
+}
+
 static void draw_whole(struct job *j, const struct moving *m)
 {
     struct timemask_pose pose[3];
@@ -332,10 +349,12 @@ static void draw_moving(struct job *j, uint32_t i)
     const struct smear_path_bounds *b = m.bounds;
     if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
         return;
-    if (b->space == 0)
-        draw_whole(j, &m);
-    else
+    if (b->space != 0)
         draw_in_space(j, &m);
+    else if (j->has_space)
+        draw_sampled(j, &m);
+    else
+        draw_whole(j, &m);
 }
 
 /* The listed moving triangles, the nearest first, until the rest is hidden. */
