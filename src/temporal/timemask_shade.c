@@ -27,7 +27,12 @@ struct shape {
  * pixels. */
 struct slopes {
     int32_t dx, dy;
+    int64_t fine_dx, fine_dy;   /* with `fine` more bits */
+    int fine;
 };
+
+/* From so many q8 px on, as corners at the guard band are, slopes of whole steps would add up to many of them. */
+enum { FINE_LOG2 = 10, FAR_OFF = 256 << 8 };
 
 /* False when the triangle has no area. */
 static bool shape_make(struct shape *s, const struct timemask_pose *p)
@@ -56,11 +61,13 @@ static bool shape_make(struct shape *s, const struct timemask_pose *p)
 static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
 {
     int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
-    int64_t dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> s->shift;
-    int64_t dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> s->shift;
+    const int fine = min_i32(s->shift, FINE_LOG2);
+    const int64_t fine_dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> (s->shift - fine);
+    const int64_t fine_dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> (s->shift - fine);
+    const int64_t dx = fine_dx >> fine, dy = fine_dy >> fine;
     if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
-        return (struct slopes){ 0, 0 };
-    return (struct slopes){ (int32_t)dx, (int32_t)dy };
+        return (struct slopes){ 0, 0, 0, 0, 0 };
+    return (struct slopes){ (int32_t)dx, (int32_t)dy, fine_dx, fine_dy, fine };
 }
 
 /* Returns the value at the point that attributes go with. */
@@ -136,6 +143,8 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
     int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
+    if (abs_i32(c->x) >= FAR_OFF || abs_i32(c->y) >= FAR_OFF)
+        at = v - ((g.fine_dx * c->x + g.fine_dy * c->y) >> (8 + g.fine));
     int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
