@@ -241,7 +241,7 @@ static double worst_sum(bool orthographic, bool apart)
             if (sum[2] < 0.5 || fabs(sum[0] / sum[2]) > 240 || fabs(sum[1] / sum[2]) > 240)
                 continue;
             worst = fmax(worst, fmax(fabs(ldexp((double)h.x / h.w, coarse) - sum[0] / sum[2]),
-                                      fabs(ldexp((double)h.y / h.w, coarse) - sum[1] / sum[2])));
+                                     fabs(ldexp((double)h.y / h.w, coarse) - sum[1] / sum[2])));
         }
     }
     return worst;

@@ -109,7 +109,7 @@ static void store_in_space(uint32_t word, const struct smear_segment *s, const s
     if (chance(2))
         place[0] = place[2] = place[1];
     smear_space_store(&pool[word], s, &place[0], &place[1], &place[2]);
-    if ((in_space >> k & 1u) != 0)
+    if (((unsigned)in_space >> k & 1u) != 0)
         return;
     static const uint8_t order[3] = { 1, 0, 2 };
     for (int pose = 0; pose < 3; pose++)
