@@ -41,6 +41,8 @@ int main(void)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             struct smear_depths p = { .near_distance = any_coordinate(), .far_distance = any_coordinate(),
                                       .orthographic = orthographic != 0 };
+            const int coarse = any_int;
+            p.coarse = (uint8_t)(coarse >= 0 && coarse <= GUARD_LOG2 ? coarse : 0);
             struct smear_clip_vertex in, out, between;
             any_vertex(&in);
             any_vertex(&out);

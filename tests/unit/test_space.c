@@ -249,7 +249,7 @@ static bool check_sheet(const struct sheet *s, int32_t time, int *seen)
                 || !CHECK(corner[i].word[2] >= SMEAR_DEPTH_MIN && corner[i].word[2] <= SMEAR_DEPTH_MAX))
                 return false;
         for (int k = 0; k < 3 && corners != 0; k++) {       /* one with a path on the screen stays where that is */
-            int32_t want[3];
+            int32_t want[3] = { 0, 0, 0 };
             bool found = (bits >> k & 1u) != 0;
             if (!found)
                 path_place(want, record[k] + segment[0].stride, record[k] + segment[0].stride + PATH_POSE_WORDS, path_phase(time));
