@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_holds.c - a vertex that keeps a path on the screen is there where it is in space, at any instant. */
+/* test_holds.c - a vertex that keeps a path on the screen is there where it is in space, at any instant; and the bounds of triangles
+ * in space hold all that is seen of them. */
 #define smear_assemble_path assemble_path_of_this_suite
 #include "geometry/assemble_path.c"
 
@@ -110,8 +111,109 @@ static void test_slow_things_keep_their_path_on_the_screen(void)
     }
 }
 
+/* ------------------------------------------------------------------ bounds of triangles in space */
+
+enum { STEPS = 6, UNIT_LOG2 = 8 };
+
+static int16_t corner[9];
+static smear_camera eye[KEYS];
+static const smear_mesh one = { .position = corner, .vertex_count = 3, .triangle_count = 1, .shift = UNIT_LOG2 };
+
+static void place_at(struct smear_placement *place, const struct smear_assembly *d, int key, int coarse)
+{
+    static const smear_transform still = SMEAR_IDENTITY;
+    struct smear_view view;
+    (void)d;
+    smear_view_compose(&view, &still, &one, &eye[key].pose);
+    smear_projection_make(&place->now, &view, &eye[key], 2 * HALF_HEIGHT, coarse);
+    place->position = corner;
+    place->extra_count = 0;
+}
+
+/* A triangle around the eye, which goes straight. */
+static void random_passage(void)
+{
+    double way[3];
+    for (int j = 0; j < 9; j++)
+        corner[j] = (int16_t)between(-(1 << between(6, 14)), 1 << between(6, 14));
+    for (int j = 0; j < 3; j++)
+        way[j] = uniform(-1, 1) * spread(0.01, 20);
+    for (int key = 0; key < KEYS; key++) {
+        eye[key] = (smear_camera){ .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 13107, .far_plane = 200 * 65536 };
+        for (int j = 0; j < 3; j++)
+            eye[key].pose.origin[j] = (int32_t)lrint(way[j] * (key == OPEN ? -1 : key == CLOSE ? 1 : 0) * 65536);
+    }
+}
+
+/* Whether a point of the triangle, its first corners' parts in STEPS, is seen in the pixel (x, y) at a phase. */
+static bool is_seen(int *x, int *y, int first, int second, double phase)
+{
+    double at[3];
+    for (int j = 0; j < 3; j++)
+        at[j] = ldexp((corner[j] * first + corner[3 + j] * second + corner[6 + j] * (STEPS - first - second)) / (double)STEPS, -UNIT_LOG2)
+              - eye[CLOSE].pose.origin[j] / 65536.0 * phase;
+    const double w = -at[2];
+    if (w < 0.2 || w > 200)
+        return false;
+    *x = (int)floor(at[0] / w * HALF_HEIGHT + HALF_WIDTH);
+    *y = (int)floor(-at[1] / w * HALF_HEIGHT + HALF_HEIGHT);
+    return *x >= 0 && *x < 2 * HALF_WIDTH && *y >= 0 && *y < 2 * HALF_HEIGHT;
+}
+
+/* Of both sides, so that one of them faces the eye. Returns how many points were seen, or -1. */
+static int check_bounds(struct path_batch *batch)
+{
+    struct smear_path_bounds b[2];
+    struct path_vertex v[3];
+    int seen = 0;
+    for (int i = 0; i < 3; i++)
+        v[i] = (struct path_vertex){ .tag = (uint32_t)i, .outcodes = IN_SPACE };
+    batch->is_in_space = false;
+    const bool has[2] = { find_bounds_in_space(&b[0], batch, &v[0], &v[1], &v[2]), find_bounds_in_space(&b[1], batch, &v[0], &v[2], &v[1]) };
+    for (int i = 0; i <= PHASES - 1; i++)
+        for (int first = 0; first <= STEPS; first++)
+            for (int second = 0; first + second <= STEPS; second++) {
+                int x, y;
+                if (!is_seen(&x, &y, first, second, i * 2.0 / (PHASES - 1) - 1))
+                    continue;
+                seen++;
+                bool within = false;
+                for (int side = 0; side < 2; side++)
+                    within = within || (has[side] && x >= b[side].x0 && x < b[side].x1 && y >= b[side].y0 && y < b[side].y1);
+                if (!CHECK(within))
+                    return -1;
+            }
+    return seen;
+}
+
+static void test_bounds_hold_all_that_is_seen_of_a_triangle_in_space(void)
+{
+    static const smear_material material = { .color = { 255, 255, 255, 255 } };
+    static struct smear_assembly d;
+    struct smear_segment s = { .path = 1 };
+    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .camera = eye };
+    struct smear_assembler a = { .bins = &g, .viewport = { 2 * HALF_WIDTH, 2 * HALF_HEIGHT }, .path_x1 = 2 * HALF_WIDTH };
+    struct path_batch batch = { .a = &a, .d = &d, .segment = &s };
+    int seen = 0;
+    random_state = 3;
+    d.material = &material;
+    d.mesh = &one;
+    d.place_fine = place_at;
+    for (int n = 0; n < 10000; n++) {
+        random_passage();
+        const int more = check_bounds(&batch);
+        if (more < 0) {
+            CHECK_EQ(n, -1);
+            return;
+        }
+        seen += more;
+    }
+    CHECK(seen > 50000);
+}
+
 void suite_holds(void)
 {
     RUN(test_a_path_that_holds_is_within_half_a_pixel_of_space);
     RUN(test_slow_things_keep_their_path_on_the_screen);
+    RUN(test_bounds_hold_all_that_is_seen_of_a_triangle_in_space);
 }
