@@ -132,7 +132,7 @@ static int compare(const void *a, const void *b)
 static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
 {
     static double error[CASES_MAX];
-    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 1000 : 40);
+    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 1000 : 100);
     const uint32_t count = wanted < CASES_MAX ? wanted : CASES_MAX, first = number_from("SMEAR_FIRST", 1);
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO);

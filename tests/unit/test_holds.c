@@ -117,6 +117,7 @@ enum { STEPS = 6, UNIT_LOG2 = 8 };
 
 static int16_t corner[9];
 static smear_camera eye[KEYS];
+static double way[3], bend[3];      /* of the eye: way phase + bend phase^2 */
 static const smear_mesh one = { .position = corner, .vertex_count = 3, .triangle_count = 1, .shift = UNIT_LOG2 };
 
 static void place_at(struct smear_placement *place, const struct smear_assembly *d, int key, int coarse)
@@ -130,18 +131,19 @@ static void place_at(struct smear_placement *place, const struct smear_assembly 
     place->extra_count = 0;
 }
 
-/* A triangle around the eye, which goes straight. */
+/* A triangle around the eye, which goes along a parabola. */
 static void random_passage(void)
 {
-    double way[3];
     for (int j = 0; j < 9; j++)
         corner[j] = (int16_t)between(-(1 << between(6, 14)), 1 << between(6, 14));
-    for (int j = 0; j < 3; j++)
+    for (int j = 0; j < 3; j++) {
         way[j] = uniform(-1, 1) * spread(0.01, 20);
+        bend[j] = chance(2) ? 0 : uniform(-2, 2) * way[j];
+    }
     for (int key = 0; key < KEYS; key++) {
         eye[key] = (smear_camera){ .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 13107, .far_plane = 200 * 65536 };
         for (int j = 0; j < 3; j++)
-            eye[key].pose.origin[j] = (int32_t)lrint(way[j] * (key == OPEN ? -1 : key == CLOSE ? 1 : 0) * 65536);
+            eye[key].pose.origin[j] = key == MIDDLE ? 0 : (int32_t)lrint((bend[j] + (key == OPEN ? -way[j] : way[j])) * 65536);
     }
 }
 
@@ -151,7 +153,7 @@ static bool is_seen(int *x, int *y, int first, int second, double phase)
     double at[3];
     for (int j = 0; j < 3; j++)
         at[j] = ldexp((corner[j] * first + corner[3 + j] * second + corner[6 + j] * (STEPS - first - second)) / (double)STEPS, -UNIT_LOG2)
-              - eye[CLOSE].pose.origin[j] / 65536.0 * phase;
+              - (way[j] + bend[j] * phase) * phase;
     const double w = -at[2];
     if (w < 0.2 || w > 200)
         return false;
