@@ -171,7 +171,8 @@ static int check_bounds(struct path_batch *batch)
     for (int i = 0; i < 3; i++)
         v[i] = (struct path_vertex){ .tag = (uint32_t)i, .outcodes = IN_SPACE };
     batch->is_in_space = false;
-    const bool has[2] = { find_bounds_in_space(&b[0], batch, &v[0], &v[1], &v[2]), find_bounds_in_space(&b[1], batch, &v[0], &v[2], &v[1]) };
+    const bool has[2] = { find_bounds_in_space(&b[0], batch, &v[0], &v[1], &v[2]),
+                          find_bounds_in_space(&b[1], batch, &v[0], &v[2], &v[1]) };
     for (int i = 0; i <= PHASES - 1; i++)
         for (int first = 0; first <= STEPS; first++)
             for (int second = 0; first + second <= STEPS; second++) {
