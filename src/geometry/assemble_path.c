@@ -379,7 +379,7 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, str
         const struct smear_homogeneous *const open = &place[i][OPEN], *const close = &place[i][CLOSE];
         meet->x = 2 * meet->x - ((open->x + close->x) >> 1);
         meet->y = 2 * meet->y - ((open->y + close->y) >> 1);
-        meet->distance = 2 * meet->distance - ((open->distance + close->distance) >> 1);
+        meet->distance = narrow_sat(2 * (int64_t)meet->distance - (((int64_t)open->distance + close->distance) >> 1));
         if (!depths_are_even(&space.depths))
             meet->w = meet->distance;
     }
