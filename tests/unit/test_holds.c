@@ -214,9 +214,46 @@ static void test_bounds_hold_all_that_is_seen_of_a_triangle_in_space(void)
     CHECK(seen > 50000);
 }
 
+/* Before an orthographic camera distances far beyond the far plane take all bits there are: sanitizers see to the rest. */
+static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_the_frame(void)
+{
+    static const smear_material material = { .color = { 255, 255, 255, 255 } };
+    static struct smear_assembly d;
+    struct smear_segment s = { .path = 1, .flat_depth = 1 };
+    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .camera = eye };
+    struct smear_assembler a = { .bins = &g, .viewport = { 2 * HALF_WIDTH, 2 * HALF_HEIGHT }, .path_x1 = 2 * HALF_WIDTH };
+    struct path_batch batch = { .a = &a, .d = &d, .segment = &s };
+    struct smear_path_bounds b;
+    struct path_vertex v[3];
+    int found = 0;
+    random_state = 4;
+    d.material = &material;
+    d.mesh = &one;
+    d.place_fine = place_at;
+    d.at.now.depths.orthographic = true;
+    for (int i = 0; i < 3; i++)
+        v[i] = (struct path_vertex){ .tag = (uint32_t)i, .outcodes = IN_SPACE };
+    for (int n = 0; n < 10000; n++) {
+        const int32_t far = between(2 * 65536, 100 * 65536);
+        random_passage();
+        for (int key = 0; key < KEYS; key++) {
+            eye[key].half_height = 10 * 65536;
+            eye[key].far_plane = far;
+        }
+        batch.is_in_space = false;
+        if (!find_bounds_in_space(&b, &batch, &v[0], &v[1], &v[2]))
+            continue;
+        found++;
+        if (!CHECK(b.x0 >= 0 && b.x0 < b.x1 && b.x1 <= 2 * HALF_WIDTH && b.y0 >= 0 && b.y0 < b.y1 && b.y1 <= 2 * HALF_HEIGHT))
+            return;
+    }
+    CHECK(found > 1000);
+}
+
 void suite_holds(void)
 {
     RUN(test_a_path_that_holds_is_within_half_a_pixel_of_space);
     RUN(test_slow_things_keep_their_path_on_the_screen);
     RUN(test_bounds_hold_all_that_is_seen_of_a_triangle_in_space);
+    RUN(test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_the_frame);
 }
