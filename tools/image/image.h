@@ -58,6 +58,9 @@ bool file_write(const char *path, const uint8_t *bytes, size_t size, struct fail
  * profiles are ignored. */
 bool png_decode(const uint8_t *bytes, size_t size, struct image *out, struct failure *f);
 
+/* Baseline and progressive, grey, YCbCr and RGB. Orientation is ignored, too. */
+bool jpeg_decode(const uint8_t *bytes, size_t size, struct image *out, struct failure *f);
+
 /* P2, P3, P5 and P6 with maxval up to 65535. */
 bool ppm_decode(const uint8_t *bytes, size_t size, struct image *out, struct failure *f);
 

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: MIT */
+/* test_jpeg.c - JPEG pictures: files of all kinds at random against what they show by the definitions, pictures of
+ * libjpeg's, damage, and what is refused. JPEG_CASES=100000 asks for as many damaged files, and tells what they took. */
+#include "tests/random.h"
+#include "tests/ref/jpeg_case.h"
+#include "tests/suite/jpeg_known.h"
+#include "tests/test.h"
+
+#include "tools/image/image.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+void suite_jpeg(void);
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* ---------------------------------------------------------------------- files of all kinds */
+
+/* How far a picture is from what it is to show, in codes; of many, added up. */
+struct errors {
+    double largest, sum;
+    long count;
+};
+
+static void add_errors(struct errors *e, const struct image *got, const double *rgb)
+{
+    for (int i = 0; i < got->width * got->height * 3; i++) {
+        const double error = fabs(got->rgba[i / 3 * 4 + i % 3] - rgb[i]);
+        e->largest = fmax(e->largest, got->rgba[i / 3 * 4 + 3] == 255 ? error : 255);
+        e->sum += error;
+        e->count++;
+    }
+}
+
+/* A sample is rounded to half a code, one between samples again, colour differences weigh up to 1.772, and colours are
+ * rounded: 3 codes in all. */
+static bool case_is_read(int largest, struct errors *errors)
+{
+    struct jpeg_case c;
+    struct image got;
+    struct failure f = { "" };
+    size_t end;
+    jpeg_case_make(&c, largest);
+    struct buffer file = jpeg_case_write(&c, &end);
+    double *rgb = malloc((size_t)(c.width * c.height * 3) * sizeof *rgb);
+    jpeg_case_show(&c, rgb);
+    bool ok = CHECK(jpeg_decode(file.data, file.size, &got, &f)) && CHECK(got.width == c.width && got.height == c.height);
+    if (ok)
+        add_errors(errors, &got, rgb);
+    ok = ok && CHECK(errors->largest <= 3);
+    if (!ok)
+        printf("    %d x %d, %d components, %s: %s\n", c.width, c.height, c.count,
+               c.is_progressive ? "progressive" : "sequential", f.text);
+    image_free(&got);
+    free(rgb);
+    buffer_free(&file);
+    jpeg_case_free(&c);
+    return ok;
+}
+
+static void test_jpeg_reads_every_sampling_order_of_scans_and_code(void)
+{
+    struct errors errors = { 0 };
+    random_state = 1;
+    for (int i = 0; i < 1000; i++)
+        if (!case_is_read(i % 40 == 0 ? 257 : 40, &errors))
+            break;
+    CHECK(errors.sum < 0.5 * (double)errors.count);
+}
+
+static void test_jpeg_notices_every_cut(void)
+{
+    random_state = 2;
+    for (int i = 0; i < 24; i++) {
+        struct jpeg_case c;
+        struct image whole, got;
+        struct failure f = { "" };
+        size_t end;
+        jpeg_case_make(&c, 16);
+        struct buffer file = jpeg_case_write(&c, &end);
+        if (!CHECK(jpeg_decode(file.data, file.size, &whole, &f)))
+            break;
+        for (size_t size = 0; size < file.size; size++) {
+            uint8_t *cut = malloc(size + (size == 0));        /* a read beyond it would be noticed */
+            memcpy(cut, file.data, size);
+            f = (struct failure){ "" };
+            const bool ok = jpeg_decode(cut, size, &got, &f);
+            free(cut);
+            if (!CHECK(ok == (size >= end)) || !CHECK(ok || (f.text[0] != '\0' && got.rgba == NULL)))
+                break;
+            CHECK(!ok || memcmp(got.rgba, whole.rgba, (size_t)(c.width * c.height) * 4) == 0);
+            image_free(&got);
+        }
+        image_free(&whole);
+        buffer_free(&file);
+        jpeg_case_free(&c);
+    }
+}
+
+/* ---------------------------------------------------------------------- pictures of libjpeg's */
+
+static void test_jpeg_shows_what_libjpeg_does(void)
+{
+    for (size_t i = 0; i < COUNT(known); i++) {
+        struct image got;
+        struct failure f = { "" };
+        if (!CHECK(jpeg_decode(known[i].file, known[i].size, &got, &f)))
+            continue;
+        if (CHECK_EQ(got.width, known[i].width) && CHECK_EQ(got.height, known[i].height))
+            for (int k = 0; k < got.width * got.height * 3; k++)
+                CHECK_NEAR(got.rgba[k / 3 * 4 + k % 3], known[i].rgb[k], 2);
+        image_free(&got);
+    }
+}
+
+/* ---------------------------------------------------------------------- damage */
+
+static void damage(struct buffer *b)
+{
+    for (int n = between(1, chance(4) ? 20 : 3); n > 0; n--) {
+        const size_t at = (size_t)between(2, (int)b->size - 1), length = (size_t)between(1, 20);
+        uint8_t *p = b->data + at;
+        switch (between(0, 5)) {
+        case 0: *p = random_u32() & 255; break;
+        case 1: *p ^= (uint8_t)(1 << between(0, 7)); break;
+        case 2: *p = chance(2) ? 0xff : 0; break;
+        case 3:
+            if (b->size > length + at)
+                memmove(p, p + length, (b->size -= length) - at);
+            break;
+        case 4:
+            if (buffer_reserve(b, length)) {
+                memmove(b->data + at + length, b->data + at, b->size - at);
+                b->size += length;
+            }
+            break;
+        default: *p = (uint8_t)between(0xc0, 0xdf), p[-1] = 0xff; break;
+        }
+    }
+}
+
+static void test_jpeg_survives_damage(void)
+{
+    const char *asked = getenv("JPEG_CASES");
+    const int cases = asked != NULL ? atoi(asked) : 2000;
+    clock_t slowest = 0;
+    int drawn = 0;
+    random_state = 3;
+    for (int i = 0; i < cases; i++) {
+        struct jpeg_case c;
+        struct image got;
+        struct failure f = { "" };
+        size_t end;
+        jpeg_case_make(&c, chance(20) ? 257 : 48);
+        struct buffer file = jpeg_case_write(&c, &end);
+        jpeg_case_free(&c);
+        damage(&file);
+        uint8_t *exact = malloc(file.size);
+        memcpy(exact, file.data, file.size);
+        const clock_t before = clock();
+        const bool ok = jpeg_decode(exact, file.size, &got, &f);
+        const clock_t taken = clock() - before;
+        slowest = taken > slowest ? taken : slowest;
+        drawn += ok;
+        free(exact);
+        buffer_free(&file);
+        image_free(&got);
+        if (!CHECK(ok == (f.text[0] == '\0')))
+            break;
+    }
+    CHECK(drawn > cases / 20 && drawn < cases * 19 / 20);
+    struct rusage used;
+    if (asked != NULL && getrusage(RUSAGE_SELF, &used) == 0)
+        printf("%d damaged files, of which %d were drawn: %.3f s the slowest, %ld kB at most\n", cases, drawn,
+               (double)slowest / CLOCKS_PER_SEC, used.ru_maxrss);
+}
+
+/* ---------------------------------------------------------------------- what is refused */
+
+/* Files of hexadecimal digits, of which some stand for what many have in common. */
+static struct buffer file_of(const char *digits)
+{
+    static const struct { char name; const char *digits; } parts[] = {
+        { 'Q', "ffdb004300 01010101010101010101010101010101 01010101010101010101010101010101 01010101010101010101010101010101"
+               "01010101010101010101010101010101" },         /* quantisation table 0: ones */
+        { 'H', "ffc40014000100000000000000000000000000000000 ffc40014100100000000000000000000000000000000" },   /* DC 0, AC 0: 0 is 0 */
+        { 'G', "ffc0000b080008000801011100" },              /* grey, 8 x 8 */
+        { 'P', "ffc2000b080008000801011100" },              /* the same, progressive */
+        { 'S', "ffda0008010100003f00" },                    /* its scan */
+    };
+    struct buffer b = { 0 };
+    int high = -1;
+    for (; *digits != '\0'; digits++) {
+        const char *digit = strchr("0123456789abcdef", *digits);
+        if (digit != NULL) {
+            const int value = (int)(digit - "0123456789abcdef");
+            if (high >= 0)
+                buffer_byte(&b, (unsigned)(high << 4 | value));
+            high = high >= 0 ? -1 : value;
+            continue;
+        }
+        for (size_t i = 0; i < COUNT(parts); i++)
+            if (*digits == parts[i].name) {
+                struct buffer part = file_of(parts[i].digits);
+                buffer_append(&b, part.data, part.size);
+                buffer_free(&part);
+            }
+    }
+    return b;
+}
+
+static bool says(const char *digits, const char *what)
+{
+    struct buffer b = file_of(digits);
+    struct image got;
+    struct failure f = { "" };
+    const bool ok = jpeg_decode(b.data, b.size, &got, &f);
+    const bool as_expected = what == NULL ? ok : !ok && strcmp(f.text, what) == 0;
+    if (!as_expected)
+        printf("    %s: %s, not %s\n", digits, ok ? "drawn" : f.text, what != NULL ? what : "drawn");
+    image_free(&got);
+    buffer_free(&b);
+    return as_expected;
+}
+
+static void test_jpeg_names_what_it_does_not_read(void)
+{
+    static const char only[] = "where baseline and progressive JPEG with Huffman codes is read";
+    static const struct { const char *digits, *coding; } codings[] = {
+        { "c3", "lossless" }, { "c5", "hierarchical" }, { "c6", "hierarchical" }, { "c7", "hierarchical" }, { "c9", "arithmetic" },
+        { "ca", "arithmetic" }, { "cb", "arithmetic" }, { "cd", "arithmetic" }, { "ce", "arithmetic" }, { "cf", "arithmetic" },
+    };
+    for (size_t i = 0; i < COUNT(codings); i++) {
+        char digits[60], what[200];
+        snprintf(digits, sizeof digits, "ffd8Qff%s000b080008000801011100HS3f", codings[i].digits);
+        snprintf(what, sizeof what, "%s coding, %s (0x%02lX)", codings[i].coding, only, strtoul(codings[i].digits, NULL, 16));
+        CHECK(says(digits, what));
+    }
+    CHECK(says("ffd8QHGS3fffd9", NULL));
+    CHECK(says("ffd8Qffc1000b0c0008000801011100", "12 bits per sample, where 8 are read"));
+    CHECK(says("ffd8Qffc00014080008000804011100021100031100041100", "CMYK or YCCK colours, where grey, YCbCr and RGB are read"));
+    CHECK(says("ffd8Qffc0000e080008000802011100021100", "2 components, where 1 and 3 are read"));
+    CHECK(says("ffd8Qffc0000b080000000801011100", "the height comes behind the picture (DNL), which is not read"));
+    CHECK(says("ffd8QHGS3fffdc00040008ffd9", "the height comes behind the picture (DNL), which is not read"));
+}
+
+static void test_jpeg_refuses_what_no_file_can_mean(void)
+{
+    static const struct { const char *digits, *what; } cases[] = {
+        { "", "not a JPEG file (first bytes)" },
+        { "ffd9", "not a JPEG file (first bytes)" },
+        { "ffd8", "file ends early (no frame)" },
+        { "ffd8ffd9", "the JPEG file has no picture" },
+        { "ffd8ffd8", "file is damaged (it begins twice)" },
+        { "ffd8ffe00001", "file is damaged (segment 0xE0 is too short)" },
+        { "ffd8ffe0000a00", "file ends early (in segment 0xE0)" },
+        { "ffd8QHS3fffd9", "file is damaged (a scan before the frame)" },
+        { "ffd8QHGGS3fffd9", "file is damaged (two frames)" },
+        { "ffd8QHGS3fS3fffd9", "file is damaged (two scans of component 1)" },
+        { "ffd8QHGffd9", "file is damaged (component 1 has no scan)" },
+        { "ffd8QHGfffe0002", "file ends early (scans of component 1 are missing)" },
+        { "ffd8QGS3fffd9", "a Huffman table is missing (scan 1)" },
+        { "ffd8HGS3fffd9", "quantisation table 0 is missing (scan 1)" },
+        { "ffd8QHGS", "file ends early (in scan 1)" },
+        { "ffd8QHGSffd9", "coded data ends early (scan 1, row 0 of MCUs)" },
+        { "ffd8QHGSbf0000ffd9", "coded data is damaged (scan 1, row 0 of MCUs)" },
+        { "ffd8QHffc0000b080008000801015100S3f", "file is damaged (sampling 5 x 1)" },
+        { "ffd8QHffc0000b080008000801011000S3f", "file is damaged (sampling 1 x 0)" },
+        { "ffd8QHffc0000b080008000801011104S3f", "file is damaged (quantisation table 4)" },
+        { "ffd8QHffc00011080008000803011100011100021100", "file is damaged (two components 1)" },
+        { "ffd8QHffc0000a0800080008010111", "file is damaged (segment 0xC0 is too short)" },
+        { "ffd8QHGffda000802010000023f00", "file is damaged (segment 0xDA is too short)" },
+        { "ffd8QHGffda000600003f00", "file is damaged (scan 1 has 0 components)" },
+        { "ffd8QHGffda0008010200003f003f", "file is damaged (component 2 of scan 1)" },
+        { "ffd8ffdb000314", "file is damaged (quantisation table 0x14)" },
+        { "ffd8ffdb00040001", "file is damaged (segment 0xDB is too short)" },
+        { "ffd8ffc4000320", "file is damaged (Huffman table 0x20)" },
+        { "ffd8ffc4001600030000000000000000000000000000000000010203", "file is damaged (Huffman table 0x00 has too many codes)" },
+        { "ffd8ffc40013000100000000000000000000000000000000", "file is damaged (segment 0xC4 is too short)" },
+        { "ffd8ffdd000300", "file is damaged (segment 0xDD is too short)" },
+        { "ffd8Qffc0000b080000000001011100", "the height comes behind the picture (DNL), which is not read" },
+        { "ffd8Qffc0000b080008000001011100", "picture size is outside 1..16384 (0 x 8)" },
+        { "ffd8Qffc0000b08ffffffff01011100", "picture size is outside 1..16384 (65535 x 65535)" },
+        { "ffd8Qffc0000b084000400101011100", "picture size is outside 1..16384 (16385 x 16384)" },
+        { "ffd8Qffc0000b082000400001011100HS3f", "picture has more than 16777216 pixels (16384 x 8192)" },
+        { "ffd8Qffc0000b081000100001011100HS3f", "file is too small for its picture size (4096 x 4096)" },
+        { "ffd8Qffc2000b081000100001011100HS3f", "file is too small for its picture size (4096 x 4096)" },
+        /* Progressive scans that come twice, leave bits out, or have none. */
+        { "ffd8QHPffda000801010000000000ffda000801010000000000ffd9", "file is damaged (scan 2 has bits 0 to 0)" },
+        { "ffd8QHPffda000801010000020000ffd9", "file is damaged (scan 1 has coefficients 0 to 2)" },
+        { "ffd8QHPffda000801010002010000ffd9", "file is damaged (scan 1 has coefficients 2 to 1)" },
+        { "ffd8QHPffda000801010001400000ffd9", "file is damaged (scan 1 has coefficients 1 to 64)" },
+        { "ffd8QHPffda000801010000000e00ffd9", "file is damaged (scan 1 has bits 14 to 0)" },
+        { "ffd8QHPffda0008010100000020ffd9", "file is damaged (scan 1 has bits 0 to 2)" },
+        { "ffd8QHPffda000801010000000000ffda000801010000003100ffd9", "file is damaged (scan 2 has bits 1 to 3)" },
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        CHECK(says(cases[i].digits, cases[i].what));
+}
+
+/* Another scan of 300 blocks: in each nothing comes of coefficient k, but for what `bits` say. It takes 36 bytes. */
+static void add_scan(struct buffer *b, int k, unsigned bits)
+{
+    struct buffer scan = file_of("ffc40014 10 01000000000000000000000000000000 80 ffda0008010100000000 167f");
+    scan.data[scan.size - 5] = scan.data[scan.size - 4] = (uint8_t)k;
+    scan.data[scan.size - 3] = (uint8_t)bits;
+    buffer_append(b, scan.data, scan.size);
+    buffer_free(&scan);
+}
+
+static void test_jpeg_bounds_the_scans_of_a_picture(void)
+{
+    struct buffer b = file_of("ffd8QHffc2000b080008096001011100 ffda0008010100000000");
+    for (int n = 0; n < 2; n++) {
+        struct failure f = { "" };
+        struct image got;
+        if (n == 0)
+            for (int i = 0; i < 38; i++)
+                buffer_byte(&b, 0);             /* the means, a bit each */
+        for (int k = 1; k <= 63 && n == 0; k++)
+            add_scan(&b, k, 1);
+        if (n == 1)
+            add_scan(&b, 1, 0x10);
+        const bool ok = jpeg_decode(b.data, b.size, &got, &f);
+        CHECK(n == 0 ? !ok && strstr(f.text, "file ends early") != NULL : !ok && strstr(f.text, "more than 64 scans") != NULL);
+        buffer_append(&b, n == 0 ? "" : "\xff\xd9", n == 0 ? 0 : 2);
+    }
+    buffer_free(&b);
+}
+
+void suite_jpeg(void)
+{
+    RUN(test_jpeg_reads_every_sampling_order_of_scans_and_code);
+    RUN(test_jpeg_notices_every_cut);
+    RUN(test_jpeg_shows_what_libjpeg_does);
+    RUN(test_jpeg_survives_damage);
+    RUN(test_jpeg_names_what_it_does_not_read);
+    RUN(test_jpeg_refuses_what_no_file_can_mean);
+    RUN(test_jpeg_bounds_the_scans_of_a_picture);
+}
