@@ -614,14 +614,37 @@ static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
     model_free(&m);
 }
 
+/* A grey of 200, 8 x 8. */
+#define JPEG_BASE64 "/9j/2wBDAAEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEB" \
+    "AQH/wAALCAAIAAgBAREA/8QAFAABAAAAAAAAAAAAAAAAAAAACv/EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAIAQEAAD8ASA//2Q=="
+
+static void test_jpeg_pictures_are_read_as_png_is(void)
+{
+    struct source s = triangle();
+    struct model m;
+    if (!CHECK(loads(&s, "'images':[{'uri':'data:image/jpeg;base64," JPEG_BASE64 "'}],'textures':[{'source':0}],"
+                     "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]," ONE_NODE
+                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]", &m)))
+        return;
+    CHECK_EQ(m.image_count, 1);
+    CHECK(m.image[0].width == 8 && m.image[0].height == 8 && m.material[0].image == 0);
+    for (int i = 0; i < 8 * 8 * 4; i++)
+        CHECK_EQ(m.image[0].rgba[i], i % 4 == 3 ? 255 : 200);
+    model_free(&m);
+}
+
 static void test_pictures_of_other_formats_are_refused_by_name(void)
 {
     static const struct { const char *base64, *message; } cases[] = {
-        { "/9j/4AAQSkZJRgABAQ==", "a JPEG picture; only PNG is read (images[0])" },
-        { "UklGRhIAAABXRUJQVlA4TA==", "a WebP picture; only PNG is read (images[0])" },
-        { "q0tUWCAyMLsNChoK", "a KTX picture; only PNG is read (images[0])" },
-        { "R0lGODlhAQABAA==", "a GIF picture; only PNG is read (images[0])" },
-        { "aGVsbG8gd29ybGQ=", "a picture of an unknown format; only PNG is read (images[0])" },
+        { "/9j/4AAQSkZJRgABAQ==", "file ends early (in segment 0xE0) (images[0])" },
+        { "AAAADGpQICANCocK", "a JPEG 2000 picture; PNG and JPEG are read (images[0])" },
+        { "/wo=", "a JPEG XL picture; PNG and JPEG are read (images[0])" },
+        { "AAAADEpYTCANCocK", "a JPEG XL picture; PNG and JPEG are read (images[0])" },
+        { "AAAAIGZ0eXBhdmlm", "an AVIF picture; PNG and JPEG are read (images[0])" },
+        { "UklGRhIAAABXRUJQVlA4TA==", "a WebP picture; PNG and JPEG are read (images[0])" },
+        { "q0tUWCAyMLsNChoK", "a KTX picture; PNG and JPEG are read (images[0])" },
+        { "R0lGODlhAQABAA==", "a GIF picture; PNG and JPEG are read (images[0])" },
+        { "aGVsbG8gd29ybGQ=", "a picture of an unknown format; PNG and JPEG are read (images[0])" },
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct source s = triangle();
@@ -639,6 +662,32 @@ static void test_pictures_of_other_formats_are_refused_by_name(void)
         char *used = strstr(body, ",'material':0");
         memset(used, ' ', strlen(",'material':0"));
         if (CHECK(loads(&s, body, &m)))
+            model_free(&m);
+    }
+}
+
+/* A texture may have its picture in an extension, and PNG or JPEG beside it for those who do not read that. */
+static void test_textures_of_other_formats_alone_are_refused_by_name(void)
+{
+    static const struct { const char *texture, *message; } cases[] = {
+        { "", "no source (textures[0])" },
+        { "'extensions':{'KHR_texture_basisu':{'source':0}}", "a KTX picture alone; PNG and JPEG are read (textures[0])" },
+        { "'extensions':{'EXT_texture_webp':{'source':0}}", "a WebP picture alone; PNG and JPEG are read (textures[0])" },
+        { "'extensions':{'EXT_texture_avif':{'source':0}}", "an AVIF picture alone; PNG and JPEG are read (textures[0])" },
+        { "'extensions':{'MSFT_texture_dds':{'source':0}}", "a DDS picture alone; PNG and JPEG are read (textures[0])" },
+        { "'source':1,'extensions':{'EXT_texture_webp':{'source':0}}", NULL },
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct source s = triangle();
+        struct model m;
+        struct failure f;
+        char body[1000];
+        snprintf(body, sizeof body, "'images':[{'uri':'data:;base64,UklGRhIAAABXRUJQVlA4TA=='},{'uri':'data:;base64," JPEG_BASE64 "'}],"
+                 "'textures':[{%s}],'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]," ONE_NODE
+                 "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]", cases[i].texture);
+        const bool ok = load(&s, body, &m, &f);
+        CHECK(ok == (cases[i].message == NULL) && (ok || same_text(f.text, cases[i].message)));
+        if (ok)
             model_free(&m);
     }
 }
@@ -1626,9 +1675,14 @@ static void test_obj_pictures_that_are_missing_warn_and_others_fail(void)
         CHECK(SAME_FLOATS(m.material[0].base, 0, 1, 0, 0, 1));
         model_free(&m);
     }
+    snprintf(path, sizeof path, "%sgrey.obj", corpus);
+    if (CHECK(model_load(path, &m, &f))) {
+        CHECK(m.image_count == 1 && m.image[0].width == 8 && m.image[0].rgba[0] == 200);
+        model_free(&m);
+    }
     snprintf(path, sizeof path, "%sphoto.obj", corpus);
     CHECK(!model_load(path, &m, &f));
-    CHECK(same_text(f.text, "photo.jpg: a JPEG picture; only PNG is read"));
+    CHECK(same_text(f.text, "photo.jpg: file ends early (in segment 0xE0)"));
     f = (struct failure){ 0 };
     snprintf(path, sizeof path, "%stext.glb", corpus);
     CHECK(!model_load(path, &m, &f));
@@ -1875,7 +1929,9 @@ void suite_model(void)
     RUN(test_colors_are_normalised_and_get_an_alpha);
     RUN(test_materials_carry_all_that_is_shown);
     RUN(test_texture_transforms_scale_turn_and_shift_in_that_order);
+    RUN(test_jpeg_pictures_are_read_as_png_is);
     RUN(test_pictures_of_other_formats_are_refused_by_name);
+    RUN(test_textures_of_other_formats_alone_are_refused_by_name);
     RUN(test_transforms_multiply_down_the_tree);
     RUN(test_the_default_scene_else_the_first_else_everything_is_drawn);
     RUN(test_cameras_of_the_scene_are_listed_in_node_order);

@@ -67,29 +67,22 @@ bool external_read(struct external *e, const char *name, uint8_t **bytes, size_t
     return ok || fail(f, "%.80s: %s", name, why.text);
 }
 
-static bool starts_with(const uint8_t *bytes, size_t size, size_t at, const char *magic)
-{
-    size_t length = strlen(magic);
-    return size >= at && size - at >= length && memcmp(bytes + at, magic, length) == 0;
-}
-
 bool picture_decode(const uint8_t *bytes, size_t size, struct image *out, struct failure *f)
 {
-    static const struct { const char *magic, *name; } others[] = {
-        { "\xff\xd8\xff", "JPEG" }, { "GIF8", "GIF" }, { "BM", "BMP" }, { "DDS ", "DDS" },
-        { "\xabKTX", "KTX" }, { "sB\x98\x01", "Basis" }, { "II*", "TIFF" }, { "MM", "TIFF" },
-        { "qoif", "QOI" }, { "8BPS", "Photoshop" }
+    static const struct { size_t at; const char *magic, *name; } others[] = {
+        { 8, "WEBP", "a WebP" }, { 1, "KTX", "a KTX" }, { 4, "ftypavif", "an AVIF" }, { 0, "sB", "a Basis" }, { 0, "DDS ", "a DDS" },
+        { 0, "GIF8", "a GIF" }, { 0, "BM", "a BMP" }, { 0, "II*", "a TIFF" }, { 0, "MM", "a TIFF" }, { 0, "qoif", "a QOI" },
+        { 0, "8BPS", "a Photoshop" }, { 4, "jP  ", "a JPEG 2000" }, { 0, "\xff\x0a", "a JPEG XL" }, { 4, "JXL ", "a JPEG XL" }
     };
     *out = (struct image){ 0 };
-    if (starts_with(bytes, size, 0, "\x89PNG"))
+    if (size >= 4 && memcmp(bytes, "\x89PNG", 4) == 0)
         return png_decode(bytes, size, out, f);
-    if (starts_with(bytes, size, 0, "RIFF") && starts_with(bytes, size, 8, "WEBP"))
-        return fail(f, "a WebP picture; only PNG is read");
-    if (starts_with(bytes, size, 4, "ftypavif"))
-        return fail(f, "an AVIF picture; only PNG is read");
+    if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0)
+        return jpeg_decode(bytes, size, out, f);
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        if (starts_with(bytes, size, 0, others[i].magic))
-            return fail(f, "a %s picture; only PNG is read", others[i].name);
+        const size_t length = strlen(others[i].magic);
+        if (size >= others[i].at + length && memcmp(bytes + others[i].at, others[i].magic, length) == 0)
+            return fail(f, "%s picture; PNG and JPEG are read", others[i].name);
     }
-    return fail(f, "a picture of an unknown format; only PNG is read");
+    return fail(f, "a picture of an unknown format; PNG and JPEG are read");
 }

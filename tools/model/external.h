@@ -27,7 +27,7 @@ struct external {
 
 bool external_read(struct external *e, const char *name, uint8_t **bytes, size_t *size, struct failure *f);
 
-/* Decodes a PNG; any other format fails by its own name ("a JPEG picture; ..."). */
+/* Decodes a PNG or JPEG; any other format fails by its own name ("a WebP picture; ..."). */
 bool picture_decode(const uint8_t *bytes, size_t size, struct image *out, struct failure *f);
 
 #endif

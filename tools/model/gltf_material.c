@@ -58,6 +58,19 @@ struct texture_lists {
     int image_count;
 };
 
+/* A texture without a source of its own: says in which format it has one. */
+static bool refuse_source(struct gltf *g, int texture)
+{
+    static const struct { const char *extension, *name; } others[] = {
+        { "KHR_texture_basisu", "a KTX" }, { "EXT_texture_webp", "a WebP" }, { "EXT_texture_avif", "an AVIF" },
+        { "MSFT_texture_dds", "a DDS" }
+    };
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (gltf_extension(g, texture, others[i].extension) >= 0)
+            return json_fail(&g->json, texture, NULL, g->f, "%s picture alone; PNG and JPEG are read", others[i].name);
+    return json_fail(&g->json, texture, NULL, g->f, "no source");
+}
+
 static bool read_base_texture(struct gltf *g, const struct texture_lists *lists, int info,
                               struct gltf_material *m, struct model_material *out)
 {
@@ -76,7 +89,7 @@ static bool read_base_texture(struct gltf *g, const struct texture_lists *lists,
                         g->f))
         return false;
     if (source < 0)
-        return json_fail(&g->json, object, NULL, g->f, "no source that can be read");
+        return refuse_source(g, object);
     m->picture = source;
     if (sampler < 0)
         return true;
