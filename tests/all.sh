@@ -64,6 +64,11 @@ programs() {
     suite outputs sh tests/shell/outputs.sh build/smear
     suite arenas sh tests/shell/arenas.sh build/smear
     suite strangers sh tests/shell/strangers.sh build/smear
+    suite build-jpeg-files $make -s build/host/jpeg-files
+    suite jpeg-textures sh tests/shell/jpeg.sh build/smear build/host/jpeg-files textures
+    if needs djpeg "libjpeg-turbo-progs"; then
+        suite jpeg-libjpeg sh tests/shell/jpeg.sh build/smear build/host/jpeg-files libjpeg
+    fi
     suite build-hostile $make -s build/host/hostile
     suite limits sh tests/shell/limits.sh build/smear build/host/hostile
     suite build-faults-injected $make -s build/host/faults-injected
