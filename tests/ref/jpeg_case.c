@@ -237,8 +237,9 @@ struct writer {
     int interval;               /* MCUs between restart markers, as the file says now */
     int mean[CASE_COMPONENTS];
     int run;                    /* blocks that are to be told to end, and the bits that follow */
-    uint8_t later[64 * 32768];
+    uint8_t later[1024];
     int later_count;
+    bool has_begun[CASE_COMPONENTS];
     size_t end;                 /* of the last coded bits */
 };
 
@@ -362,7 +363,7 @@ static void put_refined(struct writer *w, const struct script *s, const int16_t 
         memcpy(w->later + w->later_count, here, (size_t)count);
         w->later_count += count;
     }
-    if (w->run == 0x7fff || chance(50))
+    if (w->run == 0x7fff || w->later_count > 1024 - 64 || chance(50))
         put_run(w);
 }
 
@@ -520,11 +521,28 @@ static void put_mcu(struct writer *w, const struct jpeg_case *c, const struct sc
     }
 }
 
+/* A component keeps the quantisation that it began with: tables of those that have all begun may hold anything now. */
+static void put_other_quanta(struct writer *w, const struct jpeg_case *c)
+{
+    uint16_t other[64];
+    for (int k = 0; k < 64; k++)
+        other[k] = (uint16_t)between(1, 99);
+    for (int t = 0; t < 4; t++) {
+        bool is_free = chance(8);
+        for (int i = 0; i < c->count; i++)
+            is_free = is_free && (c->table[i] != t || w->has_begun[i]);
+        if (is_free)
+            put_quanta(w->out, other, t);
+    }
+}
+
 static void put_scan(struct writer *w, const struct jpeg_case *c, const struct script *s, bool is_first)
 {
     const int i = s->component[0];
     const int columns = s->count == 1 ? real_columns(c, i) : c->columns[i] / c->h[i];
     const int rows = s->count == 1 ? real_rows(c, i) : c->rows[i] / c->v[i];
+    if (!is_first)
+        put_other_quanta(w, c);
     put_scan_header(w, c, s, is_first);
     for (int at = 0; at < columns * rows; at++) {
         if (w->interval > 0 && at > 0 && at % w->interval == 0) {
@@ -534,6 +552,8 @@ static void put_scan(struct writer *w, const struct jpeg_case *c, const struct s
         put_mcu(w, c, s, at % columns, at / columns);
     }
     end_interval(w);
+    for (int n = 0; n < s->count; n++)
+        w->has_begun[s->component[n]] = true;
 }
 
 /* Some of the components that are `wanted`; more than one where their blocks are ten at most. */
@@ -562,10 +582,11 @@ static void put_sequential(struct writer *w, const struct jpeg_case *c)
     }
 }
 
-/* Any order of scans that ends with all bits told. */
+/* Any order of scans that ends with all bits told; of large pictures not too many. */
 static void put_progressive(struct writer *w, const struct jpeg_case *c)
 {
     enum { UNTOLD = 99 };
+    const int fewest = c->width * c->height < 4096 ? 12 : 200;
     int low[CASE_COMPONENTS][64], left = c->count * 64;
     for (int at = 0; at < CASE_COMPONENTS * 64; at++)
         low[at / 64][at % 64] = UNTOLD;
@@ -579,10 +600,10 @@ static void put_progressive(struct writer *w, const struct jpeg_case *c)
             continue;
         for (int k = i; k < c->count; k++)
             wanted[k] = low[k][0] == state;
-        while (s.first > 1 && low[i][s.first - 1] == state && !chance(12))
+        while (s.first > 1 && low[i][s.first - 1] == state && !chance(fewest))
             s.first--;
         s.last = s.first;
-        while (s.first > 0 && s.last < 63 && low[i][s.last + 1] == state && !chance(12))
+        while (s.first > 0 && s.last < 63 && low[i][s.last + 1] == state && !chance(fewest))
             s.last++;
         if (s.first == 0)
             choose_components(c, wanted, &s);

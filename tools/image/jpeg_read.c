@@ -12,8 +12,8 @@
 enum {
     DHT = 0xc4, SOI = 0xd8, EOI = 0xd9, SOS = 0xda, DQT = 0xdb, DNL = 0xdc, DRI = 0xdd, APP0 = 0xe0, APP14 = 0xee,
 
-    /* Scans of a picture's blocks: usual files have 3 to 14, those of small pictures may have as many as there are bits. */
-    MOST_VISITS = 64, FEW_VISITS = 16384
+    /* Scans of each block: usual files have 2 to 6. Small pictures may have as many as coefficients have bits. */
+    MOST_VISITS = 24, FEW_VISITS = 16384
 };
 
 /* What lies behind a marker: some tables, or a header. */

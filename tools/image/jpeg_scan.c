@@ -207,7 +207,10 @@ static bool refine_band(struct decoder *d, int16_t *block)
         d->run = 1;
         return true;
     }
-    return refine_over(d, &k, 64, block);
+    for (const int last = s->last; k <= last; k++)
+        if (block[k] != 0 && !refine(d, &block[k]))
+            return false;
+    return true;
 }
 
 static bool read_progressive(struct decoder *d, int part, int16_t *block)
