@@ -582,21 +582,19 @@ static void picture_chunks(struct glb *g)
     chunk(&g->json, "IEND", &none);
 }
 
-/* A model whose pictures are all one file of few bytes. */
-static void pictures(struct glb *g)
+/* A model whose pictures are all one file. */
+static void pictures_of(struct glb *g, const struct bytes *file)
 {
-    struct glb bomb = { .limit = 1 };
-    picture_bomb(&bomb);
     triangles(g, 3, 3);
     size_t at = g->bin.size;
-    put(&g->bin, bomb.json.at, bomb.json.size);
+    put(&g->bin, file->at, file->size);
     begin(g);
     one_scene(g);
-    unsigned n = (unsigned)(g->limit / 300);
+    unsigned n = (unsigned)((g->limit - file->size) / 300);
     n = n > 20000 ? 20000 : n;
-    say(&g->json, ",\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"}");
+    say(&g->json, ",\"images\":[{\"bufferView\":2}");
     for (unsigned i = 1; i < n; i++)
-        say(&g->json, ",{\"bufferView\":2,\"mimeType\":\"image/png\"}");
+        say(&g->json, ",{\"bufferView\":2}");
     say(&g->json, "],\"textures\":[{\"source\":0}");
     for (unsigned i = 1; i < n; i++)
         say(&g->json, ",{\"source\":%u}", i);
@@ -609,7 +607,94 @@ static void pictures(struct glb *g)
     say(&g->json, "]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
         "{\"bufferView\":1,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,"
         "\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":%zu,"
-        "\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}", at, bomb.json.size, g->bin.size);
+        "\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}", at, file->size, g->bin.size);
+}
+
+static void pictures(struct glb *g)
+{
+    struct glb bomb = { .limit = 1 };
+    picture_bomb(&bomb);
+    pictures_of(g, &bomb.json);
+}
+
+/* Of one pixel each, behind half of the file. */
+static void pictures_chunks(struct glb *g)
+{
+    struct bytes b = { 0 }, head = { 0 }, data = { 0 }, none = { 0 };
+    put_high(&head, 1);
+    put_high(&head, 1);
+    put(&head, "\x08\x02\0\0\0", 5);
+    zeros(&data, 4);
+    put(&b, "\x89PNG\r\n\x1a\n", 8);
+    chunk(&b, "IHDR", &head);
+    while (b.size + 200 < g->limit / 2)
+        chunk(&b, "IDAT", &none);
+    chunk(&b, "IDAT", &data);
+    chunk(&b, "IEND", &none);
+    pictures_of(g, &b);
+}
+
+/* ------------------------------------------------------------------ JPEG */
+
+/* Quantisation and the frame of three components; codes of a bit: a mean that does not change, and a run of blocks. */
+static void begin_jpeg(struct bytes *b, unsigned edge)
+{
+    const uint8_t frame[] = { 0xff, 0xc2, 0, 17, 8, (uint8_t)(edge >> 8), (uint8_t)edge, (uint8_t)(edge >> 8), (uint8_t)edge, 3,
+                              1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0 };
+    put(b, "\xff\xd8\xff\xdb\0\x43\0", 7);
+    for (int i = 0; i < 64; i++)
+        put(b, "\1", 1);
+    put(b, frame, sizeof frame);
+    put(b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
+    put(b, "\xff\xc4\0\x14\x10\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xe0", 22);
+}
+
+/* The bits `low` of some coefficients, all of them zero: runs of 32,767 blocks, by a bit and 14 more. */
+static void jpeg_band(struct bytes *b, unsigned component, unsigned first, unsigned last, unsigned high, unsigned low, unsigned blocks)
+{
+    const uint8_t scan[] = { 0xff, 0xda, 0, 8, 1, (uint8_t)component, 0, (uint8_t)first, (uint8_t)last, (uint8_t)(high << 4 | low) };
+    uint32_t held = 0;
+    int count = 0;
+    put(b, scan, sizeof scan);
+    for (unsigned told = 0; told < blocks; told += 32767)
+        for (int i = 0; i < 15; i++) {
+            held = held << 1 | (i > 0);
+            if (++count % 8 == 0) {
+                const uint8_t byte = (uint8_t)held;
+                put(b, &byte, 1);
+                if (byte == 255)
+                    put(b, "", 1);
+            }
+        }
+    put(b, "\x7f", count % 8 != 0);
+}
+
+/* As large and as often gone over as a picture may be: all details of each component, bit by bit. */
+static void jpeg_scans(struct glb *g)
+{
+    enum { EDGE = 4096, BLOCKS = EDGE / 8 * (EDGE / 8) };
+    struct bytes b = { 0 };
+    begin_jpeg(&b, EDGE);
+    put(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0", 14);
+    for (int i = 0; i < BLOCKS * 3 / 8; i++)
+        put(&b, "", 1);
+    for (unsigned i = 0; i < 3 * 14; i++) {
+        const unsigned low = 13 - i % 14;
+        jpeg_band(&b, 1 + i / 14, 1, 63, low < 13 ? low + 1 : 0, low, BLOCKS);
+    }
+    put(&b, "\xff\xd9", 2);
+    pictures_of(g, &b);
+}
+
+/* Tables upon tables, half of the file, for a picture of a block. */
+static void jpeg_tables(struct glb *g)
+{
+    struct bytes b = { 0 };
+    begin_jpeg(&b, 8);
+    while (b.size + 100 < g->limit / 2)
+        put(&b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
+    put(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0\x1f\xff\xd9", 17);
+    pictures_of(g, &b);
 }
 
 static void picture_text(struct glb *g)
@@ -647,6 +732,7 @@ static const struct kind {
     { "triangles", "glb", many_triangles }, { "strip", "glb", strip }, { "layers", "glb", layers },
     { "targets", "glb", targets }, { "targets-small", "glb", targets_small }, { "skins", "glb", skins }, { "keys", "glb", keys },
     { "channels", "glb", channels }, { "clips", "glb", clips }, { "pictures", "glb", pictures },
+    { "pictures-chunks", "glb", pictures_chunks }, { "jpeg-scans", "glb", jpeg_scans }, { "jpeg-tables", "glb", jpeg_tables },
     { "obj-vertices", "obj", obj_vertices }, { "obj-faces", "obj", obj_faces }, { "obj-polygon", "obj", obj_polygon },
     { "obj-groups", "obj", obj_groups }, { "obj-objects", "obj", obj_objects }, { "obj-materials", "obj", obj_materials },
     { "obj-libraries", "obj", obj_libraries }, { "obj-lines", "obj", obj_lines }, { "picture-bomb", "png", picture_bomb },

@@ -71,6 +71,7 @@ struct gltf {
     size_t bin_size;
     size_t source_bytes;        /* of the JSON and all buffers: lying counts are held against it */
     size_t decoded_bytes;       /* taken by gltf_alloc so far */
+    size_t packed_bytes;        /* of pictures, each time one is read */
 
     int buffer_count;
     struct gltf_view *buffer;

@@ -225,8 +225,10 @@ static bool read_picture(struct gltf *g, int object, struct image *out)
         bytes = owned;
     }
     struct failure why = { 0 };
-    bool ok = picture_decode(bytes, size, out, &why);
+    bool ok = size <= MODEL_MAX_BYTES - g->packed_bytes ? picture_decode(bytes, size, out, &why) :
+              fail(&why, "the pictures are files of more than %zu MB", MODEL_MAX_BYTES >> 20);
     free(owned);
+    g->packed_bytes += size;
     if (!ok)
         return json_fail(&g->json, object, NULL, g->f, "%s", why.text);
     size_t decoded = (size_t)out->width * (size_t)out->height * 4;
