@@ -5,7 +5,7 @@ FUZZ_CC := clang-14
 FUZZ_BASE := -std=c11 -g1 -Iinclude -Isrc -I. -MMD -MP
 FUZZ_FLAGS := $(FUZZ_BASE) -D_GNU_SOURCE -O1 -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c \
+FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c tests/random.c tests/ref/jpeg_case.c \
     $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
 
 # As in the Makefile, what compilers know of vectors is read once for all sources of a build: `vectors` is what says so, for those
