@@ -118,6 +118,7 @@ function inWork(files) {
 // ------------------------------------------------------------------ tests
 
 const tests = {
+    // 6 kB of it read JPEG textures, which most public glTF files have.
     "one file of at most 328 kB that asks for nothing": async () => {
         const size = fs.statSync(page).size, text = fs.readFileSync(page, "utf8");
         check(size <= 328 * 1024, "the page has " + size + " bytes");
@@ -302,6 +303,17 @@ const tests = {
         equal(await dropped(folder), "", "a texture that lies in a folder");
         inWork(square("alone"));
         check((await dropped(square("alone").slice(0, 1))).includes("alone.mtl"), "nobody says that the materials are missing");
+    },
+    "a JPEG texture is shown as on the host": async () => {
+        await open("#paused=1");
+        const files = square("photo");
+        files[1].bytes = Buffer.from(files[1].bytes.toString().replace(".png", ".jpg"));
+        files[2] = { name: "photo.jpg", bytes: fs.readFileSync(path.join(root, "tests/fuzz/corpus/jpeg/progressive.jpg")) };
+        equal(await dropped(inWork(files)), "", "the message");
+        await browser.click("#spin");
+        check(await browser.until("!S.spin && " + shown), "the turntable does not stop");
+        await sameAsHost("photo.obj");
+        check((await browser.run("return document.getElementById('report').textContent")).includes("textures: 1"), "the texture is missing");
     },
     "what is no model gives the host's message": async () => {
         await open("#paused=1");
@@ -488,7 +500,7 @@ const contrastScript = `
     fs.rmSync(work, { recursive: true, force: true });
     fs.mkdirSync(work, { recursive: true });
     execFileSync(smear, ["render", "builtin:demo/race", "--size", "32x32", "--method", "none", "-o", path.join(work, "quad.png")]);
-    for (const name of ["alone", "sub"]) fs.copyFileSync(path.join(work, "quad.png"), path.join(work, name + ".png"));
+    for (const name of ["alone", "sub", "photo"]) fs.copyFileSync(path.join(work, "quad.png"), path.join(work, name + ".png"));
     browser = await Browser.open(path.join(folder, "browser"));
     for (const name in tests) {
         if (!name.includes(filter)) continue;
