@@ -22,7 +22,8 @@ static const char program_help[] =
     "    smear help [COMMAND]             this, or the options of a command\n"
     "    smear -v, --version\n"
     "\n"
-    "SCENE is a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin: lists them).\n"
+    "SCENE is a .glb, .gltf or .obj file, textures PNG or JPEG, or builtin:NAME (smear info builtin:\n"
+    "lists them).\n"
     "Exit status: 0 done, 1 bad input, 2 bad usage; errors are one line on standard error.\n";
 
 /* Stands for the list of methods. */
@@ -32,9 +33,9 @@ static const char method_lines[] = "";
 static const char *const render_help[] = {
     "smear render SCENE [options]\n"
     "\n"
-    "Renders frames of SCENE: a .glb, .gltf or .obj file, or builtin:NAME (smear info builtin:\n"
-    "lists the names). Built-in scenes bring their own camera, and their own size, frame rate,\n"
-    "time and clear colour as defaults.\n"
+    "Renders frames of SCENE: a .glb, .gltf or .obj file, textures PNG or JPEG, or builtin:NAME (smear\n"
+    "info builtin: lists the names). Built-in scenes bring their own camera, and their own size, frame\n"
+    "rate, time and clear colour as defaults.\n"
     "\n"
     "What and when\n"
     "  --size WxH            pixels, 1 to 2048 [320x240]\n"
