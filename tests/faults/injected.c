@@ -46,6 +46,7 @@ static const struct command {
     { "compare one.ppm two.ppm --diff d.png", { "d.png" } },
     { "compare one.ppm one.png", { NULL } },
     { "info card.obj", { NULL } },
+    { "info photo.obj", { NULL } },
     { "view builtin:demo/drone --size 8x8 --out null --frames 2 --check list --update", { "list", "list.0000.png", "list.0001.png" } },
     { "view model.gltf --size 8x8 --out null --frames 2 --crc --record rec", { "rec" } },
     { "view card.obj --size 8x8 --out null --frames 2 --play keys --split none --see velocity", { NULL } },
@@ -305,10 +306,15 @@ static void prepare(const char *root)
 {
     static const char obj[] = "mtllib card.mtl\no card\nusemtl red\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n";
     static const char mtl[] = "newmtl red\nKd 1 0 0\nmap_Kd one.png\n";
+    static const char photo[] = "mtllib photo.mtl\nusemtl red\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n";
+    static const char photo_mtl[] = "newmtl red\nmap_Kd photo.jpg\n";
     static const char keys[] = "0 key b\n1 key i\n";
     copy(root, "tests/data/arm.gltf", "model.gltf");
     write_bytes("card.obj", obj, sizeof obj - 1);
     write_bytes("card.mtl", mtl, sizeof mtl - 1);
+    copy(root, "tests/fuzz/corpus/jpeg/progressive.jpg", "photo.jpg");
+    write_bytes("photo.obj", photo, sizeof photo - 1);
+    write_bytes("photo.mtl", photo_mtl, sizeof photo_mtl - 1);
     write_bytes("keys", keys, sizeof keys - 1);
     write_bytes("a.png.tmp", "somebody's\n", 11);
     struct fault_counts counts;
