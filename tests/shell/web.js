@@ -310,6 +310,7 @@ const tests = {
         files[1].bytes = Buffer.from(files[1].bytes.toString().replace(".png", ".jpg"));
         files[2] = { name: "photo.jpg", bytes: fs.readFileSync(path.join(root, "tests/fuzz/corpus/jpeg/progressive.jpg")) };
         equal(await dropped(inWork(files)), "", "the message");
+        check(await browser.until(shown + " && scene.period === 30"), "it is not put on a turntable");
         await browser.click("#spin");
         check(await browser.until("!S.spin && " + shown), "the turntable does not stop");
         await sameAsHost("photo.obj");
