@@ -138,7 +138,7 @@ static void lay_out(struct jpeg *j)
 /* Every block takes a bit of the file at least, two where it is coded at once: no more than that is believed. */
 static bool get_memory(struct jpeg *j, struct failure *f)
 {
-    if (j->blocks > (long)(j->end - j->next) * (j->is_progressive ? 8 : 4))
+    if (j->blocks / (j->is_progressive ? 8 : 4) > (long)(j->end - j->next))
         return fail(f, "file is too small for its picture size (%d x %d)", j->width, j->height);
     for (int i = 0; i < j->component_count; i++) {
         struct jpeg_component *c = &j->component[i];
