@@ -13,6 +13,7 @@ BEGIN {
     reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_work is given, by any file
     reach["src/display/row.c"] = "(draws\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"         # draws.c: a row whose triangles find no room at once
     reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
+    reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/ports/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
