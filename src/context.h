@@ -43,7 +43,6 @@ struct smear_context {
     struct smear_assembler assembler;
     struct smear_rows rows;
     bool direct;                    /* sharp rows are drawn as the display's pixels */
-    bool in_parts;                  /* cores assembled parts of the draws */
     uint8_t parts_wait;             /* assemblies until they are to do so again */
     struct smear_sums sums;
     struct smear_filtered filtered;

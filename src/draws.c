@@ -460,7 +460,6 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    c->in_parts = false;
     if (n == 1 || has_layers(c) || static_is_cached(c->damage) || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
@@ -542,8 +541,8 @@ static bool assemble_within(struct smear_context *c, const struct smear_instant 
     if (!run_parts(all, DRAWS_ALL, n))
         return false;
     note_fill(&c->stats.fill.geometry, 4 * smear_parts_join_pool(&c->assembler, all->part, n), 4 * g->pool_words);
+    note_fill(&c->stats.fill.segments, smear_parts_segments(all->part, n), g->segment_limit);
     c->stats.draws_beside += smear_parts_beside(all->part, n);
-    c->in_parts = true;
     return true;
 }
 
@@ -618,10 +617,11 @@ static void make_cache(struct smear_context *c)
 static void note_fills(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
-    if (!c->in_parts)           /* else it has been noted */
+    if (!bins_in_parts(g)) {    /* else both have been noted */
         note_fill(&c->stats.fill.geometry, 4 * g->vertex_words + g->triangle_count * (uint32_t)sizeof(struct smear_triangle),
                   4 * g->pool_words);
-    note_fill(&c->stats.fill.segments, g->segment_count, g->segment_limit);
+        note_fill(&c->stats.fill.segments, g->segment_count, g->segment_limit);
+    }
     note_fill(&c->stats.fill.draws, c->draw_count, c->desc.max_draws);
 }
 
@@ -645,7 +645,6 @@ static void fill(struct smear_refill *f)
     const uint32_t start = stage_start(rows), drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
     const smear_stats stats = c->stats;
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
-    c->in_parts = false;
     f->more = !assemble_fill(c, f);
     note_fills(c);
     if ((f->kinds & ~f->counted) == 0) {

@@ -7,6 +7,8 @@ void smear_bins_reset(struct smear_bins *g, int first, int end)
     g->vertex_words = 0;
     g->triangle_count = 0;
     g->segment_count = 0;
+    if (SMEAR_POOL_PARTS)
+        g->parts_end = 0;
     g->row_recip = ((1u << 22) + (uint32_t)g->row_px - 1) / (uint32_t)g->row_px;
     g->row_first = first;
     g->row_end = end;

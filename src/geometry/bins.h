@@ -126,7 +126,10 @@ struct smear_bins {
     uint32_t *pool;
     uint32_t pool_words;
     uint32_t vertex_words;          /* in use, from the bottom */
-    uint32_t triangle_count;        /* in use, from the top */
+    uint32_t triangle_count;        /* in use, from the top: below them the store is free */
+    /* Where cores filled parts of the pool: the triangles of all, and the end of their numbers. Else 0, and both are
+     * triangle_count. */
+    uint32_t parts_listed, parts_end;
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
     const smear_camera *camera;     /* before which paths in space are cut */
@@ -140,6 +143,17 @@ struct smear_bins {
     uint32_t row_recip;             /* 2^22 / row_px, rounded up */
     int row_first, row_end;         /* tile rows that are being filled: a part of the frame */
 };
+
+/* Parts of the pool may be filled by several cores. */
+#define SMEAR_POOL_PARTS (SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE)
+
+static inline bool bins_in_parts(const struct smear_bins *g) { return SMEAR_POOL_PARTS && g->parts_end != 0; }
+
+/* Returns how many triangles all lists have together. */
+static inline uint32_t bins_listed(const struct smear_bins *g) { return bins_in_parts(g) ? g->parts_listed : g->triangle_count; }
+
+/* Returns a number above those of all triangles. */
+static inline uint32_t bins_end(const struct smear_bins *g) { return bins_in_parts(g) ? g->parts_end : g->triangle_count; }
 
 static inline int bins_margin(const struct smear_bins *g) { return SMEAR_EDGES ? g->margin : 0; }
 

@@ -21,6 +21,14 @@ uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n)
     return sum;
 }
 
+uint32_t smear_parts_segments(const struct smear_part *part, uint32_t n)
+{
+    uint32_t sum = 0;
+    for (uint32_t k = 0; k < n; k++)
+        sum += part[k].bins.segment_count - part[k].segment;
+    return sum;
+}
+
 void smear_parts_cut(struct smear_parts_cut *cut, uint32_t i, uint32_t triangles, bool cuts)
 {
     const uint32_t weight = triangles != 0 ? triangles + PART_DRAW : 0;
@@ -113,10 +121,10 @@ void smear_part_in_pool(struct smear_part *part, const struct smear_assembler *a
     p->as.cache_mask = PART_CACHE - 1;
     p->as.serial = 0;
     p->as.path_limit = a->path_limit / n;
-    p->bins.triangle_count = k * words / 4;
+    p->number = p->bins.triangle_count = k * words / 4;
     p->bins.vertex_words = g->pool_words - (k + 1) * words + 3 * rows
                          + PART_CACHE * (uint32_t)(sizeof(struct smear_cached_vertex) / 4);
-    p->bins.segment_count = segment;
+    p->segment = p->bins.segment_count = segment;
     if (k != 0)
         part[k - 1].bins.segment_limit = segment;
     for (uint32_t i = 0; i < 3 * rows; i++)
@@ -131,6 +139,7 @@ uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_par
 {
     struct smear_bins *g = a->bins;
     uint32_t most = 0, free = 0;
+    g->parts_listed = 0;
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_bins *b = &part[k].bins;
         const uint32_t rest = g->pool_words - b->vertex_words - b->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
@@ -139,6 +148,7 @@ uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_par
         if (g->moving_last != NULL)
             smear_bins_join(g, g->moving_last, b->moving_last);
         add_counts(a, &part[k]);
+        g->parts_listed += b->triangle_count - part[k].number;
         free += rest;
         if (k == 0 || rest > most) {
             most = rest;
@@ -146,6 +156,7 @@ uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_par
             g->triangle_count = b->triangle_count;
         }
     }
+    g->parts_end = part[n - 1].bins.triangle_count;
     g->segment_count = part[n - 1].bins.segment_count;
     return g->pool_words - free;
 }

@@ -14,6 +14,7 @@ struct smear_part {
     struct smear_tile_box *rest_of;     /* that draw's box, or null */
     uint32_t first, end;                /* triangles, counted through all draws */
     uint32_t beside;
+    uint32_t number, segment;           /* with which it begins, in a part of the pool */
     bool done;
 };
 
@@ -33,6 +34,9 @@ void smear_parts_cut(struct smear_parts_cut *cut, uint32_t i, uint32_t triangles
 
 /* Returns how many draws the parts left out as nothing of them is in view. */
 uint32_t smear_parts_beside(const struct smear_part *part, uint32_t n);
+
+/* Returns how many segments parts of the pool have. */
+uint32_t smear_parts_segments(const struct smear_part *part, uint32_t n);
 
 /* Makes a part that adds to the store itself. */
 void smear_part_within(struct smear_part *p, const struct smear_assembler *a);

@@ -190,7 +190,7 @@ static struct apart *cut_apart(struct smear_rows *rows, int count)
 {
     const uintptr_t from = (uintptr_t)rows->scratch, to = (uintptr_t)rows->scratch_end, cache = (uintptr_t)rows->cache.entry;
     const size_t n = (size_t)rows->jobs.workers, pixels = (size_t)rows->window.width * (size_t)rows->bins.row_px;
-    const size_t numbers = rows->bins.triangle_count * sizeof(uint32_t), bytes = to - from;
+    const size_t numbers = bins_listed(&rows->bins) * sizeof(uint32_t), bytes = to - from;
     struct smear_arena arena = { (uint8_t *)rows->scratch, 0 };
     if (to < from || bytes < sizeof(struct apart) + 8 + (n - 1) * (pixels * 6 + 16) + n * (numbers + 8))
         return NULL;

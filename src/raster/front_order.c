@@ -27,12 +27,12 @@ struct front_taken {
 
 size_t smear_front_order_bytes(const struct smear_bins *bins)
 {
-    if (bins->triangle_count < ORDER_LEAST || bins->triangle_count > UINT16_MAX)
+    if (bins_listed(bins) < ORDER_LEAST || bins_end(bins) > UINT16_MAX)
         return 0;
     for (uint32_t i = 0; i < bins->segment_count; i++)
         if (!segment_textured(&bins->segment[i]) || bins->segment[i].path != 0)
             return 0;
-    return (min_u32(bins->triangle_count, ORDER_MOST) * 3u + 3u) & ~(size_t)3u;
+    return (min_u32(bins_listed(bins), ORDER_MOST) * 3u + 3u) & ~(size_t)3u;
 }
 
 /* What depths of pixels may be beyond those of vertices, and half a step of a code more: planes are rounded, to a unit per
@@ -109,7 +109,7 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
                             const struct smear_raster_target *target, uint32_t head)
 {
     const struct smear_bins *const bins = frame->bins;
-    const uint32_t most = min_u32(min_u32(bins->triangle_count, ORDER_MOST),
+    const uint32_t most = min_u32(min_u32(bins_listed(bins), ORDER_MOST),
                                   (uint32_t)((target->x1 - target->x0) * (target->y1 - target->y0)) / ORDER_PIXELS);
     const int shift = strip_shift(target);
     struct front_taken taken;
@@ -141,7 +141,7 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
     if (order == NULL || head == SMEAR_NO_TRIANGLE || target_has_velocity(target) || frame_has_fog(frame)
         || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
         return 0;
-    uint8_t *const level = (uint8_t *)(order + min_u32(frame->bins->triangle_count, ORDER_MOST));
+    uint8_t *const level = (uint8_t *)(order + min_u32(bins_listed(frame->bins), ORDER_MOST));
     const uint32_t n = find_levels(place, level, frame, target, head);
     if (n < ORDER_LEAST)
         return 0;
