@@ -187,7 +187,8 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
     a->moves = 0;
     a->path = a->has_rest = false;
-    a->fixed = frame_has_fog(&c->rows.raster);      /* of which a tiny triangle has one part, however the frame is cut */
+    /* Fog, of which a tiny triangle has one part however the frame is cut, and velocities that are not those of the depth. */
+    a->fixed = frame_has_fog(&c->rows.raster) || draw_is_fixed(&c->raster_draw[i]);
     const bool moves = poses_differ(&poses);
     place(a, c, &poses, moves, instant);
     /* Layers reach beyond the frame. */
@@ -197,10 +198,7 @@ static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t
                        frame_is_linear(&c->rows.raster), &c->sun);
     assembly_remember_light(a);
     assembly_find_flat(a);
-    if (!moves)
-        return true;
-    a->fixed = a->fixed || c->raster_draw[i].fixed;
-    if (assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)
+    if (moves && assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)
         add_motion(a, c, &poses, instant);
     return true;
 }
@@ -614,7 +612,7 @@ static void make_cache(struct smear_context *c)
 }
 
 /* Notes how full the lists of a part of the frame are. */
-static void note_fills(struct smear_context *c)
+static SMEAR_NOINLINE void note_fills(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     if (!bins_in_parts(g)) {    /* else both have been noted */
