@@ -266,6 +266,9 @@ typedef enum smear_method {
 #define SMEAR_SET_LAYERS (SMEAR_SET(SMEAR_OBJECT) | SMEAR_SET(SMEAR_LAYERED))
 #define SMEAR_SET_FILTERS \
     (SMEAR_SET(SMEAR_RECONSTRUCT) | SMEAR_SET(SMEAR_CAMERA) | SMEAR_SET(SMEAR_PINGPONG) | SMEAR_SET(SMEAR_HALF))
+/* What 0 means: SMEAR_AUTO, or what there is without SMEAR_WITH_SUBFRAMES. */
+#define SMEAR_SET_DEFAULT \
+    (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_AUTO) : SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : SMEAR_SET(SMEAR_NONE))
 /* Stands for SMEAR_ACCUMULATE with 12 bytes per pixel of a band, not of the frame: rows are assembled anew at every
  * instant. Small and slow. */
 #define SMEAR_SET_ACCUMULATE_BANDS (1u << 15)
@@ -568,7 +571,8 @@ typedef struct smear_desc {
     uint32_t max_triangles;     /* drawn triangles (in view, facing the camera, after clipping) there is memory for; more
                                  * are drawn in parts; at most 2^24; 0 means 1024 */
     uint16_t max_draws;         /* draws per frame, and ids kept from frame to frame; 0 means 16 */
-    uint16_t methods;           /* SMEAR_SET(...) of all that frames will ask for; 0 means SMEAR_SET(SMEAR_AUTO) */
+    uint16_t methods;           /* SMEAR_SET(...) of all that frames will ask for; 0 means SMEAR_SET_DEFAULT,
+                                 * SMEAR_AUTO alone */
     int16_t tile;               /* 8, 16, 32 or 64, not below a reach (but with scatter); 0 means the smallest
                                  * such; where nothing has a reach, the smallest not below a twentieth of the width,
                                  * 32 at most. Also 4 with SMEAR_NONE, SMEAR_ACCUMULATE and filters

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* smear_config.h - what is decided when the library is compiled. Each choice can be given with -D, or a
- * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel: it leaves code out. */
+ * whole set with -DSMEAR_CONFIG_FILE='"my_config.h"'. No choice changes a pixel of what is there: it leaves code out. */
 #ifndef SMEAR_CONFIG_H
 #define SMEAR_CONFIG_H
 
@@ -15,7 +15,9 @@
 #endif
 
 /* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses
- * what was left out; SMEAR_AUTO takes what is there. -DSMEAR_WITH_ALL=0 leaves out everything
+ * what was left out; SMEAR_AUTO takes what is there, and zero means what is there: without SMEAR_WITH_SUBFRAMES desc.methods means
+ * SMEAR_RECONSTRUCT, without that SMEAR_NONE; without _LINEAR light is encoded, without _CURVES paths are lines, without _DITHER
+ * nothing is dithered. Only the format must be named where _RGB is 0, as it says how flush reads its bytes. -DSMEAR_WITH_ALL=0 leaves out everything
  * that is not named. Link with --gc-sections, or the library as an archive. */
 #ifndef SMEAR_WITH_ALL
 #define SMEAR_WITH_ALL 1

@@ -56,7 +56,7 @@
 #define SMEAR_MAX_(a, b) ((a) > (b) ? (a) : (b))
 #define SMEAR_OR_(value, otherwise) ((value) != 0 ? (value) : (otherwise))
 
-#define SMEAR_SET_OF_(m) SMEAR_OR_(m, SMEAR_SET(SMEAR_AUTO))
+#define SMEAR_SET_OF_(m) SMEAR_OR_(m, SMEAR_SET_DEFAULT)
 #define SMEAR_HAS_WINDOW_(m) (((m) & SMEAR_SET_FILTERS) != 0)
 #define SMEAR_HAS_TEMPORAL_(m) (((m) & SMEAR_SET_TEMPORAL) != 0)
 #define SMEAR_HAS_LAYERS_(m) (((m) & SMEAR_SET_LAYERS) != 0)

@@ -21,7 +21,8 @@ struct smear_submitted {
     smear_transform pose[3];        /* now, open (or a frame ago), close */
 };
 
-enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER };
+/* STATE_DRAWING: within smear_render or smear_filter_row, whose callbacks may not change the context. */
+enum smear_state { STATE_IDLE, STATE_BEGUN, STATE_FILTER, STATE_DRAWING };
 
 struct smear_context {
     smear_desc desc;                /* defaults filled in */

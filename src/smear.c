@@ -97,7 +97,7 @@ static void keep_layers(struct smear_layers *l, const smear_frame *f)
     }
 }
 
-/* Validates a frame and fills in its defaults. */
+/* Validates a frame and fills in its defaults. What is refused leaves the context as it was: only the last step writes to it. */
 static int resolve(struct smear_context *c, smear_frame *f)
 {
     int result = smear_check_cameras(f);
@@ -143,6 +143,8 @@ int smear_begin(smear_context *c, const smear_frame *frame)
 {
     if (c == NULL || frame == NULL)
         return SMEAR_ERR_ARG;
+    if (c->state == STATE_DRAWING)
+        return SMEAR_ERR_ORDER;
     smear_frame f = *frame;
     const int result = resolve(c, &f);
     if (result != SMEAR_OK)
@@ -238,8 +240,10 @@ int smear_render(smear_context *c)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)
         return SMEAR_ERR_ORDER;
+    c->state = STATE_DRAWING;
+    const int result = smear_frame_render(c);
     c->state = STATE_IDLE;
-    return smear_frame_render(c);
+    return result;
 }
 
 void smear_band_done(smear_context *c)
@@ -272,6 +276,8 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
     if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL)
         return SMEAR_ERR_ARG;
+    if (c->state == STATE_DRAWING)
+        return SMEAR_ERR_ORDER;
     smear_frame f = *frame;
     if (f.camera == NULL || f.camera->near_plane <= 0)
         return FAULT(FRAME_CAMERA);
@@ -303,8 +309,8 @@ int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *de
         return SMEAR_ERR_ARG;
     if (c->state != STATE_FILTER)
         return SMEAR_ERR_ORDER;
-    int result = smear_frame_filter_row(c, color, depth, velocity);
-    if (result != SMEAR_OK || c->filter_row == c->rows.window.height)
-        c->state = STATE_IDLE;
+    c->state = STATE_DRAWING;
+    const int result = smear_frame_filter_row(c, color, depth, velocity);
+    c->state = result != SMEAR_OK || c->filter_row == c->rows.window.height ? STATE_IDLE : STATE_FILTER;
     return result;
 }

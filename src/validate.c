@@ -89,7 +89,8 @@ static const struct field desc_fields[] = {
     DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_BUFFER_AGE_MOST),
     DESC(reuse.one_pose, ONE_POSE, 0, 0, 1),
     DESC(filter.passes, PASSES, 0, 0, SMEAR_PASSES_MOST),
-    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST), DESC(display.dither, DITHER, 0, 0, SMEAR_DITHER_DIFFUSE),
+    DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST),
+    DESC(display.dither, DITHER, SMEAR_WITH_DITHER ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE, 0, SMEAR_DITHER_DIFFUSE),
     DESC(display.doubled, DOUBLED, 0, 0, SMEAR_DOUBLED_MOST)
 };
 #undef DESC
@@ -97,7 +98,7 @@ static const struct field desc_fields[] = {
 static int resolve_methods(smear_desc *d)
 {
     if (d->methods == 0)
-        d->methods = SMEAR_SET(SMEAR_AUTO);
+        d->methods = SMEAR_SET_DEFAULT;
     if ((d->methods & ~(unsigned)SMEAR_SET_COMPILED) != 0)
         return FAULT(DESC_METHODS);
     if (d->debug.inspect != NULL && !SMEAR_INSPECT_MOST)
@@ -191,7 +192,7 @@ int smear_resolve_desc(smear_desc *d)
 #define FRAME(member, fault, otherwise, least, most) FIELD(smear_frame, member, FRAME_##fault, otherwise, least, most)
 static const struct field frame_fields[] = {
     FRAME(method, METHOD, 0, 0, SMEAR_METHOD_COUNT - 1),
-    FRAME(light_space, LIGHT_SPACE, 0, SMEAR_LIGHT_SPACE_LEAST, SMEAR_LIGHT_ENCODED),
+    FRAME(light_space, LIGHT_SPACE, SMEAR_LIGHT_SPACE_LEAST, SMEAR_LIGHT_SPACE_LEAST, SMEAR_LIGHT_ENCODED),
     FRAME(samples, SAMPLES, 0, 0, 1024)
 };
 /* What is said of motion. */
@@ -199,7 +200,7 @@ static const struct field blur_fields[] = {
     FRAME(shutter.degrees, DEGREES, 180, 1, 3600),
     FRAME(shutter.exposure, EXPOSURE, 0, 0, SMEAR_LEADING),
     FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
-    FRAME(shutter.path, PATH, SMEAR_PATH_CURVE, SMEAR_PATH_LEAST, SMEAR_PATH_MOST),
+    FRAME(shutter.path, PATH, SMEAR_PATH_LEAST, SMEAR_PATH_LEAST, SMEAR_PATH_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
     FRAME(shutter.us, US, 0, 0, SMEAR_SHUTTER_US_MOST),
     FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WEIGHTS_MOST),
@@ -289,8 +290,6 @@ static int resolve_filter(smear_frame *f, const smear_desc *d)
 
 int smear_resolve_frame(smear_frame *f, const smear_desc *d)
 {
-    if (f->shutter.path == SMEAR_PATH_DEFAULT && (f->shutter.poses || f->method == SMEAR_NONE))
-        f->shutter.path = SMEAR_PATH_LINE;      /* nothing is joined */
     int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
     if (result == SMEAR_OK && SMEAR_BLURS)
         result = resolve_fields(f, blur_fields, (int)(sizeof blur_fields / sizeof *blur_fields));

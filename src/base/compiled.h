@@ -29,7 +29,7 @@ enum {
     SMEAR_INSPECT_MOST = SMEAR_WITH_DEBUG
 };
 
-/* Fields of a frame. Scales are those that are used: 0 once 0 has become 256. */
+/* Fields of a frame; of light space and path, what is least is the default. Scales are those that are used: 0 once 0 has become 256. */
 enum {
     SMEAR_LIGHT_SPACE_LEAST = SMEAR_WITH_LINEAR ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
     SMEAR_PATH_LEAST = SMEAR_WITH_CURVES ? SMEAR_PATH_CURVE : SMEAR_PATH_LINE,

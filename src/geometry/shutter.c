@@ -34,13 +34,13 @@ static int32_t time_in_interval(int32_t a, int32_t b, uint32_t light_q8)
 bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness)
 {
     const int steps = SMEAR_SHUTTER_POINTS - 1;
+    const uint32_t all = openness != NULL ? light_to(openness, steps) : 0;
+    if (openness != NULL && all == 0)
+        return false;
     for (int sample = 0; sample <= SHUTTER_SAMPLES; sample++)
         shutter->time[sample] = sample * (SHUTTER_CLOSE / SHUTTER_SAMPLES);
     if (openness == NULL)
         return true;
-    uint32_t all = light_to(openness, steps);
-    if (all == 0)
-        return false;
     for (int sample = 1; sample < SHUTTER_SAMPLES; sample++) {
         uint32_t wanted_q8 = (all * (uint32_t)sample << 8) / SHUTTER_SAMPLES, before = 0;
         int i = 0;
