@@ -34,6 +34,7 @@ struct smear_context {
     struct smear_shot shot;
     struct smear_sun sun;
     struct smear_history history;
+    bool has_late_ids;              /* of this frame: they found no place in the history */
     smear_camera kept_camera;
     bool has_kept_camera;
     struct smear_submitted *submitted;

@@ -139,6 +139,14 @@ static void keep_fog(struct smear_context *c, const smear_fog *fog)
     smear_fog_make(&c->rows.raster, fog, &c->shot.camera[0]);
 }
 
+/* Gives ids of the last frame that found no place, as those of the frame before it had them all, places of the latter. */
+static SMEAR_NOINLINE void keep_late(struct smear_context *c)
+{
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        smear_history_keep_late(&c->history, c->submitted[i].draw.id, c->submitted[i].draw.now);
+    c->has_late_ids = false;
+}
+
 int smear_begin(smear_context *c, const smear_frame *frame)
 {
     if (c == NULL || frame == NULL)
@@ -166,6 +174,8 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     if (SMEAR_FOG_MOST)
         keep_fog(c, f.fog);
     c->history.frame++;
+    if (SMEAR_BLURS && c->has_late_ids)
+        keep_late(c);
     c->draw_count = 0;
     c->state = STATE_BEGUN;
     return SMEAR_OK;
@@ -202,6 +212,8 @@ static void recall(struct smear_context *c, struct smear_submitted *s, int32_t a
     int known = 0;
     if (at >= 0)
         known = smear_history_keep(&c->history, at, s->draw.id, is_sharp ? NULL : s->draw.now, cut, is_told ? unused : &s->pose[1]);
+    else if (SMEAR_BLURS && !is_sharp && s->draw.id != 0)
+        c->has_late_ids = true;
     if (is_told)
         return;
     s->draw.open = known > 0 ? &s->pose[1] : NULL;

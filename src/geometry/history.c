@@ -68,3 +68,13 @@ int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const s
     k->pose = *pose;
     return count;
 }
+
+void smear_history_keep_late(struct smear_history *h, uint32_t id, const smear_transform *pose)
+{
+    smear_transform unused[2];
+    const int32_t at = smear_history_find(h, id);
+    if (at < 0 || h->kept[at].id == id)
+        return;
+    smear_history_keep(h, at, id, pose, false, unused);
+    h->kept[at].frame--;
+}

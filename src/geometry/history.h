@@ -49,4 +49,7 @@ bool smear_history_has(const struct smear_history *h, int32_t at, uint32_t id);
 int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const smear_transform *pose, bool cut,
                        smear_transform past[2]);
 
+/* Keeps the pose that an id had in the last frame, in which it found no place: that of one which was not in it. */
+void smear_history_keep_late(struct smear_history *h, uint32_t id, const smear_transform *pose);
+
 #endif
