@@ -70,7 +70,7 @@ static void mix_material(uint32_t h[2], const smear_material *m)
     const smear_texture *t = m->texture != NULL ? m->texture : &none;
     int32_t word[4 + 2 * POINTER_WORDS] = {
         bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
-        bytes(m->alpha, m->cutoff, m->unlit, m->double_sided << 1 | m->bilinear),
+        bytes(m->alpha, m->cutoff, m->unlit != 0, (m->double_sided != 0) << 1 | (m->bilinear != 0)),
         (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v)
     };
     put_pointer(word + 4, t->texels);
@@ -182,13 +182,14 @@ static void mix_item(uint32_t h[2], const smear_overlay_item *item, int32_t i)
 {
     static const smear_image none = { 0 };
     const smear_image *m = item->text != NULL ? &item->font->glyph : item->image != NULL ? item->image : &none;
-    int32_t word[8 + 2 * POINTER_WORDS] = {
+    const bool is_text = item->text != NULL;
+    int32_t word[9 + 2 * POINTER_WORDS] = {
         i, bytes(item->color[0], item->color[1], item->color[2], item->color[3]), item->x, item->y,
         (int32_t)((uint32_t)item->width << 16 | item->height), (int32_t)((uint32_t)item->scale << 16 | item->cell),
-        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, item->text != NULL, 0)
+        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, is_text, is_text ? item->font->first : 0), m->cells
     };
-    put_pointer(word + 8, m->pixels);
-    put_pointer(word + 8 + POINTER_WORDS, m->palette);
+    put_pointer(word + 9, m->pixels);
+    put_pointer(word + 9 + POINTER_WORDS, m->palette);
     h[0] = h[1] = 0;
     mix(h, word, (int)(sizeof word / sizeof *word));
 }

@@ -126,13 +126,17 @@ static inline bool is_plain(const smear_image *m, int32_t scale, uint32_t argb)
     return m->format == SMEAR_IMAGE_MASK1 && scale == 1 && argb >= 0xff000000u;
 }
 
-/* Draws a row of bits that lies in the part. */
+/* Draws a row of n bits that lies in the part. What the last byte has beyond them may be anything. */
 static inline void draw_bits(uint32_t *out, const uint8_t *row, int32_t n, uint32_t color)
 {
-    for (; n > 0; n -= 8, out += 8)
-        for (uint32_t bits = (uint32_t)*row++ << 24, i = 0; bits != 0; bits <<= 1, i++)
+    for (; n > 0; n -= 8, out += 8) {
+        uint32_t bits = (uint32_t)*row++ << 24;
+        if (n < 8)
+            bits &= 0xffffffffu << (32 - n);
+        for (uint32_t i = 0; bits != 0; bits <<= 1, i++)
             if ((bits >> 31) != 0)
                 out[i] = color;
+    }
 }
 
 /* Draws a row of an image from column x on. */
