@@ -17,8 +17,8 @@
 /* What is compiled in: 1, or 0 to leave it out. `make footprint` prints what each saves. A context refuses
  * what was left out; SMEAR_AUTO takes what is there, and zero means what is there: without SMEAR_WITH_SUBFRAMES desc.methods means
  * SMEAR_RECONSTRUCT, without that SMEAR_NONE; without _LINEAR light is encoded, without _CURVES paths are lines, without _DITHER
- * nothing is dithered. Only the format must be named where _RGB is 0, as it says how flush reads its bytes. -DSMEAR_WITH_ALL=0 leaves out everything
- * that is not named. Link with --gc-sections, or the library as an archive. */
+ * nothing is dithered. Only the format must be named where _RGB is 0, as it says how flush reads its bytes.
+ * -DSMEAR_WITH_ALL=0 leaves out everything that is not named. Link with --gc-sections, or the library as an archive. */
 #ifndef SMEAR_WITH_ALL
 #define SMEAR_WITH_ALL 1
 #endif

@@ -90,7 +90,7 @@ static const struct field desc_fields[] = {
     DESC(reuse.one_pose, ONE_POSE, 0, 0, 1),
     DESC(filter.passes, PASSES, 0, 0, SMEAR_PASSES_MOST),
     DESC(filter.scatter, SCATTER, 0, 0, SMEAR_SCATTER_MOST),
-    DESC(display.dither, DITHER, SMEAR_WITH_DITHER ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE, 0, SMEAR_DITHER_DIFFUSE),
+    DESC(display.dither, DITHER, SMEAR_DITHER_DEFAULT, 0, SMEAR_DITHER_DIFFUSE),
     DESC(display.doubled, DOUBLED, 0, 0, SMEAR_DOUBLED_MOST)
 };
 #undef DESC

@@ -173,14 +173,15 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->light = (smear_light){ { 10000, 20000, 30000 }, { 20000, 21000, 22000 }, { 40000, 39000, 38000 } };
     s->fog = (smear_fog){ 0x406080, q16(1), q16(20) };
     s->draw = (smear_draw){ .mesh = &s->mesh, .material = &s->material, .now = &s->now };
-    s->image = (smear_image){ .pixels = s->pixels, .palette = s->palette, .width = 8, .height = 8, .cells = 3, .format = SMEAR_IMAGE_PALETTE4 };
-    s->font = (smear_font){ { .pixels = s->pixels, .palette = s->palette, .width = 6, .height = 7, .cells = 2, .format = SMEAR_IMAGE_MASK1 }, 'A', 8 };
+    s->image = (smear_image){ .pixels = s->pixels, .palette = s->palette, .width = 8, .height = 8, .cells = 3,
+                              .format = SMEAR_IMAGE_PALETTE4 };
+    s->font = (smear_font){ { .pixels = s->pixels, .palette = s->palette, .width = 6, .height = 7, .cells = 2 }, 'A', 8 };
     s->item[0] = (smear_overlay_item){ .x = 3, .y = 2, .color = { 250, 240, 20, 255 }, .font = &s->font, .text = s->text };
     s->item[1] = (smear_overlay_item){ .x = 40, .y = 20, .cell = 1, .image = &s->image };
     s->item[2] = (smear_overlay_item){ .x = 20, .y = 26, .width = 9, .height = 3, .color = { 20, 240, 20, 200 } };
     for (int i = 0; i < 2; i++)
-        s->point[i] = (smear_point){ { q16(i - 0.4), q16(0.5), q16(-3) }, { q16(i - 0.4), q16(0.5), q16(-3) }, q16(0.2), { 250, 90, 80 }, 20,
-                                     SMEAR_POINT_BLEND, { 0 } };
+        s->point[i] = (smear_point){ .now = { q16(i - 0.4), q16(0.5), q16(-3) }, .before = { q16(i - 0.4), q16(0.5), q16(-3) },
+                                     .size = q16(0.2), .color = { 250, 90, 80 }, .fade = 20, .mode = SMEAR_POINT_BLEND };
     s->points = (smear_points){ s->point, 2 };
     s->overlay = (smear_overlay){ s->item, 3, &s->points };
     s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x102030, .light = &s->light, .fog = &s->fog,
@@ -200,7 +201,8 @@ static int put_band(void *user, const smear_band *band, uint32_t *pixels)
 {
     (void)user;
     for (int y = 0; y < band->height; y++)
-        memcpy(pixels + (band->y + y) * WIDTH + band->x, (const uint8_t *)band->pixels + (size_t)y * band->stride, 4u * (size_t)band->width);
+        memcpy(pixels + (band->y + y) * WIDTH + band->x, (const uint8_t *)band->pixels + (size_t)y * band->stride,
+               4u * (size_t)band->width);
     return 0;
 }
 
