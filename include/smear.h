@@ -640,6 +640,21 @@ typedef struct smear_stats {
 
 typedef struct smear_context smear_context;
 
+/* Which call a context takes when, and what it is then. "Drawing" is what callbacks see: flush, idle, inspect and clock are called
+ * from within smear_render and smear_filter_row.
+ *
+ *                          idle            begun           filtering       drawing
+ *     smear_begin          begun           begun           begun           SMEAR_ERR_ORDER
+ *     smear_submit         ..._ORDER       begun           ..._ORDER       ..._ORDER
+ *     smear_render         ..._ORDER       idle            ..._ORDER       ..._ORDER
+ *     smear_filter_begin   filtering       filtering       filtering       ..._ORDER
+ *     smear_filter_row     ..._ORDER       ..._ORDER       filtering; idle after the last row or an error      ..._ORDER
+ *     smear_get_stats, smear_band_done     always; of a frame that is being drawn, statistics are not complete
+ *     smear_work           always, by other cores; never from a callback, whose frame it would wait for
+ *
+ * A call that returns an error, whatever it is, changes nothing but what its comment says: a frame that was begun stays so, with
+ * all that was submitted, and its picture is as if the call had not been made. One core at a time makes the first five. */
+
 /* Bytes smear_init needs for this desc, whose callbacks do not matter; 0 when the desc is not valid. SMEAR_MEMORY of
  * smear_memory.h is the same as a constant for static arrays. */
 size_t smear_memory_size(const smear_desc *desc);
