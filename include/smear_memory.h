@@ -14,7 +14,7 @@
  * Format, band_rows and display set the size of a band: give them here rather than later, as SMEAR_XRGB8888 is both the
  * default and the largest. desc.debug.inspect takes memory that SMEAR_MEMORY does not know of.
  *
- * SMEAR_MEMORY is never less than smear_memory_size(), and more by no more than pointers are smaller than 8 bytes. */
+ * SMEAR_MEMORY is never less than smear_memory_size(), and where nothing was left out (smear_config.h) more by 64 bytes at most. */
 #ifndef SMEAR_MEMORY_H
 #define SMEAR_MEMORY_H
 
@@ -27,22 +27,28 @@
 /* A desc of the same values: without format and callbacks it is all default. */
 #define SMEAR_DESC(...) SMEAR_DESC_OF_(__VA_ARGS__, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 
-/* Bytes of one of each thing, at most. */
-#define SMEAR_CONTEXT_BYTES 1792u           /* the context itself */
-#define SMEAR_FILTERING_BYTES 320u          /* what filters keep beside a window */
-#define SMEAR_DAMAGE_BYTES 64u              /* what is kept beside the window's rows or the display's tiles */
+/* Bytes of one of each thing, at most, with pointers of 4 bytes and of 8. */
+#define SMEAR_BY_POINTER_(narrow, wide) (sizeof(void *) < 8 ? (narrow) : (wide))
+#define SMEAR_CONTEXT_BYTES SMEAR_BY_POINTER_(1464u, 1792u)     /* the context itself */
+#define SMEAR_FILTERING_BYTES SMEAR_BY_POINTER_(264u, 272u)     /* what filters keep beside a window */
+#define SMEAR_DAMAGE_BYTES SMEAR_BY_POINTER_(40u, 64u)  /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DAMAGED_DRAW_BYTES 16u        /* what is kept of a draw where the display keeps tiles of sharp frames */
-#define SMEAR_DRAW_BYTES 336u               /* a draw with its transforms, its texture's sampler, its id's last pose */
+#define SMEAR_SUBMITTED_BYTES SMEAR_BY_POINTER_(188u, 224u)     /* a draw with its transforms */
+#define SMEAR_SAMPLER_BYTES SMEAR_BY_POINTER_(44u, 56u) /* its texture's sampler */
+#define SMEAR_KEPT_BYTES 56u                /* its id's last pose */
 #define SMEAR_OLDER_BYTES 52u               /* the pose of an id before that: not with reuse.one_pose */
-#define SMEAR_OLDER_CAMERA_BYTES 80u
+#define SMEAR_OLDER_CAMERA_BYTES SMEAR_BY_POINTER_(72u, 80u)
 #define SMEAR_TRIANGLE_BYTES 36u            /* list entry (16) and its share of vertices: 12 bytes each, 4 more with a
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36 bytes
                                              * per vertex */
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_SEGMENT_BYTES 16u             /* vertices of one draw, or of 64 kilowords */
-#define SMEAR_LAYER_DRAW_BYTES 96u          /* a draw's place among layers, and a group */
-#define SMEAR_LAYER_BYTES 272u              /* a layer with its cameras */
+#define SMEAR_GROUP_BYTES 56u               /* draws that are blurred together */
+#define SMEAR_LAYER_BYTES SMEAR_BY_POINTER_(220u, 232u) /* a layer with its cameras */
+#define SMEAR_LAYERS_BYTES SMEAR_BY_POINTER_(120u, 208u)
+#define SMEAR_WINDOW_BYTES SMEAR_BY_POINTER_(64u, 96u)  /* what is known of rows in memory */
+#define SMEAR_MASK_BYTES 7696u              /* time samples and lists of a worker */
 #define SMEAR_STRIP 128                     /* strips this wide and wider take 16 columns more */
 
 /* ------------------------------------------------------------------ in detail */
@@ -95,8 +101,13 @@
      + SMEAR_TEMPORAL_(m, w, t, T, SMEAR_COLUMNS_(m, w, T, s), k, SMEAR_PARTS_(w, T)) \
      + SMEAR_DAMAGE_(d, m, c, a, SMEAR_PARTS_(w, T), SMEAR_PARTS_(h, T)) + SMEAR_LAYERS_(w, h, m, T, r, d, k) \
      + SMEAR_SUMS_(w, h, m, SMEAR_ROW_PX_(m, a, T, b)) + SMEAR_BANDS_(w, b, n, f, q, z) \
-     + SMEAR_UP8_((size_t)(d) * SMEAR_DRAW_BYTES) + 24u + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
-     + 3u * SMEAR_UP8_((SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, a, T, b)) + 2u) * 4u) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
+     + SMEAR_UP8_((size_t)(d) * SMEAR_SUBMITTED_BYTES) + (size_t)(d) * SMEAR_KEPT_BYTES \
+     + SMEAR_UP8_((size_t)(d) * SMEAR_SAMPLER_BYTES) + SMEAR_OLDER_(d, o) + SMEAR_STORE_(t, d, m) \
+     + SMEAR_RINGS_(m, SMEAR_PARTS_(h, SMEAR_ROW_PX_(m, a, T, b))) + SMEAR_UP8_((size_t)(v) * SMEAR_CACHE_BYTES))
+/* The last triangle of each row: opaque, blended, moving. */
+#define SMEAR_RINGS_(m, rows) \
+    (2u * SMEAR_UP8_((rows) * 4u) + (SMEAR_HAS_TEMPORAL_(m) || SMEAR_HAS_LAYERS_(m) \
+                                         ? SMEAR_UP8_(((rows) + (SMEAR_HAS_LAYERS_(m) ? 2u : 0u)) * 4u) : 0u))
 
 /* Rows that are drawn at once, and rows that are kept. */
 #define SMEAR_ROW_PX_(m, a, T, b) (SMEAR_HAS_TILES_(m, a) ? (size_t)(T) : (size_t)(b))
@@ -120,10 +131,11 @@
 /* A window of half the size, and a tile of it per worker. */
 #define SMEAR_HALF_(m, w, T, r, k) \
     (((m) & SMEAR_SET(SMEAR_HALF)) == 0 ? 0u \
-         : 136u + 3u * SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * 2u) \
+         : SMEAR_WINDOW_BYTES + SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * 4u) \
+               + SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * 2u) \
                + SMEAR_UP8_(SMEAR_PARTS_(w, 2) * ((size_t)(T) + SMEAR_PARTS_(r, 2)) * ((r) <= 30 ? 2u : 4u)) \
                + SMEAR_UP8_(SMEAR_PARTS_(w, T) * 36u) + SMEAR_UP8_(SMEAR_PARTS_(w, T) * 18u) \
-                                            + SMEAR_UP8_((size_t)(k) * (size_t)(T) * (size_t)(T)) + 8u)
+                                            + SMEAR_UP8_((size_t)(k) * (size_t)(T) * (size_t)(T)))
 /* Finished pixels of a worker: a tile, or a strip with what is drawn beyond its sides. */
 #define SMEAR_COLUMNS_(m, w, T, s) \
     (SMEAR_HAS_TEMPORAL_(m) ? (s) + ((s) >= SMEAR_STRIP && (s) < (size_t)(w) ? 16u : 0u) : (s))
@@ -136,11 +148,11 @@
     (SMEAR_HAS_TEMPORAL_(m) ? SMEAR_UP8_((size_t)(t) * 8u) + SMEAR_UP8_((tiles) * ((k) > 1 ? 40u : 20u)) \
                                   + SMEAR_BLOCKS_(m, w, T) * ((k) > 1 ? 2u : 1u) \
                                   + (size_t)(k) * SMEAR_MAX_(SMEAR_UP8_((columns) * (size_t)(T) * 10u) + 512u, \
-                                                             (m) & SMEAR_SET(SMEAR_TIMEMASK) ? 8192u : 0u) \
+                                                             (m) & SMEAR_SET(SMEAR_TIMEMASK) ? SMEAR_MASK_BYTES : 0u) \
                             : 0u)
 #define SMEAR_DAMAGE_(d, m, c, a, columns, rows) \
     ((c) || (a) ? SMEAR_DAMAGE_BYTES + ((a) ? SMEAR_UP8_((size_t)(d) * (SMEAR_HAS_TEMPORAL_(m) ? 4u : 0u)) \
-                                            + ((m) & SMEAR_SET(SMEAR_NONE) ? (size_t)(d) * SMEAR_DAMAGED_DRAW_BYTES : 0u) \
+                                            + ((m) & SMEAR_SET(SMEAR_NONE) && !(c) ? (size_t)(d) * SMEAR_DAMAGED_DRAW_BYTES : 0u) \
                                             + SMEAR_UP8_((columns) * (rows)) \
                                             + (SMEAR_WITH_OVERLAY ? SMEAR_UP8_((columns) * (rows) * 4u) : 0u) : 0u) : 0u)
 /* Rows of a layer with their margins; what groups leave for others they pass through; sums; groups. */
@@ -149,14 +161,15 @@
          ? SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * 4u) + SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * 2u) \
                + SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * SMEAR_VELOCITY_BYTES_(r)) \
                + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 4u) + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 2u) \
-               + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) / (size_t)(T) + 1u) * 12u + 8u) \
-               + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) + (size_t)(T) + 2u * (size_t)(r)) * 2u + 16u) \
-               + SMEAR_UP8_(((size_t)(T) + 2u * (size_t)(r)) * 4u + 16u) \
-               + SMEAR_UP8_((size_t)(d) * SMEAR_LAYER_DRAW_BYTES + 40u) + (size_t)(k) * ((size_t)(T) * 560u + 5120u) + 256u \
-               + SMEAR_LAYERS_MAX * SMEAR_LAYER_BYTES \
+               + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) / (size_t)(T) + 1u) * 12u) \
+               + SMEAR_UP8_((SMEAR_MAX_(SMEAR_LAYER_WIDTH_(w, r), SMEAR_LAYER_ROWS_(T, r)) + 2u) * 2u) \
+               + 2u * SMEAR_UP8_(SMEAR_LAYER_ROWS_(T, r) * 2u) + (size_t)(d) * SMEAR_GROUP_BYTES + 3u * SMEAR_UP8_((size_t)(d) * 2u) \
+               + SMEAR_UP8_(d) + (size_t)(k) * ((size_t)(T) * 560u + 5120u) + SMEAR_LAYERS_BYTES \
+               + SMEAR_UP8_(SMEAR_LAYERS_MAX * SMEAR_LAYER_BYTES) \
          : 0u)
-#define SMEAR_LAYER_WIDTH_(w, r) ((size_t)(w) + 2u * (size_t)(r) + 6u)
-#define SMEAR_LAYER_PX_(w, T, r) (SMEAR_LAYER_WIDTH_(w, r) * ((size_t)(T) + 2u * (size_t)(r)))
+#define SMEAR_LAYER_WIDTH_(w, r) ((size_t)(w) + 2u * (((size_t)(r) + 3u) & ~(size_t)3u))
+#define SMEAR_LAYER_ROWS_(T, r) ((size_t)(T) + 2u * (size_t)(r))
+#define SMEAR_LAYER_PX_(w, T, r) (SMEAR_LAYER_WIDTH_(w, r) * SMEAR_LAYER_ROWS_(T, r))
 /* Poses and a camera of two frames ago. */
 #define SMEAR_OLDER_(d, o) \
     (SMEAR_WITH_CURVES && !(o) ? SMEAR_UP8_((size_t)(d) * SMEAR_OLDER_BYTES) + SMEAR_OLDER_CAMERA_BYTES : 0u)
@@ -178,10 +191,10 @@
      : (f) == SMEAR_L1_PAGES ? (size_t)(w) * SMEAR_PARTS_(b, 8) : (size_t)(w) * (size_t)(b))
 /* Triangles and vertices; segments. */
 #define SMEAR_STORE_WORDS_(t, m) \
-    ((size_t)(t) * ((SMEAR_HAS_TEMPORAL_(m) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4u) + 64u)
+    SMEAR_MAX_((size_t)(t) * ((SMEAR_HAS_TEMPORAL_(m) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4u), 64u)
 #define SMEAR_STORE_(t, d, m) \
     (SMEAR_UP8_(SMEAR_STORE_WORDS_(t, m) * 4u) \
-     + SMEAR_UP8_(((size_t)(d) + 2u + SMEAR_STORE_WORDS_(t, m) / 50000u) * SMEAR_SEGMENT_BYTES))
+     + SMEAR_MIN_((size_t)(d) + 2u + SMEAR_STORE_WORDS_(t, m) / 50000u, 65536u) * SMEAR_SEGMENT_BYTES)
 
 /* Each step is a function where the language has functions that are constants, so that compilers read it once; else its text
  * lies in that of the next, which takes a compiler of C++ seconds. */

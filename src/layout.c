@@ -11,13 +11,17 @@
 
 SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_ports) <= SMEAR_FILTERING_BYTES, "SMEAR_FILTERING_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) + sizeof(struct smear_kept_pose)
-               + sizeof(struct smear_raster_draw) <= SMEAR_DRAW_BYTES, "SMEAR_DRAW_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_submitted) <= SMEAR_SUBMITTED_BYTES, "SMEAR_SUBMITTED_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_raster_draw) <= SMEAR_SAMPLER_BYTES, "SMEAR_SAMPLER_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_kept_pose) <= SMEAR_KEPT_BYTES, "SMEAR_KEPT_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_older) <= SMEAR_OLDER_CAMERA_BYTES, "SMEAR_OLDER_CAMERA_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_older_pose) <= SMEAR_OLDER_BYTES, "SMEAR_OLDER_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_window) <= SMEAR_WINDOW_BYTES, "SMEAR_WINDOW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_damage) <= SMEAR_DAMAGE_BYTES, "SMEAR_DAMAGE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_damaged_draw) <= SMEAR_DAMAGED_DRAW_BYTES, "SMEAR_DAMAGED_DRAW_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_group) + 7 <= SMEAR_LAYER_DRAW_BYTES, "SMEAR_LAYER_DRAW_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_group) <= SMEAR_GROUP_BYTES, "SMEAR_GROUP_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= SMEAR_LAYER_BYTES, "SMEAR_LAYER_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= 256, "SMEAR_LAYERS_");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= SMEAR_LAYERS_BYTES, "SMEAR_LAYERS_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
