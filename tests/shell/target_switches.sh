@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # target_switches.sh BUILD-FOLDER SMEAR.C
 # Every switch of smear_config.h off alone, sets of them, and everything off but one method and one
-# format: compiles without a warning, draws the golden frames it can to the bit, refuses the others.
+# format: compiles without a warning, draws the golden frames it can to the bit, refuses the others; and zeros work (zero.c).
 # SMEAR.C is the one-file form. Needs build/tapes/golden.c.
 set -u
 . "$(dirname "$0")/lib.sh"
@@ -11,6 +11,7 @@ mkdir -p "$base"
 flags="-std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Wall -Wextra -Wconversion -Wshadow -Werror -Iinclude -Isrc -I."
 players="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c"
 programs="$players build/tapes/golden.c"
+sources=$(printf '%s\n' src/*.c src/*/*.c | wc -l)
 
 # What GCC knows of vectors, most of the text of half the sources, is read once for all.
 vectors=
@@ -36,12 +37,14 @@ draws_alone() {
     ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" "$single" &&
         ${CC:-cc} $flags "$@" -no-pie -Wl,--unresolved-symbols=ignore-in-object-files -o "$base/$name" $players "$base/tapes.o" \
             "$base/$name.o" &&
+        ${CC:-cc} $flags "$@" -no-pie -Wl,--unresolved-symbols=ignore-in-object-files -o "$base/$name-zero" tests/examples/zero.c \
+            "$base/$name.o" &&
         plays "$name"
 }
 
 # plays NAME
 plays() {
-    "$base/$1" >"$base/$1.txt" && return 0
+    "$base/$1-zero" && "$base/$1" >"$base/$1.txt" && return 0
     grep -E 'WRONG|NOT|ERROR|golden frames' "$base/$1.txt"
     return 1
 }
@@ -52,7 +55,18 @@ draws() {
     shift
     # shellcheck disable=SC2046,SC2086
     sh tests/shell/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags $vectors "$@" -- src/*.c src/*/*.c $programs &&
-        ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") && plays "$name"
+        ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") &&
+        ${CC:-cc} $flags "$@" -o "$base/$name-zero" tests/examples/zero.c $(head -n "$sources" "$base/$name.list") && plays "$name"
+}
+
+# zeros NAME FLAGS...: a build that has too little for golden frames
+zeros() {
+    name=$1
+    shift
+    # shellcheck disable=SC2086
+    ${CC:-cc} -std=c11 $quick "$@" -c -o "$base/$name.o" "$single" &&
+        ${CC:-cc} $flags "$@" -no-pie -Wl,--unresolved-symbols=ignore-in-object-files -o "$base/$name-zero" tests/examples/zero.c \
+            "$base/$name.o" && "$base/$name-zero"
 }
 
 # try COMMAND NAME FLAGS...
@@ -78,5 +92,6 @@ rgb565="$rgb565 -DSMEAR_WITH_LINEAR=1 -DSMEAR_WITH_GOURAUD=1 -DSMEAR_WITH_ALPHA=
         -DSMEAR_WITH_CURVES=1
     try draws reconstruct $rgb565 -DSMEAR_WITH_RECONSTRUCT=1
     try draws auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1
+    try zeros manual $(sed -n 's/^ *cc -Os \(.*-DSMEAR_WITH_ALL=0.*\) \.\.\..*/\1/p' include/README.md)
 }
 finish
