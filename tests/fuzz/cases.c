@@ -143,6 +143,10 @@ static void make_grid(struct fuzz_case *c, int16_t *position, uint16_t *index, i
 static void make_soup(struct fuzz_case *c, int16_t *position, int vertices, uint16_t *index, int triangles)
 {
     struct source *s = &c->source;
+    if (c->triangles != 0) {
+        case_many_cloud(c, position, vertices, index, triangles);
+        return;
+    }
     const int size = source_chance(s, 4) ? 32767 : source_range(s, 1, 2000);
     for (int i = 0; i < vertices * 3; i++)
         position[i] = (int16_t)source_range(s, -size - (size == 32767), size);
@@ -196,7 +200,9 @@ static void make_mesh(struct fuzz_case *c, int at)
     int across = source_range(s, 1, most), down = source_range(s, 1, most), vertices = source_range(s, 1, 2 * most),
         triangles = source_range(s, 0, c->large ? 30 : 8);
     const bool grid = source_chance(s, 2);
-    const bool huge = at == 0 && source_chance(s, c->large ? 8 : 800);
+    if (c->triangles != 0)
+        case_many_mesh(c, &across, &down, &vertices, &triangles);
+    const bool huge = at == 0 && c->triangles == 0 && source_chance(s, c->large ? 8 : 800);
     if (huge) /* in parts, it would take minutes */
         c->desc.max_triangles = 20000;
     if (grid && huge) { /* the near plane may cut each triangle of a path 16 times */
@@ -319,7 +325,7 @@ static void make_draw(struct fuzz_case *c, int i)
 {
     struct source *s = &c->source;
     int mesh = source_range(s, 0, CASE_MESHES - 1);
-    if (mesh == 0 && i != 0 && c->mesh[0].vertex_count > 1000) /* once is enough */
+    if (mesh == 0 && i != 0 && c->triangles == 0 && c->mesh[0].vertex_count > 1000) /* once is enough */
         mesh = 1;
     const uint32_t look = source_word(s), kind = source_word(s);
     smear_material *m = &c->material[i];
@@ -427,6 +433,8 @@ static void make_desc(struct fuzz_case *c)
                        .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0),
                        .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)),
                        .debug.crc = source_chance(s, 3) };
+    if (c->triangles != 0)
+        case_many_desc(c);
     if (d->format >= SMEAR_L4 && source_chance(s, 4))
         d->display.dither = SMEAR_DITHER_DIFFUSE;
     d->display.doubled = (uint8_t)option(s, 6, SMEAR_DOUBLED_X, SMEAR_DOUBLED_XY);
@@ -569,7 +577,7 @@ static uint16_t some_samples(struct fuzz_case *c, uint8_t method)
 static void make_settings(struct fuzz_case *c)
 {
     struct source *s = &c->source;
-    const uint8_t method = a_method(s, &c->desc);
+    const uint8_t method = c->triangles != 0 && source_chance(s, 3) ? (uint8_t)SMEAR_NONE : a_method(s, &c->desc);
     c->frame = (smear_frame){ .camera = &c->camera[0],
                               .open = source_chance(s, 3) ? &c->camera[1] : NULL,
                               .close = source_chance(s, 3) ? &c->camera[2] : NULL,
@@ -652,14 +660,11 @@ void case_frame(struct fuzz_case *c, int k)
 
 /* ------------------------------------------------------------------ the whole */
 
-void case_make(struct fuzz_case *c, uint64_t number, bool wild)
+static void make_case(struct fuzz_case *c)
 {
-    memset(c, 0, sizeof *c);
-    c->source.state = number * 0x2545f4914f6cdd1du + (wild ? 77u : 0u);
-    c->wild = wild;
     struct source *s = &c->source;
     c->extreme = source_chance(s, 3);
-    c->large = source_chance(s, 24);
+    c->large = source_chance(s, 24) && c->triangles == 0;
     make_desc(c);
     c->frames = source_range(s, 2, c->desc.reuse.buffer_age || c->desc.reuse.cache_static ? 6 : 4);
     for (int i = 0; i < CASE_TEXTURES; i++)
@@ -672,7 +677,25 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild)
     c->with_overlay = source_chance(s, 3);
     if (c->with_overlay)
         case_make_overlay(c);
-    c->draws = source_range(s, 0, c->large ? CASE_DRAWS : 4);
+    if (c->triangles == 0)
+        c->draws = source_range(s, 0, c->large ? CASE_DRAWS : 4);
     for (int i = 0; i < CASE_DRAWS; i++)
         make_draw(c, i);
+}
+
+void case_make(struct fuzz_case *c, uint64_t number, bool wild)
+{
+    memset(c, 0, sizeof *c);
+    c->source.state = number * 0x2545f4914f6cdd1du + (wild ? 77u : 0u);
+    c->wild = wild;
+    make_case(c);
+}
+
+void case_make_of(struct fuzz_case *c, uint64_t state, int triangles, int draws)
+{
+    memset(c, 0, sizeof *c);
+    c->source.state = state;
+    c->triangles = triangles;
+    c->draws = draws;
+    make_case(c);
 }

@@ -42,6 +42,7 @@ struct fuzz_case {
     bool extreme; /* numbers of any size are frequent */
     bool large;   /* many triangles, pixels, instants: rare, as it costs 50 times more */
     bool with_overlay;
+    int triangles; /* of a case of many, in all draws together; else 0 */
     int frames;
     smear_desc desc; /* without callbacks */
     smear_texture texture[CASE_TEXTURES];
@@ -71,6 +72,15 @@ struct fuzz_case {
 
 /* Makes case `number` up to its desc and scene. */
 void case_make(struct fuzz_case *c, uint64_t number, bool wild);
+
+/* Makes case `number` of 256 to 20,000 triangles, 2 to 8 workers and a store that may be too small: cases_many.c. What it is made
+ * of: the desc, sizes of a mesh, a mesh; and one worker's desc with room for all, which must draw the same. */
+void case_make_many(struct fuzz_case *c, uint64_t number);
+void case_make_of(struct fuzz_case *c, uint64_t state, int triangles, int draws);
+void case_many_desc(struct fuzz_case *c);
+void case_many_mesh(struct fuzz_case *c, int *across, int *down, int *vertices, int *triangles);
+void case_many_cloud(struct fuzz_case *c, int16_t *position, int vertices, uint16_t *index, int triangles);
+smear_desc case_many_other(struct fuzz_case *c);
 
 /* Makes frame `k` of it: settings, cameras, poses. */
 void case_frame(struct fuzz_case *c, int k);

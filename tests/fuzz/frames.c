@@ -4,6 +4,8 @@
  *
  *     frames valid|wild FIRST COUNT           draws cases; says at the end how many frames these were
  *     frames valid|wild FIRST SECONDS s       as many as take so long
+ *     frames many FIRST FRAMES f              cases of 256 to 20,000 triangles by 2 to 8 workers, against one worker with room for
+ *                                             all, until so many frames have been compared (in other modes: drawn)
  *     frames valid|wild NUMBER                one case, step by step
  *     frames sums FIRST COUNT                 draws valid cases once and prints a checksum of each: compare builds with it
  *     frames threads FIRST COUNT              valid cases, each by 2 to 8 workers: for the thread sanitizer
@@ -69,6 +71,7 @@ struct rig {
     smear_context *ctx;
     smear_desc desc;
     uint8_t *block;                 /* the context's memory ends where it does */
+    size_t bytes;                   /* of the context */
     uint8_t *shown[AGE_MAX], *into; /* bytes of buffers that are shown, rows from top to bottom */
     size_t pitch, rows;
     int frame, next_row, next_column, band, fail_at;
@@ -153,6 +156,7 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     }
     if (bytes > 48u << 20)
         return false;
+    r->bytes = bytes;
     r->block = malloc(bytes + 8 * (size_t)offset);
     uint8_t *memory = r->block + 8 * offset;
     require(r->block != NULL, "out of memory");
@@ -201,17 +205,44 @@ static int render(struct rig *r)
     return result;
 }
 
+/* What is refused changes not a byte of a context: of a wild case, all of them are compared. (The memory sanitizer knows that not all
+ * have been written.) */
+static uint8_t *before;
+
+static bool compares_bytes(const struct rig *r, const struct fuzz_case *c)
+{
+    return c->wild && r->bytes < 1u << 18 && __msan_check_mem_is_initialized == NULL;
+}
+
+static void keep_bytes(const struct rig *r, const struct fuzz_case *c)
+{
+    if (!compares_bytes(r, c))
+        return;
+    before = realloc(before, r->bytes);
+    require(before != NULL, "out of memory");
+    memcpy(before, r->ctx, r->bytes);
+}
+
+static int compare_bytes(const struct rig *r, const struct fuzz_case *c, int result)
+{
+    if (result != SMEAR_OK && compares_bytes(r, c))
+        require(memcmp(before, r->ctx, r->bytes) == 0, "a refused call has changed the context");
+    return result;
+}
+
 /* Draws a frame of the case; returns the first error. */
 static int rig_frame(struct rig *r, const struct fuzz_case *c)
 {
     const int age = r->desc.reuse.buffer_age > 1 ? r->desc.reuse.buffer_age : 1;
     r->next_row = r->band = r->next_column = 0;
     r->into = r->shown[r->frame++ % age];
-    int result = smear_begin(r->ctx, &c->frame), error = SMEAR_OK;
+    keep_bytes(r, c);
+    int result = compare_bytes(r, c, smear_begin(r->ctx, &c->frame)), error = SMEAR_OK;
     if (result != SMEAR_OK)
         return result;
     for (int i = 0; i < c->draws; i++) {
-        const int submitted = smear_submit(r->ctx, &c->draw[i]);
+        keep_bytes(r, c);
+        const int submitted = compare_bytes(r, c, smear_submit(r->ctx, &c->draw[i]));
         error = error == SMEAR_OK ? submitted : error;
     }
     result = render(r);
@@ -331,7 +362,10 @@ static void spoil_frame(struct fuzz_case *c)
 enum mode { MODE_VALID,
             MODE_WILD,
             MODE_SUMS,
-            MODE_THREADS };
+            MODE_THREADS,
+            MODE_MANY };
+
+static const char *const mode_names[] = { "valid", "wild", "valid", "valid", "many" };
 
 /* So that every build draws the same: arenas count bytes, of which pointers have more or fewer. */
 static void make_comparable(struct fuzz_case *c)
@@ -343,19 +377,22 @@ static void make_comparable(struct fuzz_case *c)
 /* Draws a case; returns a sum of its pictures. */
 static uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode)
 {
-    const bool wild = mode == MODE_WILD, threads = mode == MODE_THREADS;
+    const bool wild = mode == MODE_WILD, threads = mode == MODE_THREADS, many = mode == MODE_MANY;
     static struct fuzz_case c;
     struct rig a, b;
     uint32_t sum = 2166136261u;
-    snprintf(now_at, sizeof now_at, "%s %llu", wild ? "wild" : "valid", (unsigned long long)number);
-    case_make(&c, number, wild);
+    snprintf(now_at, sizeof now_at, "%s %llu", mode_names[mode], (unsigned long long)number);
+    if (many)
+        case_make_many(&c, number);
+    else
+        case_make(&c, number, wild);
     if (wild && source_chance(&c.source, 8))
         case_spoil_desc(&c);
     if (threads)
         c.desc.workers = (uint8_t)source_range(&c.source, 2, 8);
     if (mode == MODE_SUMS)
         make_comparable(&c);
-    smear_desc other = case_other_desc(&c);
+    smear_desc other = many ? case_many_other(&c) : case_other_desc(&c);
     if (threads)
         other.workers = (uint8_t)source_range(&c.source, 2, 8);
     const bool open = rig_open(&a, &c.desc, wild, source_range(&c.source, 0, 5));
@@ -364,10 +401,10 @@ static uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode)
     counts->refused += !open;
     bool lost = false;
     for (int k = 0; k < c.frames && open; k++) {
-        snprintf(now_at, sizeof now_at, "%s %llu, frame %d", wild ? "wild" : "valid", (unsigned long long)number, k);
+        snprintf(now_at, sizeof now_at, "%s %llu, frame %d", mode_names[mode], (unsigned long long)number, k);
         case_frame(&c, k);
         spoil_frame(&c);
-        if (mode == MODE_SUMS)
+        if (mode == MODE_SUMS || many)
             c.frame.budget = 0;
         c.frame.refresh |= lost;
         if (c.wild && source_chance(&c.source, 20))
@@ -415,14 +452,14 @@ int main(int argc, char **argv)
 {
     static const int ends[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP };
     static const struct itimerval most = { .it_value = { .tv_sec = 120 } }; /* no case takes so long of the cores */
-    static const char letters[] = "vwst";                                   /* as in enum mode */
+    static const char letters[] = "vwstm";                                  /* as in enum mode */
     struct counts counts = { 0, 0, 0, 0, 0, 0 };
     if (argc < 3 || argv[1][0] == 0 || strchr(letters, argv[1][0]) == NULL) {
-        fputs("usage: frames valid|wild|sums|threads FIRST [COUNT | SECONDS s]\n", stderr);
+        fputs("usage: frames valid|wild|sums|threads|many FIRST [COUNT | SECONDS s | FRAMES f]\n", stderr);
         return 2;
     }
     const enum mode mode = (enum mode)(strchr(letters, argv[1][0]) - letters);
-    const bool timed = argc > 4;
+    const char unit = argc > 4 ? argv[4][0] : 'n';
     const uint64_t first = strtoull(argv[2], NULL, 10), count = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
     const time_t end = time(NULL) + (time_t)count;
     talks = argc == 3;
@@ -432,7 +469,8 @@ int main(int argc, char **argv)
     else
         for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
             signal(ends[i], say_where);
-    for (uint64_t n = first; timed ? time(NULL) < end : n < first + count; n++) {
+    const uint64_t *const drawn = mode == MODE_MANY ? &counts.compared : &counts.frames;
+    for (uint64_t n = first; unit == 's' ? time(NULL) < end : unit == 'f' ? *drawn < count : n < first + count; n++) {
         setitimer(ITIMER_PROF, &most, NULL);
         const uint32_t sum = run_case(&counts, n, mode);
         if (mode == MODE_SUMS)

@@ -74,14 +74,20 @@ build/fuzz/frames-address: $(FRAMES_SRC:%.c=build/fuzz/obj/%.o)
 $(eval $(call frames_build,memory,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=memory -fno-omit-frame-pointer))
 $(eval $(call frames_build,threads,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=thread))
 
-.PHONY: fuzz fuzz-builds
+.PHONY: fuzz fuzz-many fuzz-builds
 ## valid and wild frames under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
 fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threads
-	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
-	build/fuzz/frames-address wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
+	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 12)) s
+	build/fuzz/frames-address wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 12)) s
+	build/fuzz/frames-address many $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-memory valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-memory wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
-	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 15)) s
+	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 7)) s
+	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads many $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 4)) s
+
+## FRAMES=20000 of 256 to 20,000 triangles by 2 to 8 workers, sanitized, against one worker with room (needs clang-14), from case FIRST=1
+fuzz-many: build/fuzz/frames-address
+	build/fuzz/frames-address many $(or $(FIRST),1) $(or $(FRAMES),20000) f
 
 # Builds that must draw the same: by compiler, optimization, width of a word, and what the code is told of the core. Most are the
 # one-file form's, whose objects draw golden frames, too (one_file.sh says what each is for). What draws is the same in all.
