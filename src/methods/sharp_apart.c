@@ -108,8 +108,10 @@ static uint32_t list_apart(struct apart *a, int job, const struct apart_place *p
     }
     if (p->upper)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, a->first + p->row);
-    for (uint32_t at = rows->opaque; at != SMEAR_NO_TRIANGLE; at = bins_triangle(&rows->bins, at)->next)
+    for (uint32_t at = rows->opaque; at != SMEAR_NO_TRIANGLE; at = bins_triangle(&rows->bins, at)->next) {
+        SMEAR_ASSERT(n < bins_listed(&rows->bins));
         number[n++] = at;
+    }
     word_write(&a->listed, (unsigned)job + 1u);
     return n;
 }

@@ -681,6 +681,8 @@ static void make_case(struct fuzz_case *c)
         c->draws = source_range(s, 0, c->large ? CASE_DRAWS : 4);
     for (int i = 0; i < CASE_DRAWS; i++)
         make_draw(c, i);
+    if (c->triangles != 0)
+        case_many_plain(c);
 }
 
 void case_make(struct fuzz_case *c, uint64_t number, bool wild)

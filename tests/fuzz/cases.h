@@ -74,12 +74,13 @@ struct fuzz_case {
 void case_make(struct fuzz_case *c, uint64_t number, bool wild);
 
 /* Makes case `number` of 256 to 20,000 triangles, 2 to 8 workers and a store that may be too small: cases_many.c. What it is made
- * of: the desc, sizes of a mesh, a mesh; and one worker's desc with room for all, which must draw the same. */
+ * of: the desc, sizes of a mesh, a mesh, what is plain; and one worker's desc with room for all, which must draw the same. */
 void case_make_many(struct fuzz_case *c, uint64_t number);
 void case_make_of(struct fuzz_case *c, uint64_t state, int triangles, int draws);
 void case_many_desc(struct fuzz_case *c);
 void case_many_mesh(struct fuzz_case *c, int *across, int *down, int *vertices, int *triangles);
 void case_many_cloud(struct fuzz_case *c, int16_t *position, int vertices, uint16_t *index, int triangles);
+void case_many_plain(struct fuzz_case *c);
 smear_desc case_many_other(struct fuzz_case *c);
 
 /* Makes frame `k` of it: settings, cameras, poses. */

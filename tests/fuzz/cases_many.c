@@ -23,12 +23,22 @@ void case_many_desc(struct fuzz_case *c)
     struct source *s = &c->source;
     smear_desc *d = &c->desc;
     d->width = (int16_t)source_range(s, 8, 180);
-    d->height = (int16_t)source_range(s, 8, 130);
+    d->height = (int16_t)source_range(s, 8, source_chance(s, 2) ? 60 : 160);
     d->workers = (uint8_t)source_range(s, 2, 8);
     const int32_t some = source_range(s, c->triangles / 16, c->triangles / 2);
     d->max_triangles = (uint32_t)(source_chance(s, 3) ? 4 * c->triangles : some);
     if (source_chance(s, 4)) /* rows of tiles apart: what takes no window, beside what takes memory */
         d->methods = (uint16_t)(SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_AUTO));
+}
+
+/* Nothing that keeps workers from drawing rows of tiles apart. */
+void case_many_plain(struct fuzz_case *c)
+{
+    if (source_chance(&c->source, 2))
+        return;
+    c->with_overlay = false;
+    for (int i = 0; i < CASE_DRAWS; i++)
+        c->material[i].alpha = SMEAR_OPAQUE;
 }
 
 smear_desc case_many_other(struct fuzz_case *c)
