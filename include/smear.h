@@ -79,7 +79,7 @@ typedef enum smear_result {
     SMEAR_OK         =  0,
     SMEAR_ERR_ARG    = -1,      /* a required argument is missing, or a value is outside its stated range */
     SMEAR_ERR_MEMORY = -2,      /* fewer than smear_memory_size() bytes, or not 8-byte aligned */
-    SMEAR_ERR_ORDER  = -3,      /* a call out of turn: submit before begin, render twice */
+    SMEAR_ERR_ORDER  = -3,      /* a call out of turn: submit before begin, render twice, begin from within flush */
     SMEAR_ERR_FULL   = -4,      /* more draws in a frame than desc.max_draws; this one is not drawn */
     SMEAR_ERR_ROOM   = -5,      /* SMEAR_TIMEMASK: the moving triangles of a tile do not find room at once: more
                                  * max_triangles, or another method, which draws them in parts */
@@ -668,7 +668,8 @@ void smear_mesh_find_bounds(smear_mesh *mesh);
 int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t bytes);
 
 /* Starts a frame. `frame` and the cameras are copied. A frame begun before is not rendered,
- * but its poses count as the past of this one. SMEAR_ERR_ARG, or the number of the field that is not valid. */
+ * but its poses count as the past of this one. SMEAR_ERR_ARG, SMEAR_ERR_ORDER (from a callback), or the number of the field that is
+ * not valid: then the frame begun before goes on. */
 int smear_begin(smear_context *ctx, const smear_frame *frame);
 
 /* Adds a draw. The struct and its transforms are copied; mesh, material and positions are read until smear_render
