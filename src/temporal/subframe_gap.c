@@ -47,8 +47,8 @@ static int32_t nearest_pixel(int32_t part, int32_t over, int32_t times)
 
 static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, const struct smear_step *step)
 {
-    const int32_t x = step->x, y = step->y;     /* 1/16 px */
-    const uint32_t length = (uint32_t)min_i32(max_i32(abs_i32(x), abs_i32(y)), 16 * (2 * GAP_PAIRS_MAX + 1));
+    const int32_t x = step->x, y = step->y, long_side = max_i32(abs_i32(x), abs_i32(y));    /* 1/16 px */
+    const uint32_t length = (uint32_t)min_i32(long_side, 16 * (2 * GAP_PAIRS_MAX + 1));
     const uint32_t most = sums_light(f) ? UINT32_MAX : (uint32_t)PACKED_INSTANTS_MAX;
     uint32_t whole;
     for (gap->unit = 16;; gap->unit >>= 1) {
@@ -66,8 +66,8 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
     SMEAR_ASSERT(gap->pairs <= GAP_PAIRS_MAX);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x, (int32_t)length, i + 1);
-        gap->y[i] = (int8_t)nearest_pixel(y, (int32_t)length, i + 1);
+        gap->x[i] = (int8_t)nearest_pixel(x, long_side, i + 1);
+        gap->y[i] = (int8_t)nearest_pixel(y, long_side, i + 1);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
