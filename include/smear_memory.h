@@ -29,7 +29,7 @@
 
 /* Bytes of one of each thing, at most, with pointers of 4 bytes and of 8. */
 #define SMEAR_BY_POINTER_(narrow, wide) (sizeof(void *) < 8 ? (narrow) : (wide))
-#define SMEAR_CONTEXT_BYTES SMEAR_BY_POINTER_(1464u, 1792u)     /* the context itself */
+#define SMEAR_CONTEXT_BYTES SMEAR_BY_POINTER_(1480u, 1792u)     /* the context itself */
 #define SMEAR_FILTERING_BYTES SMEAR_BY_POINTER_(264u, 272u)     /* what filters keep beside a window */
 #define SMEAR_DAMAGE_BYTES SMEAR_BY_POINTER_(40u, 64u)  /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DAMAGED_DRAW_BYTES 16u        /* what is kept of a draw where the display keeps tiles of sharp frames */
