@@ -607,15 +607,15 @@ typedef struct smear_fill {
 } smear_fill;
 
 typedef struct smear_stats {
-    /* submitted; covering a pixel; left out for a bad index. In a frame drawn in parts the last two count a triangle once
-     * per part. */
+    /* submitted; covering a pixel; left out for a bad index. In a frame drawn in parts the second counts a triangle once
+     * per part, and the third may. */
     uint32_t triangles_in, triangles_drawn, triangles_dropped;
     uint32_t parts_added;               /* times a list was full: a part of the frame was halved, or a tile row's
                                          * triangles were gone through in turns */
     uint32_t draws_moved;               /* whose velocity came from their vertices: they moved, deformed, or
                                          * (but with camera_step) the camera did */
     uint32_t draws_beside;              /* left out, as their bounds lie beyond a side of the view; of a frame drawn
-                                         * in parts, once per part */
+                                         * in parts, once per part at most */
     uint32_t pixels;                    /* of the frame */
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
     uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves; SMEAR_AUTO's
@@ -679,9 +679,9 @@ int smear_submit(smear_context *ctx, const smear_draw *draw);
 
 /* Draws the frame and hands it to flush, band after band, top to bottom. Time grows with triangles and
  * pixels. A full triangle list is no error: the frame is drawn in parts (stats.parts_added counts them), down to a tile row
- * whose triangles are assembled again and again, a few at a time: the same picture, whatever it costs. Only time masks
- * need all of a tile's at once. Returns SMEAR_OK, what flush returned if negative, SMEAR_ERR_ROOM, or SMEAR_ERR_ORDER (no
- * frame has been begun). */
+ * whose triangles are assembled again and again, a few at a time: the same picture, whatever it costs. What is not in a part
+ * is passed over where neighbours follow each other in their mesh. Only time masks need all of a tile's at once. Returns
+ * SMEAR_OK, what flush returned if negative, SMEAR_ERR_ROOM, or SMEAR_ERR_ORDER (no frame has been begun). */
 int smear_render(smear_context *ctx);
 
 /* With desc.bands == 2: a band handed to flush has been sent; may be called from an interrupt or another

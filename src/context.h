@@ -46,6 +46,8 @@ struct smear_context {
     struct smear_rows rows;
     bool direct;                    /* sharp rows are drawn as the display's pixels */
     uint8_t parts_wait;             /* assemblies until they are to do so again */
+    uint16_t part_rows;             /* tile rows that are likely to find room at once, from the last part of the frame; 0: all */
+    bool row_is_full;               /* the last one did not: the next one is not likely to */
     struct smear_sums sums;
     struct smear_filtered filtered;
     struct smear_temporal temporal;

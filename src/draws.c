@@ -5,30 +5,13 @@
 #include "base/compiled.h"
 #include "geometry/assemble_path.h"
 #include "geometry/parts.h"
+#include "geometry/ranges.h"
 #include "layers/groups.h"
 
 /* Several cores assemble draws: not where size counts, or the assembler's state lies on the stack. */
 #define SMEAR_ASSEMBLY_JOBS (SMEAR_WITH_WORKERS && !SMEAR_FAST_STACK && !SMEAR_SMALL_CODE)
 
-/* Whether the frame has blurred layers. */
-static inline bool has_layers(const struct smear_context *c)
-{
-    return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
-}
-
 /* ------------------------------------------------------------------ what draws are */
-
-/* Returns the three cameras of a draw's layer, if it has its own. */
-static const smear_camera *layer_camera(const struct smear_context *c, uint32_t i)
-{
-    const uint32_t layer = has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
-    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? c->layers->setting[layer].camera : NULL;
-}
-
-static void poses_of(struct smear_draw_poses *p, const struct smear_context *c, uint32_t i)
-{
-    smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, layer_camera(c, i));
-}
 
 /* Finds, where velocities come from depth, whether a draw has one of its own, or stays where it is before the camera. */
 static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw_poses *p, uint8_t motion)
@@ -84,7 +67,7 @@ void smear_draws_prepare(struct smear_context *c)
         look_up_material(c, i);
         c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
     }
-    draws_place_points(c, -65536, 65536);
+    draws_begin_exposure(c, -65536, 65536);
 }
 
 #if SMEAR_WITH_OVERLAY
@@ -97,39 +80,6 @@ void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to)
     smear_points_place(&c->rows, &c->shot, &open, &close);
 }
 #endif
-
-/* ------------------------------------------------------------------ layers */
-
-SMEAR_NOINLINE void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle)
-{
-    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
-    const struct smear_instant open = smear_instant_at(&c->shot, -65536), close = smear_instant_at(&c->shot, 65536);
-    struct smear_layers *l = c->layers;
-    smear_groups_begin(l);
-    for (uint32_t i = 0; i < c->draw_count; i++)
-        smear_groups_find_layer(l, i, &c->submitted[i].draw);
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        const smear_draw *draw = &c->submitted[i].draw;
-        struct smear_draw_poses poses;
-        struct smear_placement key[2], at;
-        if (l->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
-            continue;
-        const struct smear_layer_setting *setting = &l->setting[l->layer_of[i]];
-        poses_of(&poses, c, i);
-        const bool moves = setting->layer.method != SMEAR_NONE && poses_differ(&poses);
-        if (moves && !c->raster_draw[i].moves) {        /* before the layer's camera alone */
-            c->raster_draw[i].moves = true;
-            c->stats.draws_moved++;
-        }
-        if (!moves && !setting->has_camera && !setting->layer.over)
-            continue;
-        smear_draw_poses_place(&key[0], &poses, &c->shot, draw->mesh, moves ? &open : &smear_instant_now);
-        smear_draw_poses_place(&key[1], &poses, &c->shot, draw->mesh, moves ? &close : &smear_instant_now);
-        smear_draw_poses_place(&at, &poses, &c->shot, draw->mesh, moves ? middle : &smear_instant_now);
-        smear_groups_add(l, i, draw, key, &at, &c->assembler.viewport, moves);
-    }
-    smear_groups_end(l, c->draw_count);
-}
 
 /* ------------------------------------------------------------------ an assembly */
 
@@ -171,9 +121,8 @@ static void place(struct smear_assembly *a, const struct smear_context *c, struc
     smear_draw_poses_place(&a->motion.key[1], p, &c->shot, a->mesh, &close);
 }
 
-/* Makes everything the assembler needs of draw `i` at an instant. False where nothing of it is in view. */
-static SMEAR_NOINLINE bool make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
-                                         struct smear_assembly *a)
+SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
+                                              struct smear_assembly *a)
 {
     static const smear_material white = { 0 };
     const smear_draw *draw = &c->submitted[i].draw;
@@ -262,7 +211,7 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     if (has_layers(c))
         c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
     const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
-    if (!make_assembly(c, i, is_sharp ? &smear_instant_now : instant, &a)) {
+    if (!smear_draws_make_assembly(c, i, is_sharp ? &smear_instant_now : instant, &a)) {
         c->stats.draws_beside++;
         return true;
     }
@@ -293,14 +242,29 @@ static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool
     return true;
 }
 
+/* Whether a draw may be seen in what is filled. */
+static bool draw_reaches(const struct smear_context *c, const struct smear_assembler *as, uint32_t i)
+{
+    uint32_t first = 0;
+    const uint32_t count = c->submitted[i].draw.mesh->triangle_count;
+    (void)ranges_next(as, ranges_filled(as, fill_kind(c, i) == FILL_MOVING), &first, count);
+    return first < count;
+}
+
 /* Assembles draws into what `as` names. False when the store is full: of a fill, the rest is noted. */
 static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
                           struct smear_refill *f, enum draws kind)
 {
     struct smear_tile_box *seen = NULL;
+    const struct smear_tile_box *ranges = ranges_all(as->bins);
     for (uint32_t k = 0; k < c->draw_count; k++) {
         const uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
-        if (!is_of_kind(c, i, kind) || !is_wanted(c, i, kind, f == NULL, &seen) || (f != NULL && !fill_lacks(c, f, k, i)))
+        if (ranges != NULL) {
+            as->ranges = ranges;
+            ranges += ranges_of(as->bins, c->submitted[i].draw.mesh->triangle_count);
+        }
+        if (!is_of_kind(c, i, kind) || !is_wanted(c, i, kind, f == NULL, &seen) || (f != NULL && !fill_lacks(c, f, k, i))
+            || (ranges != NULL && !draw_reaches(c, as, i)))
             continue;
         if (f != NULL && k == f->draw)
             as->resume = (struct smear_resume){ f->triangle, f->parts };
@@ -404,7 +368,7 @@ static bool assemble_range(const struct assembly_parts *all, struct smear_part *
                            struct smear_tile_box *seen)
 {
     struct smear_assembly a;
-    if (!make_assembly(all->c, i, all->instant, &a)) {
+    if (!smear_draws_make_assembly(all->c, i, all->instant, &a)) {
         p->beside += first == 0;
         return true;
     }
@@ -458,7 +422,8 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    if (n == 1 || has_layers(c) || static_is_cached(c->damage) || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
+    if (n == 1 || has_layers(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
+        || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
             && g->pool_words < PARTS_WORDS + n * (PART_WORDS_LEAST + 3u * (uint32_t)(g->row_count + g->moving_rows))))
@@ -563,7 +528,6 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct smear_instant *instant)
 {
     smear_bins_reset(&c->rows.bins, first, end);
-    c->assembler.refills = false;
     c->assembler.path_x0 = 0;
     c->assembler.path_x1 = INT16_MAX;
 #if SMEAR_FAST_STACK
@@ -578,7 +542,6 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
 static SMEAR_NOINLINE bool assemble_fill(struct smear_context *c, struct smear_refill *f)
 {
     smear_bins_reset(&c->rows.bins, f->row, f->row + 1);
-    c->assembler.refills = true;
     c->assembler.path_x0 = (int16_t)f->path_x0;
     c->assembler.path_x1 = (int16_t)f->path_x1;
     smear_assembler_reset(&c->assembler);
@@ -592,7 +555,6 @@ static bool assemble_all(struct smear_context *c, int first, int end, const stru
 #if SMEAR_ASSEMBLY_JOBS
     if (has_parts(c)) {
         smear_bins_reset(&c->rows.bins, first, end);
-        c->assembler.refills = false;
         c->assembler.path_x0 = 0;
         c->assembler.path_x1 = INT16_MAX;
         smear_assembler_reset(&c->assembler);
@@ -644,10 +606,12 @@ static void fill(struct smear_refill *f)
     const smear_stats stats = c->stats;
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     f->more = !assemble_fill(c, f);
+    c->row_is_full = c->row_is_full || f->more;
     note_fills(c);
+    if ((f->kinds & ~f->counted) == 0 || bins_kept(&rows->bins) != 0)
+        c->assembler.triangles_dropped = dropped;
     if ((f->kinds & ~f->counted) == 0) {
         c->assembler.triangles_drawn = drawn;
-        c->assembler.triangles_dropped = dropped;
         c->stats.draws_beside = stats.draws_beside;
     }
     f->counted |= f->more ? 0 : f->kinds;
@@ -662,25 +626,40 @@ static void fill(struct smear_refill *f)
     stage_end(rows, &c->stats.time.submit, start);
 }
 
+static bool is_half_empty(const struct smear_bins *g)
+{
+    return g->vertex_words + g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4) < g->pool_words / 2;
+}
+
 int smear_draws_assemble(struct smear_context *c, int top, int first, int end, const struct smear_instant *instant,
                          struct smear_refill *refill)
 {
     const uint32_t start = stage_start(&c->rows);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     c->rows.refill = NULL;
+    if (SMEAR_RANGES && c->part_rows != 0)
+        end = min_i32(end, first + c->part_rows);
+    bool is_full = SMEAR_RANGES && c->row_is_full;
+    c->row_is_full = false;
     for (bool again = true; again;) {
-        const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped;
-        const bool done = assemble_all(c, top, end, instant);
+        const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped,
+                       beside = c->stats.draws_beside;
+        const bool done = !is_full && assemble_all(c, top, end, instant);
         note_fills(c);
         again = !done || static_is_disturbed(c);
+        if (again || bins_kept(&c->rows.bins) != 0)     /* with ranges, they have been counted */
+            c->assembler.triangles_dropped = dropped;
         if (!again)
             break;
         c->assembler.triangles_drawn = drawn;
-        c->assembler.triangles_dropped = dropped;
         if (done) {
             damage_forget(c->damage);
             continue;
         }
+        if (SMEAR_RANGES)
+            c->stats.draws_beside = beside;
+        if (2 * (end - first) <= c->rows.window.rows + 1)       /* more than two parts */
+            smear_draws_find_ranges(c, instant);
         c->stats.parts_added++;
         if (end - first == 1) {
             *refill = (struct smear_refill){ .fill = fill, .context = c, .instant = instant };
@@ -689,6 +668,8 @@ int smear_draws_assemble(struct smear_context *c, int top, int first, int end, c
         }
         end = first + max_i32((end - first) / 2, 1);
     }
+    if (bins_kept(&c->rows.bins) != 0)
+        c->part_rows = (uint16_t)(end - first + (c->rows.refill == NULL && is_half_empty(&c->rows.bins) ? end - first : 0));
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     begin_lists(c, top, c->rows.refill == NULL ? first : top);
     stage_end(&c->rows, &c->stats.time.submit, start);

@@ -6,6 +6,25 @@
 #include "context.h"
 #include "display/points.h"
 
+/* Whether the frame has blurred layers. */
+static inline bool has_layers(const struct smear_context *c)
+{
+    return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
+}
+
+/* Returns the three cameras of a draw's layer, if it has its own. */
+static inline const smear_camera *layer_camera(const struct smear_context *c, uint32_t i)
+{
+    const uint32_t layer = has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
+    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? c->layers->setting[layer].camera : NULL;
+}
+
+/* Finds the poses of draw `i`. */
+static inline void poses_of(struct smear_draw_poses *p, const struct smear_context *c, uint32_t i)
+{
+    smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, layer_camera(c, i));
+}
+
 /* Finds out whether anything of the frame moves along a curve; then all past poses become those at times of the exposure.
  * Before all others. */
 void smear_draws_find_curves(struct smear_context *c);
@@ -16,11 +35,29 @@ void smear_draws_prepare(struct smear_context *c);
 /* Finds where points are seen in a part of the exposure, from -65536 at shutter open to 65536 at close. */
 void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to);
 
-static inline void draws_place_points(struct smear_context *c, int32_t from, int32_t to)
+/* Begins a part of the exposure: where anything was seen in another one is forgotten. */
+static inline void draws_begin_exposure(struct smear_context *c, int32_t from, int32_t to)
 {
+    if (SMEAR_RANGES) {
+        c->rows.bins.kept_words = c->part_rows = 0;
+        c->row_is_full = false;
+        c->assembler.ranges = NULL;
+    }
     if (rows_have_points(&c->rows))
         smear_draws_place_points(c, from, to);
 }
+
+/* Makes everything the assembler needs of draw `i` at an instant. False where nothing of it is in view. */
+bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
+                               struct smear_assembly *a);
+
+/* Finds where triangles of all draws are seen at an instant, unless that is known or there is no room for it: the store turned out
+ * to be too small. */
+#if SMEAR_RANGES
+void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant *instant);
+#else
+#define smear_draws_find_ranges(c, instant) ((void)0)
+#endif
 
 /* Finds which draws are blurred as layers, and how they move. */
 void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);

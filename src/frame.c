@@ -95,7 +95,7 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
     smear_sums_clear(&c->sums, &c->rows, first, end);
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_instant instant = smear_instant_at(&c->shot, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
-        draws_place_points(c, (int32_t)(2 * k * 65536u / n) - 65536, (int32_t)(2 * (k + 1) * 65536u / n) - 65536);
+        draws_begin_exposure(c, (int32_t)(2 * k * 65536u / n) - 65536, (int32_t)(2 * (k + 1) * 65536u / n) - 65536);
         for (int row = first; row < end;) {
             struct smear_refill refill;
             const int part = smear_draws_assemble(c, row, row, end, &instant, &refill);

@@ -10,6 +10,7 @@
 #include "geometry/batch_cover.h"
 #include "geometry/batch_scan.h"
 #include "geometry/batch_store.h"
+#include "geometry/ranges.h"
 #include "kernels/vertex_list_arm.h"
 
 static void forget_all(struct smear_assembler *a)
@@ -394,7 +395,7 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
             forget_all(a);
         b->tag = ++a->serial << 16;
 #if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
-        if (d->mesh->vertex_count <= a->cache_mask + 1u && a->resume.triangle == 0)
+        if (d->mesh->vertex_count <= a->cache_mask + 1u && first == 0 && a->ranges == NULL)
             find_all(b, b->tag);
 #endif
     }
@@ -572,6 +573,8 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
     const bool added = add_triangle(b, &v[0], &v[1], &v[2], t->triangle);
     for (int i = 0; i < 3; i++)
         r->stored[t->index[i]] = v[i].stored;
+    if (!added)
+        b->a->resume = (struct smear_resume){ t->triangle, b->parts };
     return added;
 }
 
@@ -597,7 +600,7 @@ bool smear_assemble_far(struct batch *b, const struct places *r, const uint32_t 
 static inline bool add_four(struct batch *b, const struct places *r, const struct smear_triangles *four,
                             const uint16_t *index, uint32_t triangle)
 {
-    if (!segment_has_room(b))
+    if (!segment_has_room(b, triangle))
         return false;
     for (uint32_t all = four->seen | four->far; all != 0; all &= all - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(all);
@@ -650,16 +653,15 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
     return end;
 }
 
-/* Adds all triangles: by fours where the pool has room for where vertices are. */
-static bool assemble_places(struct batch *b)
+/* Adds triangles [begin, end): by fours where the pool has room for where vertices are. */
+static bool assemble_run(struct batch *b, uint32_t begin, uint32_t end)
 {
     const struct smear_assembler *a = b->a;
     const struct smear_bins *g = a->bins;
-    const uint32_t end = b->d->end;
     const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
     struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided, bins_margin(g),
                                    b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
-    for (uint32_t i = b->d->first; i < end;) {
+    for (uint32_t i = begin; i < end;) {
         const uint32_t last = smear_places_open(&r, b, i, end);
         uint32_t reached = last != i ? add_by_fours(b, &r, i, last) : i;
         if (reached == UINT32_MAX)
@@ -674,6 +676,8 @@ static bool assemble_places(struct batch *b)
     }
     return true;
 }
+#else
+#define assemble_run assemble_cached
 #endif
 
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
@@ -685,12 +689,12 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
 #if SMEAR_VERTEX_SETUP
     batch_make_ready(&b);
 #endif
-#if SMEAR_PLACES
-    if (!a->refills)
-        return assemble_places(&b);
-#endif
-    const bool done = assemble_cached(&b, max_u32(d->first, a->resume.triangle), d->end);
-    if (done)
-        a->resume = (struct smear_resume){ 0, 0 };
-    return done;
+    const struct smear_tile_box filled = ranges_filled(a, false);
+    for (uint32_t first = max_u32(d->first, a->resume.triangle), end = first; end < d->end; first = end) {
+        end = ranges_next(a, filled, &first, d->end);
+        if (!assemble_run(&b, first, end))
+            return false;
+    }
+    a->resume = (struct smear_resume){ 0, 0 };
+    return true;
 }

@@ -254,7 +254,7 @@ SMEAR_AVX2_INLINE uint32_t add_eights(struct assemble8 *s, const struct places *
                 continue;
             if (!places_have_room(r, b->a->bins))
                 return i + half;
-            if (!segment_has_room(b) || !add_some(s, r, &eight, &points, color, index, i, some))
+            if (!segment_has_room(b, i + half) || !add_some(s, r, &eight, &points, color, index, i, some))
                 return UINT32_MAX;
         }
     }

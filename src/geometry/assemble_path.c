@@ -8,6 +8,7 @@
 
 #include "geometry/path.h"
 #include "geometry/path_places.h"
+#include "geometry/ranges.h"
 #include "geometry/space.h"
 
 #if SMEAR_WITH_SUBFRAMES
@@ -519,24 +520,28 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     uint32_t tag = ++a->serial << 16;
     struct path_places places;
     path_places_open(&places, a, d);
-    const uint32_t first = max_u32(d->first, a->resume.triangle);
-    const uint16_t *index = d->mesh->index + 3 * first;
+    uint32_t first = max_u32(d->first, a->resume.triangle);
 #ifndef __OPTIMIZE_SIZE__
     /* One after the other they cost less. */
     if (d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
             make_vertex(&cache[i], a, d, tag + i, &places);
 #endif
-    for (uint32_t i = first; i < d->end; i++, index += 3) {
-        struct path_vertex *v[3];
-        v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0], &places);
-        v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1], &places);
-        v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2], &places);
-        b.parts = 0;
-        b.parts_before = (uint16_t)parts_before(a, i);
-        if (!add_seen(&b, v, i)) {
-            a->resume = (struct smear_resume){ i, b.parts };
-            return false;
+    const struct smear_tile_box filled = ranges_filled(a, !is_blend(d));
+    for (uint32_t end = first; end < d->end; first = end) {
+        end = ranges_next(a, filled, &first, d->end);
+        const uint16_t *index = d->mesh->index + 3 * first;
+        for (uint32_t i = first; i < end; i++, index += 3) {
+            struct path_vertex *v[3];
+            v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0], &places);
+            v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1], &places);
+            v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2], &places);
+            b.parts = 0;
+            b.parts_before = (uint16_t)parts_before(a, i);
+            if (!add_seen(&b, v, i)) {
+                a->resume = (struct smear_resume){ i, b.parts };
+                return false;
+            }
         }
     }
     a->resume = (struct smear_resume){ 0, 0 };

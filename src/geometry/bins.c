@@ -4,7 +4,7 @@
 
 void smear_bins_reset(struct smear_bins *g, int first, int end)
 {
-    g->vertex_words = 0;
+    g->vertex_words = bins_kept(g);
     g->triangle_count = 0;
     g->segment_count = 0;
     if (SMEAR_POOL_PARTS)

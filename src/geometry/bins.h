@@ -125,6 +125,8 @@ enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px,
 struct smear_bins {
     uint32_t *pool;
     uint32_t pool_words;
+    uint32_t kept_words;            /* at the bottom, which are not emptied: ranges.h */
+    uint8_t range_shift;            /* log2 of the triangles of a range */
     uint32_t vertex_words;          /* in use, from the bottom */
     uint32_t triangle_count;        /* in use, from the top: below them the store is free */
     /* Where cores filled parts of the pool: the triangles of all, and the end of their numbers. Else 0, and both are
@@ -174,6 +176,11 @@ static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_wor
     uint32_t triangle_words = (g->triangle_count + triangles) * (sizeof(struct smear_triangle) / 4);
     return g->vertex_words + vertex_words + triangle_words <= g->pool_words;
 }
+
+/* Ranges of triangles are told apart (ranges.h) where size does not count. */
+#define SMEAR_RANGES (!SMEAR_SMALL_CODE)
+
+static inline uint32_t bins_kept(const struct smear_bins *g) { return SMEAR_RANGES ? g->kept_words : 0; }
 
 /* Empties the store for the tile rows [first, end). */
 void smear_bins_reset(struct smear_bins *g, int first, int end);

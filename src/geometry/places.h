@@ -33,14 +33,17 @@ static inline bool places_have_room(const struct places *r, const struct smear_b
         && r->top + PLACES_MARGIN <= g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
 }
 
-/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none. */
-static inline bool segment_has_room(struct batch *b)
+/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none, for those of
+ * `triangle`. */
+static inline bool segment_has_room(struct batch *b, uint32_t triangle)
 {
     if (b->a->bins->vertex_words + 12u * b->segment->stride - b->segment->base <= 65536u)
         return true;
     struct smear_segment *s = smear_vertex_segment(b->a, b->d);
     if (s != NULL)
         b->segment = s;
+    else
+        b->a->resume = (struct smear_resume){ triangle, 0 };
     return s != NULL;
 }
 

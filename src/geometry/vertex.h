@@ -100,12 +100,12 @@ struct smear_assembler {
     bool cache_has_paths;           /* it holds vertices of assemble_path.c */
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
-    bool refills;                   /* the store takes what finds room from `resume` on */
     uint32_t path_count, path_limit;    /* triangles with a path: listed, and at most */
     uint32_t path_static_count;     /* those of them whose path has no length: they are listed among the static ones */
     uint32_t triangles_drawn, triangles_dropped;
     struct smear_resume resume;
     int16_t path_x0, path_x1;       /* what moves, and is not blended, is left out where it is beside these columns */
+    const struct smear_tile_box *ranges;        /* boxes of the draw that is assembled, or null: ranges.h */
     const struct smear_damaged_tiles *damaged;  /* where moving triangles mark their tiles; null without buffer_age */
 };
 
