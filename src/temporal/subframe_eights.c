@@ -83,7 +83,7 @@ void smear_subframe_packs_make(struct subframe_packs *packs, const struct subfra
 void smear_subframe_eights_begin(struct subframe_eights *e, const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     const struct smear_raster_frame *frame = f->t->frame;
-    const struct smear_raster_target *tile = &f->t->background;
+    const struct smear_raster_target *tile = &f->work;
     const int32_t guard = SMEAR_GUARD_PX << 8, x = frame->width << 7, y = frame->height << 7;
     e->f = f;
     e->all = all;

@@ -116,7 +116,7 @@ static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int3
 /* Finds the box of the vertices within the tiles. False where it is empty, or they are turned away. */
 static inline bool find_box(struct posed *p, const struct subframes *f, bool turns)
 {
-    const struct smear_raster_target *tile = &f->t->background;
+    const struct smear_raster_target *tile = &f->work;
     const struct range x = { p->bounds.x0, p->bounds.x1 }, y = { p->bounds.y0, p->bounds.y1 };
     const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
     if (columns.low >= columns.high || rows.low >= rows.high || (turns && is_turned_away(p->v[0], p->v[1], p->v[2])))

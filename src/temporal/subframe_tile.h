@@ -39,6 +39,7 @@ struct subframes {
 
     /* What may be seen in the tile. Triangles beyond those listed are found by walking on from here. */
     uint32_t *listed;           /* moving triangles, then blended triangles */
+    int32_t fills;              /* of the store that it took to list them; or 0 */
     uint32_t moving_listed, all_listed;
     uint32_t moving_rest, blend_rest;
     uint32_t moving_seen;       /* moving triangles that may be seen, whether they are listed or not */

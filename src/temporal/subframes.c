@@ -126,29 +126,10 @@ static bool fill(struct subframes *f, int kinds, bool next)
 {
     if (!f->refilled->fill(f->refilled, kinds, next))
         return false;
+    f->space->segment = NULL;           /* segments are others now */
     f->moving_listed = f->all_listed = f->moving_rest = 0;
     f->blend_rest = f->refilled->blend;
     return true;
-}
-
-/* Finds out what list() does, where nothing can be listed: the same, as instants depend on it. */
-static SMEAR_RARE bool list_refilled(struct subframes *f)
-{
-    const struct smear_tile_run *t = f->t;
-    const struct smear_bins *g = t->frame->bins;
-    bool moves = false;
-    const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
-    begin_list(f, &whole);
-    for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
-        for (uint32_t i = 0; i < t->moving_count; i++)
-            if (subframes_see(f, &t->moving[i]))
-                note(f, &t->moving[i]);
-    for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
-        for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next)
-            if (touches(f, i))
-                note_blended(f, i, &moves);
-    end_list(f, &whole);
-    return moves || f->moving_seen != 0;
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -267,19 +248,51 @@ static struct smear_raster_target within(const struct subframes *f, const struct
     return t;
 }
 
+/* Draws what is blended over everything that moves, which is there; adds where. */
+static SMEAR_RARE void blend_instant(struct subframes *f, int32_t time, struct subframe_box *all)
+{
+    blend(f, time, BLEND_BOX, NULL, all);
+    if (!subframe_box_is_empty(all)) {
+        struct smear_raster_target target = within(f, all);
+        blend(f, time, BLEND_ALL, &target, NULL);
+    }
+}
+
 /* Draws everything that moves, and what is blended over it; returns where. */
 static struct subframe_box draw_instant(struct subframes *f, int32_t time)
 {
     struct subframe_box all = no_box;
     draw_moving(f, time, &all);
-    if (!f->blends)
-        return all;
-    blend(f, time, BLEND_BOX, NULL, &all);
-    if (!subframe_box_is_empty(&all)) {
-        struct smear_raster_target target = within(f, &all);
-        blend(f, time, BLEND_ALL, &target, NULL);
-    }
+    if (f->blends)
+        blend_instant(f, time, &all);
     return all;
+}
+
+/* Does what list() does, where nothing can be listed: the same, as instants depend on it. The store has the first triangles. Those
+ * that move are drawn in the middle of the exposure with it, where that is `wanted`. */
+static SMEAR_RARE bool list_refilled(struct subframes *f, bool wanted, struct subframe_box *middle)
+{
+    const struct smear_tile_run *t = f->t;
+    const struct smear_bins *g = t->frame->bins;
+    const int32_t time = smear_shutter_instant(t->shutter, 0, 1);
+    const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
+    bool moves = false;
+    begin_list(f, &whole);
+    do {
+        for (uint32_t i = 0; i < t->moving_count; i++)
+            if (subframes_see(f, &t->moving[i]))
+                note(f, &t->moving[i]);
+        for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next)
+            if (touches(f, i))
+                note_blended(f, i, &moves);
+        if (wanted)
+            draw_listed(f, time, middle);
+        f->fills++;
+    } while (fill(f, FILL_MOVING | FILL_BLENDED, true));
+    end_list(f, &whole);
+    if (wanted && f->blends)
+        blend_instant(f, time, middle);
+    return moves || f->moving_seen != 0;
 }
 
 /* Adds the box of instant k to the sums and makes it background again. `samples`: taken before. Returns how many it
@@ -308,13 +321,13 @@ static uint32_t cost_of(const struct subframes *f, const struct subframe_box *bo
     return min_u32(f->moving_seen, LISTED) * TRIANGLE + pixels * PIXEL + RUN;
 }
 
-/* Draws the middle of the exposure, by which the plan says how many instants there are; where they are odd it is one of
- * them. Returns the samples taken. */
-static uint32_t draw_middle(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
+/* Takes the middle of the exposure, which has been drawn, by which the plan says how many instants there are; where they are odd
+ * it is one of them. Returns the samples taken. */
+static uint32_t take_middle(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box box,
+                            struct subframe_box *all)
 {
     struct smear_contrast contrast;
     const struct smear_tile_run *t = f->t;
-    const struct subframe_box box = draw_instant(f, smear_shutter_instant(t->shutter, 0, 1));
     smear_tile_contrast(&contrast, f, plan, &box);
     f->instants = (uint32_t)smear_tile_plan_instants(plan, &contrast, (t->x1 - t->x0 + t->tile - 1) / t->tile, cost_of(f, &box));
     if ((f->instants & 1u) != 0)
@@ -346,10 +359,9 @@ static int32_t shift_of(int32_t k, int32_t n, int32_t g)
     return (steps >= n ? steps - 2 * n : steps < -n ? steps + 2 * n : steps) * 128 / n;
 }
 
-/* Draws all instants and sums them; returns the samples taken, and in *all where anything was summed. */
-static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
+/* Draws and sums all instants but number `drawn`, after `samples` have been taken. Returns how many have been then. */
+static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
-    *all = no_box;
 #if SMEAR_AVX2
     struct subframe_packs packs;
     if (f->refilled == NULL && smear_has_avx2()) {
@@ -358,9 +370,7 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
     }
 #endif
     const bool smooths = SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0;
-    const bool plans = plan != NULL && plan->chooser != NULL;
-    uint32_t samples = plans ? draw_middle(f, plan, all) : 0;
-    const int32_t instants = (int32_t)f->instants, drawn = plans && (instants & 1) != 0 ? instants / 2 : -1;
+    const int32_t instants = (int32_t)f->instants;
     const int32_t step[2] = { smooths ? coprime(instants, 70) : 0, smooths ? coprime(instants, 98) : 0 };
     for (int32_t k = 0; k < instants; k++) {
         if (k == drawn)
@@ -375,6 +385,37 @@ static uint32_t draw_instants(struct subframes *f, const struct smear_tile_plan 
 #if SMEAR_AVX2
     f->packs = NULL;
 #endif
+    return samples;
+}
+
+/* Does so for tiles whose triangles come in several fills, and are not blended: by columns of pixels of which the store has all at
+ * once, so that it is not filled again for each instant. Where it has not all of the narrowest it is, for ever more of what is left
+ * of the tiles. */
+static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
+{
+    enum { COLUMN = 8 };        /* what rounds of vectors take */
+    struct smear_tile_run *const run = f->refilled;
+    const struct smear_raster_target work = f->work;
+    int32_t width = (work.x1 - work.x0) / f->fills & -COLUMN, refilled = width < COLUMN ? work.x1 - work.x0 : COLUMN;
+    for (run->fill_x1 = work.x0; run->fill_x1 < work.x1;) {
+        bool at_once = false;
+        run->fill_x0 = run->fill_x1;
+        for (; !at_once && width >= COLUMN; width = at_once ? width : width / 2 & -COLUMN) {
+            run->fill_x1 = min_i32(run->fill_x0 + width, work.x1);
+            at_once = fill(f, FILL_MOVING, false) && !fill(f, FILL_MOVING, true);
+        }
+        if (!at_once) {
+            run->fill_x1 = min_i32(run->fill_x0 + refilled, work.x1);
+            refilled *= 2;
+            width = COLUMN;
+        }
+        const struct subframe_box column = { run->fill_x0, work.y0, run->fill_x1, work.y1 };
+        f->work = within(f, &column);
+        f->refilled = at_once ? NULL : run;
+        samples = draw_others(f, drawn, samples, all);
+        f->refilled = run;
+        f->work = work;
+    }
     return samples;
 }
 
@@ -410,7 +451,17 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
         f.t = f.refilled = &own;
     }
     smear_subframe_take_background(&f);
-    const uint32_t samples = (f.refilled != NULL ? list_refilled(&f) : list(&f)) ? draw_instants(&f, plan, &all) : 0;
+    const bool plans = plan != NULL && plan->chooser != NULL;
+    struct subframe_box middle = no_box;
+    uint32_t samples = 0;
+    if (f.refilled != NULL ? list_refilled(&f, plans, &middle) : list(&f)) {
+        all = no_box;
+        if (plans && f.refilled == NULL)
+            middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
+        samples = plans ? take_middle(&f, plan, middle, &all) : 0;
+        const int32_t drawn = plans && (f.instants & 1) != 0 ? (int32_t)f.instants / 2 : -1;
+        samples = f.refilled != NULL && !f.blends ? draw_others_apart(&f, drawn, samples, &all) : draw_others(&f, drawn, samples, &all);
+    }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
     if (samples != 0)
