@@ -9,6 +9,7 @@
  *     frames valid|wild NUMBER                one case, step by step
  *     frames sums FIRST COUNT                 draws valid cases once and prints a checksum of each: compare builds with it
  *     frames threads FIRST COUNT              valid cases, each by 2 to 8 workers: for the thread sanitizer
+ *     frames parts FIRST COUNT                valid cases, each at once and in room for 1 to 400 triangles
  *
  * A finding ends the program; the number that it names finds it again. */
 #include "tests/fuzz/cases.h"
@@ -363,9 +364,21 @@ enum mode { MODE_VALID,
             MODE_WILD,
             MODE_SUMS,
             MODE_THREADS,
-            MODE_MANY };
+             MODE_MANY,
+             MODE_PARTS };
 
-static const char *const mode_names[] = { "valid", "wild", "valid", "valid", "many" };
+static const char *const mode_names[] = { "valid", "wild", "valid", "valid", "many", "parts" };
+
+/* The desc has room for all of a case. Returns one that has not. */
+static smear_desc in_parts(struct fuzz_case *c)
+{
+    smear_desc other = c->desc;
+    other.max_triangles = (uint32_t)source_range(&c->source, 1, source_chance(&c->source, 2) ? 12 : 400);
+    c->desc.max_triangles = 20000;
+    if (source_chance(&c->source, 2))
+        other.reuse.cache_static = other.reuse.buffer_age = 0;
+    return other;
+}
 
 /* So that every build draws the same: arenas count bytes, of which pointers have more or fewer. */
 static void make_comparable(struct fuzz_case *c)
@@ -392,7 +405,7 @@ static uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode)
         c.desc.workers = (uint8_t)source_range(&c.source, 2, 8);
     if (mode == MODE_SUMS)
         make_comparable(&c);
-    smear_desc other = many ? case_many_other(&c) : case_other_desc(&c);
+    smear_desc other = many ? case_many_other(&c) : mode == MODE_PARTS ? in_parts(&c) : case_other_desc(&c);
     if (threads)
         other.workers = (uint8_t)source_range(&c.source, 2, 8);
     const bool open = rig_open(&a, &c.desc, wild, source_range(&c.source, 0, 5));
@@ -452,10 +465,10 @@ int main(int argc, char **argv)
 {
     static const int ends[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP };
     static const struct itimerval most = { .it_value = { .tv_sec = 120 } }; /* no case takes so long of the cores */
-    static const char letters[] = "vwstm";                                  /* as in enum mode */
+    static const char letters[] = "vwstmp";                                 /* as in enum mode */
     struct counts counts = { 0, 0, 0, 0, 0, 0 };
     if (argc < 3 || argv[1][0] == 0 || strchr(letters, argv[1][0]) == NULL) {
-        fputs("usage: frames valid|wild|sums|threads|many FIRST [COUNT | SECONDS s | FRAMES f]\n", stderr);
+        fputs("usage: frames valid|wild|sums|threads|many|parts FIRST [COUNT | SECONDS s | FRAMES f]\n", stderr);
         return 2;
     }
     const enum mode mode = (enum mode)(strchr(letters, argv[1][0]) - letters);

@@ -75,10 +75,11 @@ $(eval $(call frames_build,memory,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=memo
 $(eval $(call frames_build,threads,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=thread))
 
 .PHONY: fuzz fuzz-many fuzz-builds
-## valid and wild frames under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
+## valid and wild frames, and valid ones in parts, under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
 fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threads
-	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 12)) s
-	build/fuzz/frames-address wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 12)) s
+	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
+	build/fuzz/frames-address parts $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
+	build/fuzz/frames-address wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-address many $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-memory valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-memory wild $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
