@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [defaults] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [edges] [targets FILE...]
+ *     bench [peers] [defaults] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [edges] [room] [targets FILE...]
  *     bench chart [options]
  *     bench promise [options]
  *
@@ -34,6 +34,8 @@ bool group_take(const char *group, int index, struct take *out)
         return defaults_take(index, out);
     if (strcmp(group, "edges") == 0)
         return edges_take(index, out);
+    if (strcmp(group, "room") == 0)
+        return room_take(index, out);
     if (strcmp(group, "chart") == 0)
         return chart_take(index, out);
     if (strcmp(group, "promise") == 0)
@@ -50,6 +52,7 @@ static const struct report reports[] = {
     { "peers", peers_report }, { "defaults", defaults_report }, { "accuracy", accuracy_report },
     { "methods", methods_report }, { "filters", filters_report }, { "threads", threads_report },
     { "memory", memory_report }, { "formats", formats_report }, { "blur", blur_report }, { "edges", edges_report },
+    { "room", room_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

@@ -17,5 +17,6 @@ bool filters_take(int index, struct take *out);
 bool blur_take(int index, struct take *out);
 bool edges_take(int index, struct take *out);
 bool defaults_take(int index, struct take *out);
+bool room_take(int index, struct take *out);
 
 #endif

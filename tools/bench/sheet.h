@@ -38,6 +38,7 @@ bool threads_report(struct sheet *sheet, struct failure *f);
 bool memory_report(struct sheet *sheet, struct failure *f);      /* arenas of small displays */
 bool blur_report(struct sheet *sheet, struct failure *f);        /* blur at default options */
 bool edges_report(struct sheet *sheet, struct failure *f);       /* smooth ones */
+bool room_report(struct sheet *sheet, struct failure *f);        /* for few triangles */
 bool formats_report(struct sheet *sheet, struct failure *f);     /* few greys through an eye */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);
 

@@ -102,6 +102,8 @@ static bool start_library(struct rig *rig, struct failure *f)
 {
     const struct take *t = &rig->take;
     smear_desc desc = presented_desc(rig->frame, t->width, t->height);
+    if (t->room != 0)
+        desc.max_triangles = (uint32_t)t->room;
     desc.format = (uint8_t)t->format;
     desc.display.dither = t->dithered ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE;
     desc.reach = (int16_t)t->reach;
