@@ -33,7 +33,7 @@ SMEAR_AVX2_INLINE uint32_t difference_block8(const struct difference_block *b, u
         const lanes8i next_still = (next_z == difference_depths(deep + there_behind, n, whole))
                                  & (lanes8i)(next == difference_pixels(behind + there_behind, n, whole));
         /* None of the two moves, or the one that does lies behind what is still. */
-        lanes8i same = (is_still | ~(z > next_z)) & (next_still | (is_still & ~(next_z > z)));
+        lanes8i same = (is_still | (next_z > z)) & (next_still | (is_still & (z > next_z)));
         if (!whole)
             same |= twice;
         const lanes8 apart = lanes8_apart(pixel, next) & (lanes8)~same;
@@ -113,7 +113,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct difference_walk, apart) == 8 && offsetof(str
     "beq 0b\n\t" \
     DEPTH_THERE \
     "cmp r5, r4\n\t" \
-    "blo 3f\n\t" \
+    "bls 3f\n\t" \
     MOVES_THERE("3f") \
     "b 0b\n" \
     "3:\n\t" \
@@ -129,7 +129,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct difference_walk, apart) == 8 && offsetof(str
     "beq 0b\n\t" \
     DEPTH_THERE \
     "cmp r4, r5\n\t" \
-    "bhs 0b\n\t" \
+    "bhi 0b\n\t" \
     MOVES_THERE("3b") \
     "b 0b\n"
 

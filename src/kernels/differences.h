@@ -42,7 +42,7 @@ static inline uint32_t differences_reference(const struct difference_rows *r, in
         count += moves;
         if (here == next)
             continue;
-        if (moves ? depth_there[i] >= depth : depth_there[i] > depth) {
+        if (moves ? depth_there[i] > depth : depth_there[i] >= depth) {
             if (depth_there[i] == deep_there[i] && next == behind_there[i])
                 continue;
         } else if (!moves) {

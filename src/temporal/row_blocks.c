@@ -21,6 +21,7 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
 
 struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32_t column, int32_t row, int32_t rows)
 {
+    enum { SPARSE = BLOCK_PX * BLOCK_PX * 3 / 8 };      /* pixels: there is more to be seen of what lies behind */
     static const int8_t beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
     const struct smear_block *here = block_at(b, column, row);
     /* Instants of a curve go on along its chord in the middle alone. */
@@ -33,5 +34,7 @@ struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32
         if (there->depth != 0)
             unlike = max_i32(unlike, max_i32(abs_i32(here->x - there->x), abs_i32(here->y - there->y)));
     }
+    if (here->last != 0 && here->last < SPARSE && 2 * unlike > max_i32(abs_i32(here->x), abs_i32(here->y)))
+        return (struct smear_closing){ 256, 0, 0, unlike };
     return smear_closing_of(here->x, here->y, unlike);
 }

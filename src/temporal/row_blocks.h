@@ -16,7 +16,8 @@ struct smear_block {
     int16_t x, y;               /* displacement of the nearest moving surface in the block's middle, 1/16 px */
     uint16_t depth;             /* of that surface: larger is nearer. 0: none is there */
     uint8_t curvature;          /* by how much the displacement changes along the path, about: block_curvature() */
-    uint8_t last;               /* gaps are closed where there are no more instants than so many */
+    uint8_t last;               /* gaps are closed where there are no more instants than so many. Before that is known: pixels of
+                                 * the small triangles that lie there, where the surface is one of them; else 0 */
 };
 
 struct smear_row_blocks {

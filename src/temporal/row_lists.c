@@ -353,10 +353,15 @@ static void put_covering(struct smear_block *b, const struct corners *c, const s
     }
 }
 
-static inline void put_small(struct smear_block *b, const struct displacements *w, uint16_t near)
+/* Puts a triangle of about so many pixels into the block in which it lies. */
+static inline void put_small(struct smear_block *b, const struct displacements *w, uint16_t near, int32_t area)
 {
+    const int32_t pixels = b->last;
     if (near > b->depth)
         put_block(b, (w->x0 + w->x1) >> 1, (w->y0 + w->y1) >> 1, w->curvature, near);
+    else if (pixels == 0)
+        return;
+    b->last = (uint8_t)min_i32(pixels + area, UINT8_MAX);
 }
 
 /* Puts a triangle that faces the eye into the wanted blocks whose middle it covers in the middle of the exposure; a small one
@@ -372,7 +377,7 @@ static void add_to_blocks(const struct smear_row_moving *r, const struct corners
     if (x1 - x0 < BLOCK_PX && y1 - y0 < BLOCK_PX) {
         const int32_t x = (x0 + x1) >> (1 + BLOCK_SHIFT), y = (((y0 + y1) >> 1) - top) >> BLOCK_SHIFT;
         if (range_has(wanted, x) && y >= 0 && y < rows)
-            put_small(block_at(&r->blocks, x, y), w, nearness(c->depth[0]));
+            put_small(block_at(&r->blocks, x, y), w, nearness(c->depth[0]), ((x1 - x0 + 1) * (y1 - y0 + 1) + 1) >> 1);
         return;
     }
     const int32_t left = max_i32(x0 >> BLOCK_SHIFT, wanted.low), right = min_i32(x1 >> BLOCK_SHIFT, wanted.high - 1);

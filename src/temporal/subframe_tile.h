@@ -27,6 +27,14 @@ static inline bool subframe_box_is_empty(const struct subframe_box *b)
     return b->x0 >= b->x1 || b->y0 >= b->y1;
 }
 
+/* Small triangles that move, q8 pixels. */
+struct subframe_passing {
+    uint32_t ways;              /* what their edges pass of the tiles */
+    uint32_t seen;              /* what those pass of the frame that lie in the tiles in the middle of the exposure */
+    uint32_t covered;           /* of the tiles, in the mean over the exposure; by larger ones, too */
+    bool sparks;                /* some are blended and go far */
+};
+
 struct subframes {
     const struct smear_tile_run *t;
     struct smear_tile_run *refilled;    /* the same where its triangles come in several fills, or null */
@@ -49,6 +57,8 @@ struct subframes {
     uint32_t lowest, highest;   /* depth codes of the background */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */
     struct subframe_box area;      /* and nothing of it is seen elsewhere */
+    bool plans;                 /* it is to be found out how many instants there are: */
+    struct subframe_passing passing;
 };
 
 /* Whether a moving triangle may be seen. */

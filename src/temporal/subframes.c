@@ -55,13 +55,18 @@ static void note(struct subframes *f, const struct smear_moving_triangle *m)
     f->nearest = max_u32(f->nearest, m->nearest);
     const struct subframe_box path = { b->x0, b->y0, b->x1, b->y1 };
     box_add(&f->area, &path);
+    if (f->plans)
+        smear_note_passing(f, m->triangle);
 }
 
 static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
 {
     const struct smear_bins *g = f->t->frame->bins;
+    const bool has_path = g->segment[bins_triangle(g, triangle)->segment].path;
     f->blends = true;
-    *moves = *moves || g->segment[bins_triangle(g, triangle)->segment].path;
+    *moves = *moves || has_path;
+    if (f->plans && has_path)
+        smear_note_passing(f, triangle);
 }
 
 static void begin_list(struct subframes *f, const struct subframe_box *whole)
@@ -71,6 +76,7 @@ static void begin_list(struct subframes *f, const struct subframe_box *whole)
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;
     f->area = no_box;
+    f->passing = (struct subframe_passing){ 0, 0, 0, false };
 }
 
 static void end_list(struct subframes *f, const struct subframe_box *whole)
@@ -110,7 +116,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
         f->blend_rest = bins_triangle(g, f->blend_rest)->next;
     }
     f->all_listed = n;
-    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !(f->blends && moves); i = bins_triangle(g, i)->next)
+    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !(f->blends && moves && !f->plans); i = bins_triangle(g, i)->next)
         if (touches(f, i))
             note_blended(f, i, &moves);
     if (!f->blends)
@@ -446,20 +452,20 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     struct subframe_box all;
     struct smear_tile_run own;
     make(&f, &space, t, instants);
+    f.plans = plan != NULL && plan->chooser != NULL;
     if (t->fill != NULL) {
         own = *t;
         f.t = f.refilled = &own;
     }
     smear_subframe_take_background(&f);
-    const bool plans = plan != NULL && plan->chooser != NULL;
     struct subframe_box middle = no_box;
     uint32_t samples = 0;
-    if (f.refilled != NULL ? list_refilled(&f, plans, &middle) : list(&f)) {
+    if (f.refilled != NULL ? list_refilled(&f, f.plans, &middle) : list(&f)) {
         all = no_box;
-        if (plans && f.refilled == NULL)
+        if (f.plans && f.refilled == NULL)
             middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
-        samples = plans ? take_middle(&f, plan, middle, &all) : 0;
-        const int32_t drawn = plans && (f.instants & 1) != 0 ? (int32_t)f.instants / 2 : -1;
+        samples = f.plans ? take_middle(&f, plan, middle, &all) : 0;
+        const int32_t drawn = f.plans && (f.instants & 1) != 0 ? (int32_t)f.instants / 2 : -1;
         samples = f.refilled != NULL && !f.blends ? draw_others_apart(&f, drawn, samples, &all) : draw_others(&f, drawn, samples, &all);
     }
     if (f.blends)

@@ -14,6 +14,7 @@ struct look {
     int32_t dx, dy;
     bool at_border; /* the tiles end above or below */
     bool spreads; /* displacements go apart by more than a pixel or two */
+    uint32_t shortness; /* of what goes FAR: shortness_of() */
 };
 
 /* Squared differences of pixels behind one another on their path, and of those beside each other. */
@@ -100,6 +101,8 @@ static int32_t next_on_path(int32_t way, int32_t longest)
     return way < 0 ? -next : next;
 }
 
+enum { FAR = 16 }; /* 1/16 px */
+
 static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UINT32_MAX - a); }
 
 /* Adds what closed gaps leave of a block where the tiles end above or below: where a gap goes more than a pixel down or up,
@@ -119,7 +122,8 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     enum { MOST = 1 << 22,
            FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
-    const uint32_t whole = (d->along >> 6) * (uint32_t)longer >> 4, plain = min_u32(whole, MOST);
+    const uint32_t shortness = longer >= FAR ? l->shortness : 16;
+    const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4, plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
     const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
@@ -137,6 +141,17 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     return last;
 }
 
+/* Returns how far goes what is seen of a block. */
+static struct smear_step way_of(const struct subframes *f, const struct smear_tile_travel *tile, const struct smear_block *b)
+{
+    if (f->passing.sparks)      /* which have no place in blocks */
+        return smear_tile_way(tile);
+    if (b->depth != 0)
+        return (struct smear_step){ b->x, b->y };
+    /* A large surface moves there, or is not known; or a corner of what lies in another block. */
+    return (tile->flags & (PATH_SPACE | PATH_LARGE)) != 0 ? (struct smear_step){ tile->x, tile->y } : smear_tile_way(tile);
+}
+
 static void look_at_block(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
                           struct look *l, bool drawn)
 {
@@ -149,8 +164,9 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const bool has_surface = b->depth != 0;
     if (!f->blends && smear_tile_may_close(plan->chooser, tile))
         closing = has_surface ? smear_block_closing(plan->blocks, column, row, rows) : smear_tile_closing(tile);
-    l->way_x = has_surface ? b->x : tile->x;
-    l->way_y = has_surface ? b->y : tile->y;
+    const struct smear_step way = way_of(f, tile, b);
+    l->way_x = way.x;
+    l->way_y = way.y;
     b->last = (uint8_t)closing.last;
     if (!drawn)
         return;
@@ -172,13 +188,108 @@ static int32_t first_row(const struct look *l, int32_t y0, int32_t y1)
     return l->y + (is_last ? (y1 - 1 - l->y) & 1 : 0);
 }
 
+/* ------------------------------------------------------------------ what is small */
+
+/* The tiles, q8 pixels. */
+static inline uint32_t area_of(const struct subframes *f)
+{
+    return (uint32_t)((f->t->x1 - f->t->x0) * (f->t->background.y1 - f->t->background.y0)) << 8;
+}
+
+/* A triangle along an axis, px. */
+struct extent {
+    int32_t size, middle;       /* in the middle of the exposure */
+    int32_t path;               /* pixels of the frame on its path */
+    int32_t over;               /* those of the tiles among them */
+};
+
+/* Finds it among `frame` pixels, of which the tiles have [x0, x1): bounds are of the part of the frame that is drawn. */
+static struct extent extent_of(const struct smear_bins *g, const struct smear_triangle *t, int axis, int32_t frame, int32_t x0, int32_t x1)
+{
+    const struct smear_segment *s = &g->segment[t->segment];
+    int32_t low = INT32_MAX, high = INT32_MIN, first = INT32_MAX, last = INT32_MIN;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]) + axis, open = v[s->motion], close = v[s->motion + PATH_POSE_WORDS];
+        low = min_i32(low, *v);
+        high = max_i32(high, *v);
+        first = min_i32(first, min_i32(open, close));
+        last = max_i32(last, max_i32(open, close));
+    }
+    first = max_i32(min_i32(first, low) >> 8, 0);
+    last = min_i32((max_i32(last, high) >> 8) + 1, frame);
+    return (struct extent){ max_i32((high - low + 128) >> 8, 1), (low + high) >> 9, last - first, min_i32(last, x1) - max_i32(first, x0) };
+}
+
+void smear_note_passing(struct subframes *f, uint32_t triangle)
+{
+    enum { SMALL = 32,      /* px */
+           LARGE = 128 };   /* and what is larger says nothing of small things before it */
+    const struct smear_bins *g = f->t->frame->bins;
+    const struct smear_path_bounds *b = bins_bounds(g, triangle);
+    const struct smear_tile_run *t = f->t;
+    const struct smear_triangle *of = bins_triangle(g, triangle);
+    const int32_t y0 = t->background.y0, y1 = t->background.y1;
+    struct subframe_passing *p = &f->passing;
+    const bool is_full = p->covered >= area_of(f) && !f->blends;        /* more would say no more */
+    if (b->travel < FAR || b->space != 0 || is_full)
+        return;
+    const struct extent x = extent_of(g, of, VERTEX_X, t->frame->width, t->x0, t->x1),
+                        y = extent_of(g, of, VERTEX_Y, t->frame->height, y0, y1);
+    const int32_t larger = max_i32(x.size, y.size);
+    if (x.over <= 0 || y.over <= 0 || larger > LARGE)
+        return;
+    const uint32_t over = (uint32_t)(x.over * y.over);
+    if (larger > SMALL) {
+        p->covered = add_saturated(p->covered, over << 7);
+        return;
+    }
+    const uint32_t part = (over << 8) / (uint32_t)(x.path * y.path);       /* of the path */
+    const uint32_t way = (uint32_t)(y.size * max_i32(x.path - x.size, 0) + x.size * max_i32(y.path - y.size, 0));
+    p->ways = add_saturated(p->ways, way * part);
+    p->covered = add_saturated(p->covered, (uint32_t)(x.size * y.size) * part >> 1);
+    if (x.middle >= t->x0 && x.middle < t->x1 && y.middle >= y0 && y.middle < y1)
+        p->seen = add_saturated(p->seen, way << 8);
+    p->sparks = p->sparks || (f->blends && b->travel >= 3 * FAR);
+}
+
+/* Returns how much larger the squared error of what moves is where it covers each pixel for a short time only, q4. There are
+ * few edges, whose errors may all be large: up to twice as much. And in linear light a little on what is dark is many codes:
+ * light over dark ones errs by as much as it is shorter there, and by 16 at most (the mean of all colours over black, those of
+ * 32, 64, 96 ... by half of that each). */
+static uint32_t shortness_of(const struct subframes *f, bool linear)
+{
+    const struct subframe_passing *p = &f->passing;
+    const struct smear_tile_run *t = f->t;
+    const int32_t wide = t->x1 - t->x0, tall = t->background.y1 - t->background.y0;
+    if (p->covered == 0)
+        return 16;
+    const uint32_t parts = min_u32(p->ways, area_of(f)) / p->covered, few = min_u32(max_u32(parts, 4), 8) << 2;
+    const uint32_t *middle = f->work.color + (tall >> 1) * t->pitch + t->x0 - t->background.x0;
+    uint32_t most = 0, n = 0;
+    for (int32_t x = 0; linear && x < wide; x += BLOCK_PX, n += 3)
+        most += (16u >> (pixel_red(middle[x]) >> 5)) + (16u >> (pixel_green(middle[x]) >> 5)) + (16u >> (pixel_blue(middle[x]) >> 5));
+    return few * (linear ? max_u32(min_u32(parts + (parts >> 1), most / n), 1) : 1);
+}
+
+/* Returns what small things leave that pass at other times than in the middle of the exposure, where there is room between
+ * them: one of many looks much like the next. */
+static uint32_t unseen_of(const struct subframe_passing *p, uint32_t area)
+{
+    enum { CONTRAST = 10000 };      /* to what is behind them, codes^2, summed over red, green and blue */
+    const bool is_empty = p->covered < area >> 2;
+    return is_empty && p->ways / 2 > p->seen ? min_u32((p->ways - 2 * p->seen) >> 8, 65535) * (CONTRAST >> (2 * BLOCK_SHIFT)) : 0;
+}
+
+/* ------------------------------------------------------------------ all */
+
 void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
                          const struct subframe_box *box)
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
-    struct look look;
+    struct look look = { .shortness = shortness_of(f, plan->chooser->linear) };
     __builtin_memset(c, 0, sizeof *c);
+    c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
     for (look.y = y0; look.y < y1; look.y = look.y1) {
         look.y1 = min_i32(look.y + BLOCK_PX, y1);
         look.at_border = look.y == y0 || look.y1 == y1;

@@ -21,7 +21,11 @@ struct smear_contrast {
     uint32_t blocks; /* of the run */
     uint32_t moving; /* pixels that move, in every other row */
     uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], floor[CLOSING_CLASSES];
+    uint32_t unseen; /* the same of what passes at other times, about */
 };
+
+/* Adds a triangle with a path that may be seen in the tiles to f->passing. */
+void smear_note_passing(struct subframes *f, uint32_t triangle);
 
 /* Measures the run in the work planes, where its first instant was drawn within the box, and notes for each block up to
  * how many instants gaps are closed. */

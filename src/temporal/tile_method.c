@@ -7,7 +7,7 @@
 #include "base/fixmath.h"
 
 enum {
-    INSTANTS_MAX = 63,
+    INSTANTS_MAX = 255,     /* within SMEAR_PACKED_INSTANTS */
     PASSING = 16,           /* instants of what comes and goes before the eye */
     STEP_MAX = 256 /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
@@ -68,6 +68,13 @@ bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smea
 struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile)
 {
     return smear_closing_of(tile->x, tile->y, spread_of(tile) * 5 >> 3);
+}
+
+struct smear_step smear_tile_way(const struct smear_tile_travel *tile)
+{
+    if (!is_displaced(tile) || max_i32(abs_i32(tile->x), abs_i32(tile->y)) > 2 * spread_of(tile))
+        return (struct smear_step){ tile->x, tile->y };
+    return (struct smear_step){ tile->x1 > -tile->x0 ? tile->x1 : tile->x0, tile->y1 > -tile->y0 ? tile->y1 : tile->y0 };
 }
 
 int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
@@ -156,7 +163,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     enum { COMMON = 300 }; /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     int32_t instants = 1, reach = 0;
-    uint32_t left = 0, unseen = 0;
+    uint32_t left = 0, unseen = c->unseen;
     bool passes = false;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];

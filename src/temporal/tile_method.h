@@ -92,6 +92,10 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
 bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smear_tile_travel *tile);
 struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile);
 
+/* Returns how far what is seen in a tile goes, 1/16 px, where it is not known what is: the mean displacement, or the longest one
+ * where they are unlike. */
+struct smear_step smear_tile_way(const struct smear_tile_travel *tile);
+
 /* Returns how many instants the tiles of a run take, whose first one costs about so many instructions: an odd number, of
  * which that is one. */
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *contrast, int tiles,
