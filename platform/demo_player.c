@@ -17,7 +17,7 @@
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
-                .max_triangles = 264, .vertex_cache = 32, .reuse = { .buffer_age = 1, .one_pose = 1 } },
+                .max_triangles = 256, .vertex_cache = 32, .reuse = { .buffer_age = 1, .one_pose = 1 } },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", SMEAR_PATH_LINE, 0, SMEAR_DRAFT },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
                .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,

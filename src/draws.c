@@ -98,11 +98,16 @@ static void add_motion(struct smear_assembly *a, const struct smear_context *c, 
 static void place_fine(struct smear_placement *place, const struct smear_assembly *a, int key, int coarse)
 {
     const struct smear_context *c = (const struct smear_context *)a->place_of;
-    const struct smear_instant end = smear_instant_at(&c->shot, key == 0 ? -65536 : 65536);
+    const struct smear_instant *at = (const struct smear_instant *)a->instant;
+    struct smear_instant end;
     struct smear_draw_poses poses;
+    if (assembly_has_path(a) && key != 2) {
+        end = smear_instant_at(&c->shot, key == 0 ? -65536 : 65536);
+        at = &end;
+    }
     poses_of(&poses, c, a->draw);
     poses.coarse = coarse;
-    smear_draw_poses_place(place, &poses, &c->shot, a->mesh, key == 2 ? (const struct smear_instant *)a->instant : &end);
+    smear_draw_poses_place(place, &poses, &c->shot, a->mesh, at);
 }
 
 /* Finds where a draw is, at an instant and along its path. */
@@ -640,7 +645,8 @@ int smear_draws_assemble(struct smear_context *c, int top, int first, int end, c
     if (SMEAR_RANGES && c->part_rows != 0)
         end = min_i32(end, first + c->part_rows);
     bool is_full = SMEAR_RANGES && c->row_is_full;
-    c->row_is_full = false;
+    if (SMEAR_RANGES)
+        c->row_is_full = false;
     for (bool again = true; again;) {
         const uint32_t drawn = c->assembler.triangles_drawn, dropped = c->assembler.triangles_dropped,
                        beside = c->stats.draws_beside;

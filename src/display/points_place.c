@@ -134,7 +134,9 @@ static void make_lens(struct lens *l, const struct smear_rows *rows, const struc
             l->eye[j] = now->pose.origin[j];
         }
     }
-    smear_projection_weigh(pose, one, NULL, poses, now);
+    struct smear_projection *const out[3] = { &pose[0], &pose[1], &pose[2] };
+    const struct smear_projection *const in[3] = { &pose[0], &pose[1], &pose[2] };
+    smear_projection_weigh(out, in, one, poses, now);
     l->projection = pose[0];
     uint64_t any = 1u << 28;
     for (int e = 0; e < 2; e++)

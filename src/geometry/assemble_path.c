@@ -139,40 +139,52 @@ struct path_batch {
     bool shares;                        /* all faces of a vertex share its record */
     uint16_t parts;                     /* of the triangle at hand: those that have been added, now or before */
     uint16_t parts_before;              /* before: they are left out */
-    bool is_in_space;                   /* `space` is filled in: at the first vertex that has a path there */
-    struct smear_placement space[KEYS];
+    /* Of a triangle in space: its vertices in the mesh's order, their places, and the scale of those. */
+    struct path_vertex *const *vertex;
+    struct smear_homogeneous place[3][KEYS];
+    int8_t scale;
 };
 
-/* Makes the space in which vertices of the draw have paths: one scale for all poses. */
-static struct smear_space space_of(struct path_batch *b)
+static void make_space(struct smear_space *space, const struct path_batch *b)
 {
-    struct smear_space space;
-    if (!b->is_in_space)
-        for (int key = 0; key < KEYS; key++)
-            b->d->place_fine(&b->space[key], b->d, key, projection_coarse(b->a->viewport.height, is_orthographic(&b->d->at.now)));
-    b->is_in_space = true;
-    int scale = b->space[MIDDLE].now.scale;
-    for (int key = OPEN; key <= CLOSE; key++)
-        scale = min_i32(scale, b->space[key].now.scale);
-    b->segment->scale = (int8_t)clamp_i32(scale, INT8_MIN, INT8_MAX);
-    smear_space_make(&space, b->a->bins, b->segment, b->a->viewport.width, b->a->viewport.height);
-    return space;
+    b->segment->scale = b->scale;
+    smear_space_make(space, b->a->bins, b->segment, b->a->viewport.width, b->a->viewport.height);
 }
 
-static void places_of(struct smear_homogeneous place[KEYS], const struct path_batch *b, const struct smear_space *space, uint32_t index)
+/* Finds the places of a triangle's vertices in space, all poses in one scale. */
+static SMEAR_NOINLINE void find_places(struct path_batch *b, struct path_vertex *const v[3])
 {
+    const struct smear_assembly *d = b->d;
+    const bool even = is_orthographic(&d->at.now);
+    struct smear_placement at;
+    int scale[KEYS], least = INT8_MAX;
+    b->vertex = v;
     for (int key = 0; key < KEYS; key++) {
-        placement_transform(&place[key], &b->space[key], index);
-        smear_space_take(&place[key], space, &b->space[key].now);
+        d->place_fine(&at, d, key, projection_coarse(b->a->viewport.height, even));
+        scale[key] = at.now.scale;
+        least = min_i32(least, scale[key]);
+        for (int i = 0; i < 3; i++) {
+            placement_transform(&b->place[i][key], &at, v[i]->tag & 0xffffu);
+            if (even)
+                smear_space_take_even(&b->place[i][key], &at.now, &b->a->viewport);
+        }
     }
+    b->scale = (int8_t)max_i32(least, INT8_MIN);
+    for (int key = 0; key < KEYS && !even; key++)
+        for (int i = 0; i < 3; i++)
+            smear_space_scale(&b->place[i][key], clamp_i32(b->scale - scale[key], -31, 31));
+}
+
+static const struct smear_homogeneous *places_of(const struct path_batch *b, const struct path_vertex *v)
+{
+    return b->place[v == b->vertex[0] ? 0 : v == b->vertex[1] ? 1 : 2];
 }
 
 /* Stores the path in space of a vertex and, where it has one on the screen, that behind the record. */
 static SMEAR_NOINLINE void store_in_space(uint32_t *record, struct path_batch *b, const struct path_vertex *v)
 {
-    const struct smear_space space = space_of(b);
-    struct smear_homogeneous place[KEYS];
-    places_of(place, b, &space, v->tag & 0xffffu);
+    const struct smear_homogeneous *const place = places_of(b, v);
+    b->segment->scale = b->scale;
     smear_space_store(record, b->segment, &place[OPEN], &place[MIDDLE], &place[CLOSE]);
     if ((v->outcodes & IN_SPACE) != 0)
         return;
@@ -342,7 +354,7 @@ static bool is_beside(const struct smear_space *space, const struct smear_homoge
 
 /* Whether the triangle faces the eye at a key, as the sign of X Y W of its corners tells in the order in which they are
  * clockwise on the screen; or may, where that is lost in rounding. */
-static bool may_face(const struct smear_homogeneous place[3][KEYS], int key)
+static bool may_face(const struct smear_homogeneous *const place[3], int key)
 {
     enum { BITS = 19 };
     uint32_t all = 1u << BITS;
@@ -364,16 +376,16 @@ static bool may_face(const struct smear_homogeneous place[3][KEYS], int key)
 }
 
 /* Finds the bounds of a triangle of which a vertex has a path in space. Returns false where it is never seen. */
-static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, struct path_batch *batch,
-                                                struct path_vertex *v0, struct path_vertex *v1, struct path_vertex *v2)
+static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, const struct path_batch *batch,
+                                                const struct path_vertex *v0, const struct path_vertex *v1, const struct path_vertex *v2)
 {
     const struct smear_assembler *a = batch->a;
-    const struct smear_space space = space_of(batch);
-    const struct path_vertex *const v[3] = { v0, v1, v2 };
-    struct smear_homogeneous place[3][KEYS], point[HULL_POINTS];
+    const struct smear_homogeneous *const place[3] = { places_of(batch, v0), places_of(batch, v1), places_of(batch, v2) };
+    struct smear_homogeneous point[HULL_POINTS];
+    struct smear_space space;
     int32_t travel = 1;
+    make_space(&space, batch);
     for (int i = 0; i < 3; i++) {
-        places_of(place[i], batch, &space, v[i]->tag & 0xffffu);
         for (int key = 0; key < KEYS; key++)
             point[KEYS * i + key] = place[i][key];
         struct smear_homogeneous *const meet = &point[KEYS * i + MIDDLE];
@@ -492,10 +504,12 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
             b->a->triangles_dropped++;
             return true;
         }
-        if (codes & IN_SPACE)       /* bounds tell which sides are seen */
+        if (codes & IN_SPACE) {     /* bounds tell which sides are seen */
+            find_places(b, v);
             return add_triangle(b, v[0], v[d->mirrored ? 1 : 2], v[d->mirrored ? 2 : 1], triangle, false)
                 && (!d->material->double_sided
                     || add_triangle(b, v[0], v[d->mirrored ? 2 : 1], v[d->mirrored ? 1 : 2], triangle, true));
+        }
     }
     /* Which sides are seen at some instant; a side that is not drawn counts as seen. */
     bool front = false, behind = !d->material->double_sided;

@@ -72,16 +72,13 @@ struct clipped {
 };
 
 /* Clips the triangle, its vertices shaded as those of c->face, and projects what is left. */
-static void clip_and_project(struct clipped *c, struct batch *b,
+static void clip_and_project(struct clipped *c, const struct batch *b,
                              const struct smear_cached_vertex *const corner[3])
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
     const int poses = SMEAR_WITH_RECONSTRUCT ? d->moves : 0;
     const struct smear_screen *own[3];
-    if (!b->has_fine)
-        d->place_fine(&b->fine, d, 2, projection_coarse(b->a->viewport.height, is_orthographic(&d->at.now)));
-    b->has_fine = true;
     for (int i = 0; i < 3; i++) {
         struct smear_clip_vertex *v = &c->polygon.vertex[i];
         const uint32_t index = index_of(corner[i]);
@@ -91,9 +88,9 @@ static void clip_and_project(struct clipped *c, struct batch *b,
             pose_transform(&v->pose[pose], d, pose, index);
         smear_vertex_for_clipping(v, d, s, index, &c->face);
     }
-    smear_clip_start(&c->polygon, poses, segment_textured(s), segment_colored(s));
+    smear_clip_start(&c->polygon, poses, segment_colored(s));
     smear_clip_polygon(&c->polygon, &b->fine.now.depths, corner[0]->outcode | corner[1]->outcode | corner[2]->outcode);
-    smear_clip_project(c->screen, &c->polygon, own, &b->fine.now.depths, &b->a->viewport);
+    clip_project(c->screen, &c->polygon, own, &b->fine.now.depths, &b->a->viewport);
     c->area = 0;
     for (int i = 2; i < c->polygon.count; i++)
         c->area += area_of(&c->screen[0], &c->screen[i - 1], &c->screen[i]);
@@ -150,7 +147,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
     return true;
 }
 
-SMEAR_NOINLINE bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
+static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
 {
     struct clipped c;
     const bool colored = segment_colored(b->segment);
@@ -171,4 +168,14 @@ SMEAR_NOINLINE bool smear_batch_add_clipped(struct batch *b, const struct smear_
             return false;
     b->parts = 0;
     return true;
+}
+
+/* To make the placement takes as much stack as to clip. */
+bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
+{
+    const struct smear_assembly *d = b->d;
+    if (!b->has_fine)
+        d->place_fine(&b->fine, d, 2, projection_coarse(b->a->viewport.height, is_orthographic(&d->at.now)));
+    b->has_fine = true;
+    return add_clipped(b, corner, triangle);
 }

@@ -130,10 +130,10 @@ static bool leaves_guard(struct smear_clip_polygon *p, const struct smear_depths
 #endif
 }
 
-void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored)
+void smear_clip_start(struct smear_clip_polygon *p, int poses, bool colored)
 {
     p->count = 3;
-    p->words = (uint8_t)(poses != 0 ? 6 + CLIP_COLORS + 4 * poses : colored ? 6 + CLIP_COLORS : textured ? 6 : 4);
+    p->words = (uint8_t)(poses != 0 ? sizeof(struct smear_clip_vertex) / 4 : colored ? 6 + CLIP_COLORS : 6);
     SMEAR_STATIC_ASSERT(CLIP_COLORS == 0 || sizeof(struct smear_clip_vertex) == 4 * (6 + CLIP_COLORS + 4 * CLIP_ROOM(CLIP_POSES)), "words");
     for (int i = 0; i < 3; i++)
         p->order[i] = (uint8_t)i;
@@ -149,18 +149,4 @@ void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths 
     if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p, depths))
         for (int plane = PLANE_LEFT; plane < PLANES; plane++)
             clip_plane(p, depths, (enum plane)plane);
-}
-
-void smear_clip_project(struct smear_screen out[SMEAR_CLIP_MAX], struct smear_clip_polygon *p, const struct smear_screen *const place[3],
-                        const struct smear_depths *depths, const struct smear_viewport *viewport)
-{
-    for (int i = 0; i < p->count; i++) {
-        const int corner = p->order[i];
-        if (corner < 3 && place[corner] != NULL) {
-            out[i] = *place[corner];
-            continue;
-        }
-        smear_project(&out[i], depths, &p->vertex[corner].now, viewport);
-        screen_clamp(&out[i], viewport);
-    }
 }

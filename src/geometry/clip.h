@@ -17,8 +17,8 @@ enum {
  * at the same place of the surface, so that velocities stay right up to the near plane. */
 struct smear_clip_vertex {
     struct smear_homogeneous now;
-    int32_t uv[2];                                          /* mesh units */
-    int32_t color[CLIP_ROOM(CLIP_COLORS)];                  /* 0 .. 65535 */
+    int32_t uv[2];                                          /* mesh units; 0 where there is no texture */
+    int32_t color[CLIP_ROOM(CLIP_COLORS)];                  /* 0 .. 65535; 0 where there is none */
     struct smear_homogeneous pose[CLIP_ROOM(CLIP_POSES)];   /* open, close; each in its own projection's scale */
 };
 
@@ -41,8 +41,8 @@ static inline struct smear_clip_vertex *clip_corner(struct smear_clip_polygon *p
     return &p->vertex[p->order[i]];
 }
 
-/* Starts with the triangle of vertex[0 .. 2], which the caller fills in: with `poses` also uv and colours, with colours also uv. */
-void smear_clip_start(struct smear_clip_polygon *p, int poses, bool textured, bool colored);
+/* Starts with the triangle of vertex[0 .. 2], which the caller fills in. */
+void smear_clip_start(struct smear_clip_polygon *p, int poses, bool colored);
 
 /* Clips the polygon; `count` is 0 when nothing is left. `codes` is the union of the outcodes of its corners: only
  * those planes are looked at. An edge is always cut from its inner towards its outer end, so two triangles
@@ -51,7 +51,19 @@ void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths 
 
 /* Finds where the corners are on the screen. Those that are vertices of the triangle stay at `place`, where they are for
  * triangles beside it; null: that is not known. */
-void smear_clip_project(struct smear_screen out[SMEAR_CLIP_MAX], struct smear_clip_polygon *p, const struct smear_screen *const place[3],
-                        const struct smear_depths *depths, const struct smear_viewport *viewport);
+static inline void clip_project(struct smear_screen out[SMEAR_CLIP_MAX], struct smear_clip_polygon *p,
+                                const struct smear_screen *const place[3],
+                                const struct smear_depths *depths, const struct smear_viewport *viewport)
+{
+    for (int i = 0; i < p->count; i++) {
+        const int corner = p->order[i];
+        if (corner < 3 && place[corner] != NULL) {
+            out[i] = *place[corner];
+            continue;
+        }
+        smear_project(&out[i], depths, &p->vertex[corner].now, viewport);
+        screen_clamp(&out[i], viewport);
+    }
+}
 
 #endif

@@ -252,8 +252,6 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     fill_row(p->m[0], view, 0, pixels, 1, scale);
     fill_row(p->m[1], view, 1, pixels, -1, scale);          /* the screen's y points down */
 
-    for (int j = 0; j < 4; j++)
-        p->m[3][j] = 0;
     int32_t *distance = p->m[is_orthographic(p) ? 3 : 2];
     if (is_orthographic(p)) {
         for (int j = 0; j < 3; j++)
@@ -268,44 +266,46 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     smear_depths_make(&p->depths, camera, scale);
 }
 
-/* Returns how many rows count: the last row of a perspective stays zero. */
+/* Returns how many rows count: a perspective has no use for the last one. */
 static int rows_of(const struct smear_projection *p)
 {
     return is_orthographic(p) ? 4 : 3;
 }
 
-void smear_projection_weigh(struct smear_projection p[], const int32_t weight[], const int16_t *const position[], int count,
-                            const smear_camera *camera)
+void smear_projection_weigh(struct smear_projection *const out[], const struct smear_projection *const in[], const int32_t weight[],
+                            int count, const smear_camera *camera)
 {
-    int scale = p[0].scale, distance_scale = p[0].distance_scale;
-    const int have = p[0].depths.coarse != 0 ? FINE_ROOM - 2 : 0;       /* parabolas have two of them */
+    int scale = in[0]->scale, distance_scale = in[0]->distance_scale;
+    const int have = in[0]->depths.coarse != 0 ? FINE_ROOM - 2 : 0;     /* parabolas have two of them */
     int room = 1 - have;
     uint32_t all = 0;           /* q20: each is below 2^7 */
     for (int i = 0; i < count; i++) {
         all += (uint32_t)abs_i32(weight[i]) >> 4;
-        scale = min_i32(scale, p[i].scale);
-        distance_scale = min_i32(distance_scale, p[i].distance_scale);
+        scale = min_i32(scale, in[i]->scale);
+        distance_scale = min_i32(distance_scale, in[i]->distance_scale);
     }
     while (all > 1u << (20 + room + have))      /* rows stay below 2^30 */
         room++;
-    for (int row = 0; row < rows_of(p); row++)
+    for (int row = 0; row < rows_of(in[0]); row++)
         for (int j = 0; j < 4; j++) {
             int64_t sum = 0;
             for (int i = count - 1; i >= 0; i--) {
-                const int down = row == 3 ? p[i].distance_scale - distance_scale : p[i].scale - scale;
-                const int64_t term = (int64_t)p[i].m[row][j] * weight[i] >> min_i32(down, 62);
-                const bool is_first = i == 0 || (position != NULL && position[i] == position[0]);
-                const int32_t m = scale_inline(is_first ? sum + term : term, -24 - room);
-                sum += is_first ? term : 0;
-                p[i].m[row][j] = j < 3 ? m & ~3 : m;
+                const int down = row == 3 ? in[i]->distance_scale - distance_scale : in[i]->scale - scale;
+                int64_t term = (int64_t)in[i]->m[row][j] * weight[i] >> min_i32(down, 62);
+                if (out[i] == out[0])
+                    term = sum += term;
+                const int32_t m = scale_inline(term, -24 - room);
+                out[i]->m[row][j] = j < 3 ? m & ~3 : m;
             }
         }
-    for (int i = 0; i < count; i++) {
-        p[i].scale = (int16_t)(scale - room);
-        p[i].distance_scale = (int16_t)(distance_scale - room);
+    const bool orthographic = is_orthographic(in[0]);
+    for (int i = count - 1; i >= 0; i--) {
+        out[i]->depths = in[0]->depths;
+        out[i]->scale = (int16_t)(scale - room);
+        out[i]->distance_scale = (int16_t)(distance_scale - room);
         /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */
-        if (is_orthographic(&p[0]))
-            p[i].m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
+        if (orthographic)
+            out[i]->m[2][3] = i == 0 ? max_i32(1, scale_to_i32(1, scale - room)) : 0;
     }
-    smear_depths_make(&p[0].depths, camera, p[0].distance_scale);
+    smear_depths_make(&out[0]->depths, camera, out[0]->distance_scale);
 }

@@ -66,11 +66,11 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
 void smear_projection_make(struct smear_projection *projection, const struct smear_view *view,
                            const smear_camera *camera, int height_px, int coarse);
 
-/* Makes the terms of a pose between known ones: the sum of weight[i] x projection[i], which is linear in clip space. The `count`
- * projections are of one draw; weights in q24 add up to one. Those whose vertices, position[i], are the first one's are added to
- * it, and rounded once: where nothing turns, the sum is as a pose's own. The others stay terms of their own; all do where `position`
- * is null. They get one scale, with room for the sum, and the distances of projection[0] hold for it. */
-void smear_projection_weigh(struct smear_projection projection[], const int32_t weight[], const int16_t *const position[], int count,
-                            const smear_camera *camera);
+/* Makes the terms of a pose between known ones: the sum of weight[i] x in[i], which is linear in clip space. The `count`
+ * projections are of one draw; weights in q24 add up to one. Those whose out[i] is out[0] are of the same vertices: they are added up,
+ * and rounded once, so that where nothing turns the sum is as a pose's own. All get one scale, with room for the sum, and the
+ * distances of out[0] hold for it. in[i] may be out[i], unless others go there. */
+void smear_projection_weigh(struct smear_projection *const out[], const struct smear_projection *const in[], const int32_t weight[],
+                            int count, const smear_camera *camera);
 
 #endif

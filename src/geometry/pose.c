@@ -247,26 +247,25 @@ static int32_t part_at(const struct smear_draw_poses *p, int32_t time)
 /* Shares a placement between the mesh's vertices and those of frames ago. */
 static void place_deformed(struct smear_placement *out, const struct smear_draw_poses *p, int32_t time)
 {
-    struct smear_projection term[3] = { out->now, out->now, out->now };
+    const struct smear_projection now = out->now, *const in[3] = { &now, &now, &now };
+    struct smear_projection *const term[3] = { &out->now, &out->extra[0], &out->extra[SMEAR_WITH_DEFORM] };
     /* The parabola's share of each: 1, -2, 1 times t (t + 1) / 2. */
     const bool bends = p->position[2] != p->position[0];
     const int32_t bend = bends ? (int32_t)((int64_t)time * (time + (1 << 24)) >> 25) : 0;
     const int32_t older = part_at(p, -bend), last = part_at(p, time) - 2 * older;
     const int32_t weight[3] = { (1 << 24) - last - older, last, older };
     out->extra_count = bends ? 2 : 1;
-    smear_projection_weigh(term, weight, NULL, out->extra_count + 1, p->camera[0]);
-    out->now = term[0];
-    for (int i = 0; i < out->extra_count; i++) {
-        out->extra[i] = term[i + 1];
+    smear_projection_weigh(term, in, weight, out->extra_count + 1, p->camera[0]);
+    for (int i = 0; i < out->extra_count; i++)
         out->extra_position[i] = p->position[i + 1];
-    }
 }
 
 void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses *p, const struct smear_shot *shot,
                             const smear_mesh *mesh, const struct smear_instant *instant)
 {
     enum { TERMS = SMEAR_WITH_SCALES && SMEAR_WITH_DEFORM ? 5 : 3 };
-    struct smear_projection sum[TERMS];
+    const struct smear_projection *in[TERMS];
+    struct smear_projection *term[TERMS];
     const int16_t *position[TERMS];
     int32_t weight[TERMS];
     int count = 0;
@@ -279,28 +278,30 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
     for (int k = 0; k < 3; k++) {
         if (instant->weight[k] == 0)
             continue;
-        sum[count] = *project_pose(p, shot, k, mesh);
+        in[count] = project_pose(p, shot, k, mesh);
         position[count] = p->position[shot_is_curved(shot) ? 0 : k];
         weight[count++] = instant->weight[k];
         if (!shot_is_curved(shot) && deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
-            sum[count] = sum[count - 1];
+            in[count] = in[count - 1];
             position[count] = p->position[0];
             weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);
             weight[count] = instant->weight[k] - weight[count - 1];
             count++;
         }
     }
-    if (count > 1)
-        smear_projection_weigh(sum, weight, position, count, p->camera[0]);
-    out->now = sum[0];
     out->position = position[0];
-    for (int k = 1; k < count; k++) {
-        if (!SMEAR_WITH_DEFORM || position[k] == out->position)
+    for (int k = 0; k < count; k++) {
+        term[k] = &out->now;
+        if (!SMEAR_WITH_DEFORM || position[k] == position[0])
             continue;
         SMEAR_ASSERT(out->extra_count < 2);             /* that of now is the first, or there is one more */
-        out->extra[out->extra_count] = sum[k];
+        term[k] = &out->extra[out->extra_count];
         out->extra_position[out->extra_count++] = position[k];
     }
+    if (count > 1)
+        smear_projection_weigh(term, in, weight, count, p->camera[0]);
+    else
+        out->now = *in[0];
     if (deforms_on_curve(p, shot) && instant->time != 0)
         place_deformed(out, p, instant->time);
 }
@@ -314,12 +315,11 @@ void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, 
     m->position[i] = p->position[curves ? 1 : k];
     if (!SMEAR_PARTS_OF_DEFORMS || (!curves && p->deform == 256))
         return;
-    struct smear_projection both[2] = { m->pose[i], m->pose[i] };
+    const struct smear_projection whole = m->pose[i], *const in[2] = { &whole, &whole };
+    struct smear_projection *const both[2] = { &m->pose[i], &m->rest[i] };
     const int32_t part = curves ? part_at(p, smear_shot_time(shot, k))
                                 : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
     const int32_t weight[2] = { part, (1 << 24) - part };
     a->has_rest = a->has_rest || weight[1] != 0;
-    smear_projection_weigh(both, weight, NULL, 2, p->camera[0]);
-    m->pose[i] = both[0];
-    m->rest[i] = both[1];
+    smear_projection_weigh(both, in, weight, 2, p->camera[0]);
 }

@@ -22,27 +22,21 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
     space->depths.coarse = (uint8_t)projection_coarse(height, false);
 }
 
-/* Makes a place before an orthographic camera of one on the screen, of which the depth may lie beyond its range. */
-static void take_even(struct smear_homogeneous *h, const struct smear_space *space, const struct smear_screen *screen, int32_t depth)
+void smear_space_scale(struct smear_homogeneous *h, int up)
 {
-    enum { DEEPEST = -(1 << 29) };
-    *h = (struct smear_homogeneous){ (screen->x - (space->viewport.width << 7)) * (1 << EVEN_SHIFT),
-                                     (screen->y - (space->viewport.height << 7)) * (1 << EVEN_SHIFT), EVEN_W,
-                                     SMEAR_DEPTH_MAX - max_i32(depth, DEEPEST) };
-}
-
-void smear_space_take(struct smear_homogeneous *h, const struct smear_space *space, const struct smear_projection *p)
-{
-    if (depths_are_even(&space->depths)) {
-        struct smear_screen screen;
-        smear_project(&screen, &p->depths, h, &space->viewport);
-        take_even(h, space, &screen, depth_even(&p->depths, h->distance));
-        return;
-    }
-    const int up = clamp_i32(space->segment->scale - p->scale, -31, 31);
     h->x = scale_sat(h->x, up);
     h->y = scale_sat(h->y, up);
     h->w = h->distance = scale_sat(h->w, up);
+}
+
+void smear_space_take_even(struct smear_homogeneous *h, const struct smear_projection *p, const struct smear_viewport *viewport)
+{
+    enum { DEEPEST = -(1 << 29) };
+    struct smear_screen screen;
+    smear_project(&screen, &p->depths, h, viewport);
+    *h = (struct smear_homogeneous){ (screen.x - (viewport->width << 7)) * (1 << EVEN_SHIFT),
+                                     (screen.y - (viewport->height << 7)) * (1 << EVEN_SHIFT), EVEN_W,
+                                     SMEAR_DEPTH_MAX - max_i32(depth_even(&p->depths, h->distance), DEEPEST) };
 }
 
 static void store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *h)
@@ -111,9 +105,9 @@ static SMEAR_NOINLINE int cut(struct path_record out[SMEAR_CLIP_MAX], const stru
         p.vertex[i].now = place[i];
         smear_vertex_take_clipped(&p.vertex[i], space->segment, record[i]);
     }
-    smear_clip_start(&p, 0, segment_textured(space->segment), segment_colored(space->segment));
+    smear_clip_start(&p, 0, segment_colored(space->segment));
     smear_clip_polygon(&p, &space->depths, codes);
-    smear_clip_project(screen, &p, own, &space->depths, &space->viewport);
+    clip_project(screen, &p, own, &space->depths, &space->viewport);
     for (int i = 0; i < p.count; i++) {
         take_screen(&out[i], &screen[i]);
         smear_vertex_store_clipped((uint32_t *)(void *)out[i].word, space->segment, clip_corner(&p, i));

@@ -26,8 +26,9 @@ struct smear_space {
 void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
                       int32_t height);
 
-/* Brings a place from a projection to the space. */
-void smear_space_take(struct smear_homogeneous *h, const struct smear_space *space, const struct smear_projection *p);
+/* Brings a place from the scale of a projection to that of the space, 2^up times as large; from an orthographic projection. */
+void smear_space_scale(struct smear_homogeneous *h, int up);
+void smear_space_take_even(struct smear_homogeneous *h, const struct smear_projection *p, const struct smear_viewport *viewport);
 
 /* Stores the three places of a vertex. */
 void smear_space_store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *open,

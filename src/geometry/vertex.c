@@ -205,13 +205,17 @@ void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uin
 void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_assembly *d,
                                const struct smear_segment *s, uint32_t index, const struct smear_face *face)
 {
-    struct smear_color color = { { 0 } };
-    for (int i = 0; i < 2; i++)
-        v->uv[i] = segment_textured(s) ? d->mesh->uv[2 * index + (uint32_t)i] : 0;
-    if (segment_colored(s))
+    __builtin_memset(v->uv, 0, sizeof v->uv + sizeof v->color);
+    if (segment_textured(s)) {
+        v->uv[0] = d->mesh->uv[2 * index];
+        v->uv[1] = d->mesh->uv[2 * index + 1];
+    }
+    if (segment_colored(s)) {
+        struct smear_color color;
         shade_vertex(&color, d, index, face);
-    for (int c = 0; c < CLIP_COLORS; c++)
-        v->color[c] = color.channel[c];
+        for (int c = 0; c < CLIP_COLORS; c++)
+            v->color[c] = color.channel[c];
+    }
 }
 
 void smear_vertex_take_clipped(struct smear_clip_vertex *v, const struct smear_segment *s, const int32_t *record)

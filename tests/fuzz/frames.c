@@ -364,8 +364,8 @@ enum mode { MODE_VALID,
             MODE_WILD,
             MODE_SUMS,
             MODE_THREADS,
-             MODE_MANY,
-             MODE_PARTS };
+            MODE_MANY,
+            MODE_PARTS };
 
 static const char *const mode_names[] = { "valid", "wild", "valid", "valid", "many", "parts" };
 

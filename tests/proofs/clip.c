@@ -36,7 +36,7 @@ static void any_vertex(struct smear_clip_vertex *v)
 int main(void)
 {
     struct smear_clip_polygon polygon;
-    smear_clip_start(&polygon, CLIP_POSES, true, true);
+    smear_clip_start(&polygon, CLIP_POSES, true);
     for (int plane = PLANE_NEAR; plane < PLANES; plane++)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             struct smear_depths p = { .near_distance = any_coordinate(), .far_distance = any_coordinate(),

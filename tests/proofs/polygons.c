@@ -39,7 +39,7 @@ static bool cuts_well(int count, int first, uint32_t outside)
 {
     static const struct smear_depths depths = { .near_distance = NEAR, .far_distance = INT32_MAX };
     struct smear_clip_polygon p = { 0 };
-    smear_clip_start(&p, CLIP_POSES, true, true);
+    smear_clip_start(&p, CLIP_POSES, true);
     p.count = count;
     int inside = count;
     for (int i = 0; i < SMEAR_CLIP_ROOM; i++) {

@@ -76,7 +76,7 @@ static int clip(struct smear_clip_vertex v[SMEAR_CLIP_MAX], const struct smear_d
     struct smear_clip_polygon polygon;
     for (int i = 0; i < 3; i++)
         polygon.vertex[i] = v[i];
-    smear_clip_start(&polygon, CLIP_POSES, true, true);
+    smear_clip_start(&polygon, CLIP_POSES, true);
     smear_clip_polygon(&polygon, p, codes);
     for (int i = 0; i < polygon.count && i < SMEAR_CLIP_MAX; i++)
         v[i] = *clip_corner(&polygon, i);
@@ -372,7 +372,7 @@ static void test_a_full_polygon_never_outgrows_its_room(void)
         const struct smear_depths p = lens(false);
         struct smear_clip_polygon polygon;
         struct smear_clip_vertex own[3];
-        smear_clip_start(&polygon, CLIP_POSES, true, true);
+        smear_clip_start(&polygon, CLIP_POSES, true);
         polygon.count = between(3, SMEAR_CLIP_MAX);
         for (int i = 0; i < SMEAR_CLIP_MAX; i++) {
             polygon.order[i] = (uint8_t)i;

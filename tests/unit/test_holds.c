@@ -170,7 +170,8 @@ static int check_bounds(struct path_batch *batch)
     int seen = 0;
     for (int i = 0; i < 3; i++)
         v[i] = (struct path_vertex){ .tag = (uint32_t)i, .outcodes = IN_SPACE };
-    batch->is_in_space = false;
+    struct path_vertex *const vertex[3] = { &v[0], &v[1], &v[2] };
+    find_places(batch, vertex);
     const bool has[2] = { find_bounds_in_space(&b[0], batch, &v[0], &v[1], &v[2]),
                           find_bounds_in_space(&b[1], batch, &v[0], &v[2], &v[1]) };
     for (int i = 0; i <= PHASES - 1; i++)
@@ -233,6 +234,7 @@ static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_th
     d.at.now.depths.orthographic = true;
     for (int i = 0; i < 3; i++)
         v[i] = (struct path_vertex){ .tag = (uint32_t)i, .outcodes = IN_SPACE };
+    struct path_vertex *const vertex[3] = { &v[0], &v[1], &v[2] };
     for (int n = 0; n < 10000; n++) {
         const int32_t far = between(2 * 65536, 100 * 65536);
         random_passage();
@@ -240,7 +242,7 @@ static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_th
             eye[key].half_height = 10 * 65536;
             eye[key].far_plane = far;
         }
-        batch.is_in_space = false;
+        find_places(&batch, vertex);
         if (!find_bounds_in_space(&b, &batch, &v[0], &v[1], &v[2]))
             continue;
         found++;

@@ -177,6 +177,19 @@ static void clip_exactly(double out[4], const smear_mesh *mesh, const smear_tran
     out[3] = -view[2];
 }
 
+/* Weighs projections in their places: those of the first one's vertices are added to it. */
+static void weigh(struct smear_projection p[], const int32_t weight[], const int16_t *const position[], int count,
+                  const smear_camera *camera)
+{
+    const struct smear_projection copy[3] = { p[0], p[1], p[count - 1] }, *const in[3] = { &copy[0], &copy[1], &copy[2] };
+    struct smear_projection *out[3] = { NULL, NULL, NULL };
+    for (int k = 0; k < count; k++)
+        out[k] = position != NULL && position[k] == position[0] ? &p[0] : &p[k];
+    smear_projection_weigh(out, in, weight, count, camera);
+    for (int k = 1; k < count; k++)
+        p[k] = *out[k];
+}
+
 /* Instants between and beyond poses. `apart`: each pose has vertices of its own. */
 static double worst_sum(bool orthographic, bool apart)
 {
@@ -212,7 +225,7 @@ static double worst_sum(bool orthographic, bool apart)
             rest -= weight[k];
         }
         weight[0] = rest;
-        smear_projection_weigh(p, weight, apart && n % 5 == 0 ? NULL : position, count, &camera[0]);
+        weigh(p, weight, apart && n % 5 == 0 ? NULL : position, count, &camera[0]);
         for (int k = 1; k < count; k++)
             CHECK_EQ(p[k].scale, p[0].scale);
         for (int vertex = 0; vertex < 6; vertex++) {
@@ -294,8 +307,8 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
         weight[0] = (1 << 24) - weight[1] - weight[2];
         for (int k = 0; k < count; k++)
             whole[k] = p[k];
-        smear_projection_weigh(p, weight, NULL, count, &camera[0]);
-        smear_projection_weigh(whole, weight, position, count, &camera[0]);
+        weigh(p, weight, NULL, count, &camera[0]);
+        weigh(whole, weight, position, count, &camera[0]);
         for (int row = 0; row < (orthographic ? 4 : 3); row++) {
             int64_t sum = 0;
             for (int k = 0; k < count; k++)
