@@ -146,7 +146,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     const bool moves = poses_differ(&poses);
     place(a, c, &poses, moves, instant);
     /* Layers reach beyond the frame. */
-    if (!has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
+    if (!frame_has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, SMEAR_VERTEX_COLORS_MOST && a->mesh->normal != NULL,
                        frame_is_linear(&c->rows.raster), &c->sun);
@@ -189,7 +189,7 @@ enum draws { DRAWS_ALL, DRAWS_IN_ORDER, DRAWS_MOVING, DRAWS_STATIC };
 /* The kind of draw that a fill takes. */
 static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
 {
-    if (has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP)
+    if (frame_has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP)
         return FILL_GROUP;
     return c->raster_draw[i].alpha == SMEAR_BLEND ? FILL_BLENDED : c->raster_draw[i].moves ? FILL_MOVING : FILL_STATIC;
 }
@@ -211,11 +211,11 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
                           const struct smear_instant *instant)
 {
     struct smear_assembly a;
-    const struct smear_group *group = has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
+    const struct smear_group *group = frame_has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
                                     ? &c->layers->group[c->layers->group_of[i]] : NULL;
-    if (has_layers(c))
+    if (frame_has_layers(c))
         c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
-    const bool is_sharp = has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
+    const bool is_sharp = frame_has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
     if (!smear_draws_make_assembly(c, i, is_sharp ? &smear_instant_now : instant, &a)) {
         c->stats.draws_beside++;
         return true;
@@ -263,7 +263,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     struct smear_tile_box *seen = NULL;
     const struct smear_tile_box *ranges = ranges_all(as->bins);
     for (uint32_t k = 0; k < c->draw_count; k++) {
-        const uint32_t i = has_layers(c) ? c->layers->sequence[k] : k;
+        const uint32_t i = frame_has_layers(c) ? c->layers->sequence[k] : k;
         if (ranges != NULL) {
             as->ranges = ranges;
             ranges += ranges_of(as->bins, c->submitted[i].draw.mesh->triangle_count);
@@ -427,7 +427,7 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    if (n == 1 || has_layers(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
+    if (n == 1 || frame_has_layers(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
         || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
@@ -536,7 +536,7 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
     c->assembler.path_x0 = 0;
     c->assembler.path_x1 = INT16_MAX;
 #if SMEAR_FAST_STACK
-    if (!has_layers(c))
+    if (!frame_has_layers(c))
         return assemble_fast(c, instant);
 #endif
     smear_assembler_reset(&c->assembler);
@@ -626,7 +626,7 @@ static void fill(struct smear_refill *f)
     begin_lists(c, f->row, f->row);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, SMEAR_NO_TRIANGLE, f->row);
     rows->blend = row_advance(rows, rows->bins.blend_last, SMEAR_NO_TRIANGLE, f->row);
-    if (rows->bins.moving_last != NULL && !has_layers(c))
+    if (rows->bins.moving_last != NULL && !frame_has_layers(c))
         rows->moving = row_advance(rows, rows->bins.moving_last, SMEAR_NO_TRIANGLE, f->row);
     stage_end(rows, &c->stats.time.submit, start);
 }

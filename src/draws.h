@@ -7,7 +7,7 @@
 #include "display/points.h"
 
 /* Whether the frame has blurred layers. */
-static inline bool has_layers(const struct smear_context *c)
+static inline bool frame_has_layers(const struct smear_context *c)
 {
     return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
 }
@@ -15,7 +15,7 @@ static inline bool has_layers(const struct smear_context *c)
 /* Returns the three cameras of a draw's layer, if it has its own. */
 static inline const smear_camera *layer_camera(const struct smear_context *c, uint32_t i)
 {
-    const uint32_t layer = has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
+    const uint32_t layer = frame_has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
     return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? c->layers->setting[layer].camera : NULL;
 }
 

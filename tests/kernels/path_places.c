@@ -29,7 +29,7 @@ static void make_placement(struct smear_placement *at, const int16_t *position, 
     m[2][3] = eight_between(seed, 0, 1 << 22);
     at->now.depths = (struct smear_depths){ 1 + eight_between(seed, 0, 1 << near_bits),
                                             (eight_next(seed) & 1u) != 0 ? INT32_MAX : 1 << 22, 0x2aaaaaaa,
-                                            (int16_t)eight_between(seed, -26, 5), false };
+                                            (int16_t)eight_between(seed, -26, 5), false, 0 };
 }
 
 static void make(struct scene *s, uint32_t *seed)
