@@ -11,7 +11,7 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
     };
     const uint32_t square = (uint32_t)(x * x + y * y) + 1u, apart = (uint32_t)min_i32(unlike, 32767) * (uint32_t)min_i32(unlike, 32767);
     struct smear_closing c = { 256, 0, 0, unlike };
-    if (apart >> 1 >= 2 * square)
+    if (apart >> 1 >= 2 * square || unlike == INT16_MAX)
         return c;
     c.left = min_u32(LEFT + apart / max_u32(square >> UNLIKE_LOG2, 1), 256);
     c.floor = min_u32(FLOOR / square, 65536);
