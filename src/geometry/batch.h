@@ -52,7 +52,6 @@ struct batch {
     bool double_sided;
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
-    bool has_fine;                      /* `fine` is filled in: at the first triangle that is clipped */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
     uint16_t room;                      /* for so many more triangles there is room, if nothing else is added */
 #if FRONT_COVERS
@@ -65,7 +64,7 @@ struct batch {
     bool ready;                         /* `setup` finds vertices */
     struct vertex_setup setup;
 #endif
-    struct smear_placement fine;        /* by which triangles are cut */
+    struct smear_placement fine;        /* by which triangles are cut; without positions until there is one */
 };
 
 /* Whether the triangle's vertices are stored once for all faces around them. */

@@ -170,12 +170,11 @@ static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cache
     return true;
 }
 
-/* To make the placement takes as much stack as to clip. */
+/* To make the placement takes as much stack as to clip. Where velocities are measured it is rounded as other poses are. */
 bool smear_batch_add_clipped(struct batch *b, const struct smear_cached_vertex *const corner[3], uint32_t triangle)
 {
     const struct smear_assembly *d = b->d;
-    if (!b->has_fine)
-        d->place_fine(&b->fine, d, 2, projection_coarse(b->a->viewport.height, is_orthographic(&d->at.now)));
-    b->has_fine = true;
+    if (b->fine.position == NULL)
+        d->place_fine(&b->fine, d, 2, d->moves != 0 ? 0 : projection_coarse(b->a->viewport.height, is_orthographic(&d->at.now)));
     return add_clipped(b, corner, triangle);
 }
