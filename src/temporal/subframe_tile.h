@@ -32,6 +32,7 @@ struct subframe_passing {
     uint32_t ways;              /* what their edges pass of the tiles */
     uint32_t seen;              /* what those pass of the frame that lie in the tiles in the middle of the exposure */
     uint32_t covered;           /* of the tiles, in the mean over the exposure; by larger ones, too */
+    uint32_t opaque;            /* the same by what is not blended */
     bool sparks;                /* some are blended and go far */
 };
 

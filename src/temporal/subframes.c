@@ -56,7 +56,7 @@ static void note(struct subframes *f, const struct smear_moving_triangle *m)
     const struct subframe_box path = { b->x0, b->y0, b->x1, b->y1 };
     box_add(&f->area, &path);
     if (f->plans)
-        smear_note_passing(f, m->triangle);
+        smear_note_passing(f, m->triangle, false);
 }
 
 static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
@@ -66,7 +66,7 @@ static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
     f->blends = true;
     *moves = *moves || has_path;
     if (f->plans && has_path)
-        smear_note_passing(f, triangle);
+        smear_note_passing(f, triangle, true);
 }
 
 static void begin_list(struct subframes *f, const struct subframe_box *whole)
@@ -76,7 +76,7 @@ static void begin_list(struct subframes *f, const struct subframe_box *whole)
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;
     f->area = no_box;
-    f->passing = (struct subframe_passing){ 0, 0, 0, false };
+    f->passing = (struct subframe_passing){ 0, 0, 0, 0, false };
 }
 
 static void end_list(struct subframes *f, const struct subframe_box *whole)

@@ -220,7 +220,14 @@ static struct extent extent_of(const struct smear_bins *g, const struct smear_tr
     return (struct extent){ max_i32((high - low + 128) >> 8, 1), (low + high) >> 9, last - first, min_i32(last, x1) - max_i32(first, x0) };
 }
 
-void smear_note_passing(struct subframes *f, uint32_t triangle)
+static void add_covered(struct subframe_passing *p, uint32_t part, bool blended)
+{
+    p->covered = add_saturated(p->covered, part);
+    if (!blended)
+        p->opaque = add_saturated(p->opaque, part);
+}
+
+void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
 {
     enum { SMALL = 32,      /* px */
            LARGE = 128 };   /* and what is larger says nothing of small things before it */
@@ -230,7 +237,9 @@ void smear_note_passing(struct subframes *f, uint32_t triangle)
     const struct smear_triangle *of = bins_triangle(g, triangle);
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
     struct subframe_passing *p = &f->passing;
-    const bool is_full = p->covered >= area_of(f) && !f->blends;        /* more would say no more */
+    /* More would say no more. It is told from opaque triangles alone: where the store is filled several times, blended ones
+     * come between them. */
+    const bool is_full = p->opaque >= area_of(f) && !blended;
     if (b->travel < FAR || b->space != 0 || is_full)
         return;
     const struct extent x = extent_of(g, of, VERTEX_X, t->frame->width, t->x0, t->x1),
@@ -240,16 +249,16 @@ void smear_note_passing(struct subframes *f, uint32_t triangle)
         return;
     const uint32_t over = (uint32_t)(x.over * y.over);
     if (larger > SMALL) {
-        p->covered = add_saturated(p->covered, over << 7);
+        add_covered(p, over << 7, blended);
         return;
     }
     const uint32_t part = (over << 8) / (uint32_t)(x.path * y.path);       /* of the path */
     const uint32_t way = (uint32_t)(y.size * max_i32(x.path - x.size, 0) + x.size * max_i32(y.path - y.size, 0));
     p->ways = add_saturated(p->ways, way * part);
-    p->covered = add_saturated(p->covered, (uint32_t)(x.size * y.size) * part >> 1);
+    add_covered(p, (uint32_t)(x.size * y.size) * part >> 1, blended);
     if (x.middle >= t->x0 && x.middle < t->x1 && y.middle >= y0 && y.middle < y1)
         p->seen = add_saturated(p->seen, way << 8);
-    p->sparks = p->sparks || (f->blends && b->travel >= 3 * FAR);
+    p->sparks = p->sparks || (blended && b->travel >= 3 * FAR);
 }
 
 /* Returns how much larger the squared error of what moves is where it covers each pixel for a short time only, q4. There are

@@ -24,8 +24,8 @@ struct smear_contrast {
     uint32_t unseen; /* the same of what passes at other times, about */
 };
 
-/* Adds a triangle with a path that may be seen in the tiles to f->passing. */
-void smear_note_passing(struct subframes *f, uint32_t triangle);
+/* Adds a triangle with a path that may be seen in the tiles to f->passing; opaque ones in their order. */
+void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended);
 
 /* Measures the run in the work planes, where its first instant was drawn within the box, and notes for each block up to
  * how many instants gaps are closed. */
