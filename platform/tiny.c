@@ -91,7 +91,7 @@ static int flush(void *user, const smear_band *band)
 /* A band of 4 rows sees at most 44 of the 134 triangles. */
 static const smear_desc desc = {
     .width = WIDTH, .height = HEIGHT, .methods = SMEAR_SET_ACCUMULATE_BANDS, .band_rows = 4,
-    .format = SMEAR_RGB565_SWAPPED, .display.dither = SMEAR_DITHER_NONE, .max_draws = 3, .max_triangles = 33,
+    .format = SMEAR_RGB565_SWAPPED, .display.dither = SMEAR_DITHER_NONE, .max_draws = 3, .max_triangles = 32,
     .vertex_cache = 16, .flush = flush
 };
 

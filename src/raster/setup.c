@@ -294,14 +294,14 @@ SMEAR_INLINE void turns_make(int32_t value[6], int up, int32_t step)
     const int32_t half = step >> 1;
 #if SMEAR_SMALL_CODE
     for (int i = 0; i < 6; i++)
-        value[i] = (shl_wrap(value[i], up) + half) & -step;
+        value[i] = add_wrap(shl_wrap(value[i], up), half) & -step;
 #else
-    value[0] = (shl_wrap(value[0], up) + half) & -step;
-    value[1] = (shl_wrap(value[1], up) + half) & -step;
-    value[2] = (shl_wrap(value[2], up) + half) & -step;
-    value[3] = (shl_wrap(value[3], up) + half) & -step;
-    value[4] = (shl_wrap(value[4], up) + half) & -step;
-    value[5] = (shl_wrap(value[5], up) + half) & -step;
+    value[0] = add_wrap(shl_wrap(value[0], up), half) & -step;
+    value[1] = add_wrap(shl_wrap(value[1], up), half) & -step;
+    value[2] = add_wrap(shl_wrap(value[2], up), half) & -step;
+    value[3] = add_wrap(shl_wrap(value[3], up), half) & -step;
+    value[4] = add_wrap(shl_wrap(value[4], up), half) & -step;
+    value[5] = add_wrap(shl_wrap(value[5], up), half) & -step;
 #endif
 }
 
