@@ -38,16 +38,11 @@ ifeq ($(BRIEF),1)
 BUILD  := $(BUILD)-brief
 CFLAGS += -fno-sanitize=null,object-size,pointer-overflow -DKERNEL_STEP=3
 endif
-# AVX2=0: without what processors with AVX2 draw eight lanes wide.
-ifeq ($(AVX2),0)
-BUILD  := $(BUILD)-sse2
-CFLAGS += -DSMEAR_AVX2=0
-endif
 # Sources whose objects are this build's own: the others are those of build/host.
 OWN := %
 # COVERAGE=1: counts which branches of src/ are taken; without optimization each inline function is one (base.h).
 ifeq ($(COVERAGE),1)
-OWN     := $(if $(filter build/host,$(BUILD)),src/%,$(if $(AVX2),src/% tests/kernels/% tests/unit/%,%))
+OWN     := $(if $(filter build/host,$(BUILD)),src/%,%)
 BUILD   := $(BUILD)-coverage
 LDFLAGS += --coverage
 $(BUILD)/src/%.o $(BUILD)/vectors.h.gch: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic
@@ -401,11 +396,10 @@ COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures 
 .PHONY: coverage run-coverage
 ## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:
-	$(MAKE) --no-print-directory COVERAGE=1 AVX2=0 build/host-sse2-coverage/frames build/host-sse2-coverage/run
 	$(MAKE) --no-print-directory COVERAGE=1 run-coverage
 
 run-coverage: $(TESTS) $(BUILD)/frames
-	sh tests/coverage.sh $(BUILD) build/host-sse2-coverage "$(COVERAGE_SUITES)"
+	sh tests/coverage.sh $(BUILD) "$(COVERAGE_SUITES)"
 
 $(BUILD)/frames: $(call objects,tests/fuzz/frames.c $(wildcard tests/fuzz/cases*.c)) $(LIB)
 	$(call say,LD)

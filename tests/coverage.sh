@@ -1,30 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# coverage.sh BUILD NARROW SUITES - runs suites and cases of the generator that count branches of src/ (`make coverage`), without
-# golden frames, and compares what is missed with tests/coverage.txt. NARROW is a build without AVX2.
+# coverage.sh BUILD SUITES - runs suites and cases of the generator that count branches of src/ (`make coverage`), without
+# golden frames, and compares what is missed with tests/coverage.txt.
 set -u
 build=$1
-narrow=$2
-suites=$3
-find "$build" "$narrow" -name '*.gcda' -exec rm -f {} +
+suites=$2
+find "$build" -name '*.gcda' -exec rm -f {} +
 # Beside each other: counts are added up as programs end. The other suites judge what these do with -O2.
 export SMEAR_ASSETS=
 {
-    "$build/frames" valid 1 2000 && "$build/frames" wild 1 4000 && "$build/frames" threads 1 300 &&
-        "$narrow/frames" valid 1 500 && "$narrow/frames" wild 1 1000 || echo "frames fail"
+    "$build/frames" valid 1 2000 && "$build/frames" wild 1 4000 && "$build/frames" threads 1 300 || echo "frames fail"
 } >"$build/frames.log" 2>&1 &
 for suite in $suites; do
     "$build/run" --suite "$suite" >"$build/$suite.log" 2>&1
-done
-for suite in raster kernels direct doubled fog; do
-    "$narrow/run" --suite "$suite" >"$narrow/$suite.log" 2>&1
 done
 wait
 if grep -q fail "$build/frames.log"; then
     cat "$build/frames.log"
     exit 1
 fi
-find "$build/src" "$narrow/src" -name '*.gcda' | while read -r counts; do
+find "$build/src" -name '*.gcda' | while read -r counts; do
     gcov -t -b -c "$counts"
 done >"$build/gcov.txt" 2>/dev/null
 awk -v least=95 -v spare=100 -f tests/branches.awk tests/coverage.txt "$build/gcov.txt"

@@ -183,25 +183,7 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
         row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }
 
-#if SMEAR_AVX2
-bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
-                       int32_t y, smear_format format, smear_dither dither)
-{
-    if (!smear_has_avx2())
-        return false;
-    if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888) {
-        smear_rows_xrgb8888_avx2((uint32_t *)(void *)band + x, stride / 4, in, in_stride, rows, n);
-        return true;
-    }
-    if (!format_is_16bit(format) || !is_dithered(dither))
-        return false;
-    struct dithered_rows r = { .out = (uint16_t *)(void *)band + x, .in = in, .out_stride = stride / 2, .in_stride = in_stride,
-                               .rows = rows, .n = n, .x = x, .y = y };
-    r.threshold = thresholds_of(0, dither, &r.mask);
-    smear_rows_dithered_avx2(&r, layout_of(format));
-    return true;
-}
-#elif SMEAR_ROWS_AT_ONCE
+#if SMEAR_ROWS_AT_ONCE
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
                        int32_t y, smear_format format, smear_dither dither)
 {

@@ -6,7 +6,7 @@
 #include "smear.h"
 
 #include "base/base.h"
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/late_blocks.h"
 
 /* Whether the format was compiled in, with that dither. */
@@ -24,7 +24,7 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
                       int32_t y0, smear_format format, smear_dither dither);
 
 /* Where a row's pixels take longer than what there is around them, or size counts, rows are converted one by one. */
-#if SMEAR_AVX2 || (!SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565))
+#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565)
 #define SMEAR_ROWS_AT_ONCE 1
 #else
 #define SMEAR_ROWS_AT_ONCE 0

@@ -390,29 +390,13 @@ static uint32_t reconstruct_tile(uint32_t *out, const struct smear_window *w, co
     g.x0 = x0;
     g.color = w->color + x0;
     g.depth_code = w->depth + x0;
-#if SMEAR_AVX2
-    if (eight && !g.guertin && !g.orthographic) {
-        first = n & ~7;
-        taps = smear_reconstruct_avx2(out, &g, &choice, y0, first, edge);
-        if (first == n)
-            return taps;
-    }
-#else
     (void)eight;
-#endif
     return taps + (edge ? gather_tile(&g, &choice, out, y0, first, n, true) : gather_tile(&g, &choice, out, y0, first, n, false));
 }
 
 uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
                                 int32_t column, const struct smear_blur_settings *settings)
 {
-    return reconstruct_tile(out, w, rows, row, column, settings, smear_has_avx2());
-}
-
-#if SMEAR_AVX2
-uint32_t smear_blur_reconstruct_reference(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
-                                          int32_t row, int32_t column, const struct smear_blur_settings *settings)
-{
     return reconstruct_tile(out, w, rows, row, column, settings, false);
 }
-#endif
+

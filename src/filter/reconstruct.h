@@ -7,7 +7,6 @@
 #include "filter/filter.h"
 
 #include "filter/gather.h"
-#include "kernels/avx2.h"
 
 /* The direction of a neighbourhood. */
 struct direction {
@@ -64,16 +63,5 @@ struct choice {
 
 /* 1/20 and 1/19 of units up to 2^20, in products of 32 bits. */
 static const uint32_t share_20 = 52429, share_19 = 55188;      /* q20 */
-
-#if SMEAR_AVX2
-/* smear_blur_reconstruct() a pixel at a time: what it gives on every processor. */
-uint32_t smear_blur_reconstruct_reference(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
-                                          int32_t row, int32_t column, const struct smear_blur_settings *settings);
-
-/* Filters the first n columns of a tile, n a multiple of 8, eight pixels at once. For perspective views and
- * PPSv2's own second direction. Returns the taps taken. */
-uint32_t smear_reconstruct_avx2(uint32_t *out, const struct gathering *g, const struct choice *choice, int32_t y0, int32_t n,
-                                bool edge);
-#endif
 
 #endif

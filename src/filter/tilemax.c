@@ -217,18 +217,6 @@ static void neighbormax_row(const struct smear_window *w, int32_t row, int32_t k
 
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner)
 {
-#if SMEAR_AVX2
-    if (w->lag == 1 && !corner && smear_has_avx2()) {
-        smear_neighbormax_row_avx2(w, row, known);
-        return;
-    }
-#endif
     neighbormax_row(w, row, known, corner);
 }
 
-#if SMEAR_AVX2
-void smear_neighbormax_row_reference(const struct smear_window *w, int32_t row, int32_t known)
-{
-    neighbormax_row(w, row, known, false);
-}
-#endif

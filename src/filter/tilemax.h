@@ -3,24 +3,13 @@
 #ifndef SMEAR_TILEMAX_H
 #define SMEAR_TILEMAX_H
 
-#include "kernels/avx2.h"
 #include "raster/window.h"
 
 /* Reduces the velocities of tile `column` of tile row `row`. */
 void smear_tilemax_reference(const struct smear_window *w, int32_t row, int32_t column);
-#if SMEAR_AVX2
-/* Of tiles of which a multiple of eight columns lies inside the frame. */
-void smear_tilemax_avx2(const struct smear_window *w, int32_t row, int32_t column);
-#endif
 
 static inline void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2() && (min_i32(w->tile, w->width - (column << w->tile_shift)) & 7) == 0) {
-        smear_tilemax_avx2(w, row, column);
-        return;
-    }
-#endif
     smear_tilemax_reference(w, row, column);
 }
 
@@ -37,11 +26,5 @@ enum {
  * its motion points along the diagonal [Guertin14]. Where the reach exceeds a tile, all tiles within it count whose
  * motion leads here. */
 void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner);
-
-#if SMEAR_AVX2
-/* The same, where the reach is a tile at most and all neighbours count. */
-void smear_neighbormax_row_reference(const struct smear_window *w, int32_t row, int32_t known);
-void smear_neighbormax_row_avx2(const struct smear_window *w, int32_t row, int32_t known);
-#endif
 
 #endif

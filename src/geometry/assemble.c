@@ -6,10 +6,10 @@
  * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
-#include "geometry/assemble_avx2.h"
 #include "geometry/batch_cover.h"
 #include "geometry/batch_scan.h"
 #include "geometry/batch_store.h"
+#include "geometry/places.h"
 #include "geometry/ranges.h"
 #include "kernels/vertex_list_arm.h"
 
@@ -578,24 +578,6 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
     return added;
 }
 
-#if SMEAR_AVX2
-uint32_t smear_assemble_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle, bool back)
-{
-    return store_vertex(b, index, screen, NULL, triangle, back);
-}
-
-uint32_t smear_assemble_face(const struct batch *b, uint32_t triangle, bool back)
-{
-    return shade_face(b, triangle, back);
-}
-
-bool smear_assemble_far(struct batch *b, const struct places *r, const uint32_t index[3], uint32_t triangle)
-{
-    const struct seen t = { r, NULL, 0, { index[0], index[1], index[2] }, triangle, false };
-    return add_far(b, &t);
-}
-#endif
-
 /* Adds those of four triangles that may be seen. Returns false where there is no room. */
 static inline bool add_four(struct batch *b, const struct places *r, const struct smear_triangles *four,
                             const uint16_t *index, uint32_t triangle)
@@ -625,15 +607,6 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
     struct smear_triangles four;
-#if SMEAR_AVX2
-    if (smear_has_avx2() && end - first >= 8) {
-        const uint32_t reached = smear_assemble_avx2(b, r, first, end);
-        if (reached == UINT32_MAX)
-            return reached;
-        index += 3 * (reached - first);
-        first = reached;
-    }
-#endif
     for (uint32_t i = first; i < end; i += 4, index += 12) {
         uint16_t rest[12];
         const uint16_t *these = index;

@@ -4,7 +4,7 @@
 #define SMEAR_BATCH_H
 
 #include "geometry/vertex.h"
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/front_cover.h"
 #include "kernels/tiny_points.h"
 
@@ -77,13 +77,6 @@ static inline bool batch_shares(const struct batch *b, bool back)
 /* Stores the words of MOTION_* of a vertex, whose segment has them. `known`: where it is now, before the division, or null. */
 void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
                               const struct smear_homogeneous *known);
-
-#if SMEAR_AVX2 && SMEAR_WITH_RECONSTRUCT
-/* Stores those of two poses, at h. False where numbers of 32 bits do not do, and nothing is stored. */
-bool smear_store_poses_avx2(uint32_t *out, const struct smear_assembly *d, const struct smear_homogeneous h[2],
-                            const struct smear_homogeneous *now, const struct smear_screen *screen,
-                            const struct smear_viewport *viewport);
-#endif
 
 /* Adds what is left of a triangle that has to be clipped, as a fan. Its corners are in the mesh's order. Returns false where
  * there is no room. */

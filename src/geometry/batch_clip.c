@@ -44,22 +44,14 @@ void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t ind
                               const struct smear_homogeneous *known)
 {
     const struct smear_assembly *d = b->d;
-    struct smear_homogeneous h[SMEAR_AVX2 ? 2 : 1], now;
+    struct smear_homogeneous h, now;
     if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
         placement_transform(&now, &d->at, index);
         known = &now;
     }
-#if SMEAR_AVX2 && SMEAR_WITH_RECONSTRUCT
-    if (segment_moves(b->segment) == 2 && smear_has_avx2()) {
-        pose_transform(&h[0], d, 0, index);
-        pose_transform(&h[1], d, 1, index);
-        if (smear_store_poses_avx2(out, d, h, known, screen, &b->a->viewport))
-            return;
-    }
-#endif
     for (int pose = 0; pose < segment_moves(b->segment); pose++) {
-        pose_transform(h, d, pose, index);
-        store_pose(out + pose * MOTION_WORDS, d, pose, h, known->w, d->at.now.scale, screen, &b->a->viewport);
+        pose_transform(&h, d, pose, index);
+        store_pose(out + pose * MOTION_WORDS, d, pose, &h, known->w, d->at.now.scale, screen, &b->a->viewport);
     }
 }
 

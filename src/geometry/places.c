@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* places.c - from the vertices of a mesh to the screen, by fours or eights. */
+/* places.c - from the vertices of a mesh to the screen, by fours. */
 #include "geometry/places.h"
 
-#include "kernels/places8.h"
+#include "kernels/places.h"
 
 #if SMEAR_PLACES
 static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
@@ -14,20 +14,6 @@ static void find_place(struct smear_place *p, const struct batch *b, uint32_t in
         p->screen.x = p->screen.y = (code & OUT_NEAR) != 0 ? PLACE_NEAR : PLACE_FAR;
     p->first = place_first(p->screen.x, p->screen.y);
 }
-
-#if SMEAR_AVX2
-/* Finds vertices from r->first on by eights. Returns how far that goes. */
-SMEAR_AVX2_FUNCTION static uint32_t find_by_eights(const struct batch *b, const struct places *r, const struct place_setup *setup)
-{
-    struct place_rows8 rows;
-    uint32_t i = r->first;
-    place_rows8_make(&rows, setup);
-    for (; r->end - i >= 8; i += 8)
-        for (uint32_t rest = ~places_avx2(r->place + i, b->d->at.position + 3 * i, &rows) & 255u; rest != 0; rest &= rest - 1)
-            find_place(r->place + i + __builtin_ctz(rest), b, i + (uint32_t)__builtin_ctz(rest));
-    return i;
-}
-#endif
 
 static SMEAR_NOINLINE void find_places(const struct batch *b, const struct places *r)
 {
@@ -43,10 +29,6 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
     uint32_t i = r->first;
     if (by_fours)
         place_rows_make(&rows, &setup);
-#if SMEAR_AVX2
-    if (by_fours && smear_has_avx2())
-        i = find_by_eights(b, r, &setup);
-#endif
     while (i < r->end) {
         const uint32_t end = min_u32(i + 4, r->end);
         if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * i, &rows)) {

@@ -3,22 +3,18 @@
 #ifndef SMEAR_KERNELS_BOX_SIDES_H
 #define SMEAR_KERNELS_BOX_SIDES_H
 
-#include "kernels/avx2.h"
 #include "kernels/span_side.h"
 
-enum { BOX_SIDES_COLUMNS = 16 };
-
-/* Edge functions at a row's first column; what they change by from column to column and from row to row. They stay in 32
- * bits in all columns that a multiple of eight takes. */
+/* Edge functions at a row's first column; what they change by from column to column and from row to row. */
 struct box_sides {
     int32_t e[3], right[3], down[3];
-    int32_t left, columns;      /* of the box, 1 .. BOX_SIDES_COLUMNS */
+    int32_t left, columns;      /* of the box, columns >= 1 */
     int32_t width;              /* of the frame */
 };
 
 /* Sides of n > 0 rows: of the pixels where no function is negative, which lie side by side. A row without any begins and
  * ends where the box ends. The functions go on by so many rows. */
-static inline void box_sides_reference(struct span_side *side, struct box_sides *b, int32_t n)
+static inline void box_sides(struct span_side *side, struct box_sides *b, int32_t n)
 {
     const int32_t right = b->left + b->columns;
     for (struct span_side *const end = side + n; side != end; side++) {
@@ -40,22 +36,6 @@ static inline void box_sides_reference(struct span_side *side, struct box_sides 
         for (int k = 0; k < 3; k++)
             b->e[k] += b->down[k];
     }
-}
-
-#if SMEAR_AVX2
-/* Little more than half the time, in boxes of all widths alike. */
-void smear_box_sides_avx2(struct span_side *side, struct box_sides *b, int32_t n);
-#endif
-
-static inline void box_sides(struct span_side *side, struct box_sides *b, int32_t n)
-{
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        smear_box_sides_avx2(side, b, n);
-        return;
-    }
-#endif
-    box_sides_reference(side, b, n);
 }
 
 #endif

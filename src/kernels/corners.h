@@ -53,26 +53,4 @@ SMEAR_INLINE void corners_find(struct corners *c, const int32_t *const corner[3]
     c->knee = clamp_i32(c->knee, c->first, max_i32(c->end, c->first));
 }
 
-/* Tells which corner is which, in a number of eight bits; corners_ordered() then makes the same for rows [y0, y1) below the
- * topmost. */
-static inline int corners_order(const int32_t *const corner[3])
-{
-    struct corners c;
-    corners_find(&c, corner, 0, 0);
-    const int top = c.top == corner[0] ? 0 : c.top == corner[1] ? 1 : 2;
-    const int middle = c.middle == corner[0] ? 0 : c.middle == corner[1] ? 1 : 2;
-    return top | middle << 2 | (3 - top - middle) << 4 | c.whole_is_left << 6;
-}
-
-SMEAR_INLINE void corners_ordered(struct corners *c, const int32_t *const corner[3], int order, int32_t y0, int32_t y1)
-{
-    c->top = corner[order & 3];
-    c->middle = corner[order >> 2 & 3];
-    c->bottom = corner[order >> 4 & 3];
-    c->whole_is_left = (order >> 6 & 1) != 0;
-    c->first = y0;
-    c->knee = clamp_i32((c->middle[1] + 127) >> 8, y0, y1);
-    c->end = y1;
-}
-
 #endif

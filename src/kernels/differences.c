@@ -2,59 +2,6 @@
 /* differences.c - see differences.h. */
 #include "kernels/differences.h"
 
-#include "kernels/lanes8.h"
-
-#if SMEAR_AVX2
-/* Pixels of a row, or their depths; where they are not `whole`, which is eight, the first four and the last four of them. */
-SMEAR_AVX2_INLINE lanes8 difference_pixels(const uint32_t *p, int32_t n, bool whole)
-{
-    return whole ? lanes8_load(p) : lanes8_load_few(p, n);
-}
-
-SMEAR_AVX2_INLINE lanes8i difference_depths(const uint16_t *p, int32_t n, bool whole)
-{
-    if (whole)
-        return lanes8i_load_halves(p);
-    const __m128i low = _mm_loadl_epi64((const __m128i *)(const void *)p);
-    return (lanes8i)_mm256_cvtepu16_epi32(_mm_unpacklo_epi64(low, _mm_loadl_epi64((const __m128i *)(const void *)(p + n - 4))));
-}
-
-SMEAR_AVX2_INLINE uint32_t difference_block8(const struct difference_block *b, uint32_t *moving, bool whole)
-{
-    const uint32_t *here = b->first.color, *behind = b->first.behind;
-    const uint16_t *depth = b->first.depth, *deep = b->first.deep;
-    const int32_t n = b->n, there = b->first.there, there_behind = b->first.there_behind;
-    const lanes8i twice = (lanes8i)(lanes8i_numbers() > 3) & (lanes8i)(lanes8i_numbers() < lanes8i_all(12 - n));
-    lanes8i sum = lanes8i_all(0), still = lanes8i_all(0);
-    for (int32_t i = 0; i < b->rows; i++) {
-        const lanes8 pixel = difference_pixels(here, n, whole), next = difference_pixels(here + there, n, whole);
-        const lanes8i z = difference_depths(depth, n, whole), next_z = difference_depths(depth + there, n, whole);
-        const lanes8i is_still = (z == difference_depths(deep, n, whole)) & (lanes8i)(pixel == difference_pixels(behind, n, whole));
-        const lanes8i next_still = (next_z == difference_depths(deep + there_behind, n, whole))
-                                 & (lanes8i)(next == difference_pixels(behind + there_behind, n, whole));
-        /* None of the two moves, or the one that does lies behind what is still. */
-        lanes8i same = (is_still | (next_z > z)) & (next_still | (is_still & (z > next_z)));
-        if (!whole)
-            same |= twice;
-        const lanes8 apart = lanes8_apart(pixel, next) & (lanes8)~same;
-        const lanes8 red_blue = apart & lanes8_word(LANES8_RED_BLUE), green = apart >> 8 & lanes8_word(LANES8_255);
-        sum += lanes8_dot(red_blue, red_blue) + lanes8_dot(green, green);
-        still += whole ? is_still : is_still | twice;
-        here += b->pitch;
-        depth += b->pitch;
-        behind += b->pitch_behind;
-        deep += b->pitch_behind;
-    }
-    const struct lanes8_sums sums = lanes8i_sums(sum, still);
-    *moving += (uint32_t)(8 * b->rows + sums.of[1]);
-    return (uint32_t)sums.of[0];
-}
-
-SMEAR_AVX2_FUNCTION uint32_t smear_difference_block_avx2(const struct difference_block *b, uint32_t *moving)
-{
-    return b->n == 8 ? difference_block8(b, moving, true) : difference_block8(b, moving, false);
-}
-#endif
 
 #if DIFFERENCES_ASM_ARMV6M
 /* clang-format off */

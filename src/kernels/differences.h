@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_DIFFERENCES_H
 
 #include "base/pixel.h"
-#include "kernels/avx2.h"
 #include "kernels/kernels.h"
 
 #ifdef __OPTIMIZE_SIZE__
@@ -74,11 +73,6 @@ static inline uint32_t difference_block_reference(const struct difference_block 
     return sum;
 }
 
-#if SMEAR_AVX2
-/* The same of 4 to 8 pixels. */
-uint32_t smear_difference_block_avx2(const struct difference_block *b, uint32_t *moving);
-#endif
-
 #if DIFFERENCES_ASM_ARMV6M
 /* 14 instructions a pixel that moves and is as the one there, 42 where they differ; compilers take 22 and 48. */
 uint32_t smear_difference_block_armv6m(const struct difference_block *b, uint32_t *moving);
@@ -87,10 +81,6 @@ uint32_t smear_difference_block_armv6m(const struct difference_block *b, uint32_
 /* For up to 8 pixels in a row. */
 static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
 {
-#if SMEAR_AVX2
-    if (b->n >= 4 && smear_has_avx2())
-        return smear_difference_block_avx2(b, moving);
-#endif
 #if DIFFERENCES_ASM_ARMV6M
     return smear_difference_block_armv6m(b, moving);
 #else

@@ -4,7 +4,6 @@
 #ifndef SMEAR_KERNELS_EVEN_FACES_H
 #define SMEAR_KERNELS_EVEN_FACES_H
 
-#include "kernels/avx2.h"
 
 /* Triples of indices; of each vertex a colour of four bytes and a normal of three, or null. */
 struct even_faces {
@@ -28,7 +27,7 @@ static inline bool even_color(const uint8_t *a, const uint8_t *b)
 }
 
 /* False, too, if an index is too large. */
-static inline bool even_faces_reference(const struct even_faces *f)
+static inline bool even_faces(const struct even_faces *f)
 {
     const uint8_t *normal = f->normal, *color = f->color;
     const uint16_t *index = f->index, *const end = index + 3 * f->triangles;
@@ -43,20 +42,6 @@ static inline bool even_faces_reference(const struct even_faces *f)
             return false;
     }
     return true;
-}
-
-#if SMEAR_AVX2
-/* Eight faces at once: a seventh of the instructions, three quarters of the time. */
-bool smear_even_faces_avx2(const struct even_faces *f);
-#endif
-
-static inline bool even_faces(const struct even_faces *f)
-{
-#if SMEAR_AVX2
-    if (f->triangles >= 8 && smear_has_avx2())
-        return smear_even_faces_avx2(f);
-#endif
-    return even_faces_reference(f);
 }
 
 #endif

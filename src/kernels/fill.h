@@ -4,7 +4,7 @@
 #define SMEAR_KERNELS_FILL_H
 
 #include "base/pixel.h"
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/kernels.h"
 
 /* Sets n >= 0 times eight words; returns where the next lies. */
@@ -53,13 +53,6 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 }
 #endif
 
-#if SMEAR_AVX2
-/* Sets 32 bytes or more: words, of which the last may be a half where both halves of `value` are equal. */
-void smear_fill_avx2(void *p, uint32_t value, size_t bytes);
-
-enum { FILL_BYTES_LEAST = 128 };        /* below, a call costs more than it saves */
-#endif
-
 /* Sets n >= 0 words. */
 static inline void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
 {
@@ -77,12 +70,6 @@ static inline void pixels_fill_unrolled(uint32_t *p, uint32_t value, int32_t n)
 
 static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
 {
-#if SMEAR_AVX2
-    if (n >= FILL_BYTES_LEAST / 4 && smear_has_avx2()) {
-        smear_fill_avx2(p, value, (size_t)n * 4);
-        return;
-    }
-#endif
     pixels_fill_unrolled(p, value, n);
 }
 
@@ -111,12 +98,6 @@ static inline void pixels_fill_narrow_unrolled(uint16_t *p, uint32_t value, int3
 
 static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
 {
-#if SMEAR_AVX2
-    if (n >= FILL_BYTES_LEAST / 2 && smear_has_avx2()) {
-        smear_fill_avx2(p, value | value << 16, (size_t)n * 2);
-        return;
-    }
-#endif
     pixels_fill_narrow_unrolled(p, value, n);
 }
 

@@ -4,8 +4,19 @@
 #define SMEAR_KERNELS_FLAT_LINES_H
 
 #include "kernels/edge_fine.h"
-#include "kernels/flat_face.h"
+#include "kernels/flat_run.h"
 #include "kernels/late_blocks.h"
+
+/* Where the depth code breaks, units q11: below it they have 32 times as many codes 16.16, from it on twice. And the code there, of
+ * which the half for rounding is part. */
+#define FLAT_BREAK (32768u << 11)
+#define FLAT_BREAK_CODE 0x80008000u
+
+/* The code 16.16 of a pixel. */
+SMEAR_INLINE uint32_t flat_code(uint32_t z, bool breaks)
+{
+    return !breaks ? z : FLAT_BREAK_CODE + ((int32_t)z < 0 ? z << 5 : z << 1);
+}
 
 /* Not where size counts: there flat_rows.h does on Cortex-M0+. On ARM7 files for which it counts call those for which it does not. */
 #define SMEAR_FLAT_LINES (((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE) || SMEAR_ASM_ARM)
@@ -32,7 +43,7 @@ struct flat_lines {
     int32_t depth_bytes, row;
 #endif
     uint32_t color;                 /* twice where pixels are narrow */
-    bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes (flat_face.h) */
+    bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes */
 #if SMEAR_LATE_BLOCKS
     bool late;                      /* rows are late blocks, of wide pixels */
 #endif

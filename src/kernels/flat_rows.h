@@ -4,7 +4,7 @@
 #define SMEAR_KERNELS_FLAT_ROWS_H
 
 #include "kernels/edge_walk.h"
-#include "kernels/flat_face.h"
+#include "kernels/flat_run.h"
 
 /* By assembly on Cortex-M0+ where size counts; on other cores flat_lines.h does. */
 #define FLAT_ROWS (SMEAR_ASM_ARMV6M && SMEAR_SMALL_CODE)

@@ -4,7 +4,7 @@
 #define SMEAR_KERNELS_FLAT_RUN_H
 
 #include "base/pixel.h"
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/flat_run_armv7em.h"
 #include "kernels/kernels.h"
 
@@ -127,24 +127,9 @@ SMEAR_INLINE void flat_run_vector(void *pixels, uint16_t *depth, int32_t n, uint
 }
 #endif
 
-#if SMEAR_AVX2
-/* The same of n >= 8 pixels. */
-void smear_flat_run_avx2(uint32_t *color, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t value);
-void smear_flat_run_narrow_avx2(uint16_t *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t value);
-#endif
-
 SMEAR_INLINE void flat_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, uint32_t color,
                            bool narrow)
 {
-#if SMEAR_AVX2
-    if (n >= 8 && smear_has_avx2()) {
-        if (narrow)
-            smear_flat_run_narrow_avx2((uint16_t *)pixels, depth, n, z, dz, color);
-        else
-            smear_flat_run_avx2((uint32_t *)pixels, depth, n, z, dz, color);
-        return;
-    }
-#endif
 #if SMEAR_ASM_ARMV7EM
     flat_run_armv7em(pixels, depth, n, z, dz, color, narrow);
 #elif SMEAR_VECTORS

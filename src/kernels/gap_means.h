@@ -35,22 +35,12 @@ void smear_gap_means_two_passes(const struct gap_planes *p, const struct gap_row
 void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                             enum gap_cover cover);
 #endif
-#if SMEAR_AVX2
-void smear_gap_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
-                          enum gap_cover cover);
-#endif
 
 static inline void smear_gap_means(const struct gap_planes *p, const struct gap_rows *r, const struct gap_taps *taps,
                                    enum gap_cover cover)
 {
 #if SMEAR_VECTORS
     for (int32_t row = 0, at = r->at; row < r->rows; row++, at += r->pitch) {
-#if SMEAR_AVX2
-        if (smear_has_avx2()) {
-            smear_gap_means_avx2(p, at, r->n, taps, cover);
-            continue;
-        }
-#endif
         smear_gap_means_vector(p, at, r->n, taps, cover);
     }
 #else

@@ -6,7 +6,7 @@
 #ifndef SMEAR_KERNELS_GAP_TAPS_H
 #define SMEAR_KERNELS_GAP_TAPS_H
 
-#include "kernels/lanes8.h"
+#include "kernels/vector.h"
 #include "kernels/packed_sums.h"
 
 enum { GAP_PAIRS_MAX = 8 };
@@ -135,74 +135,5 @@ static inline struct gap_sums4 gap_tap4(struct gap_pixels4 *c, const struct gap_
 #endif
 
 /* ------------------------------------------------------------------ eight pixels at once */
-
-#if SMEAR_AVX2
-/* The same as of four pixels. */
-struct gap_sums8 {
-    lanes8 rb, gn;
-};
-
-struct gap_pixels8 {
-    struct gap_sums8 own;
-    lanes8i depth, times, nearest, instant;
-    lanes8i hides;
-};
-
-static inline SMEAR_AVX2_FUNCTION bool gap_is_hidden8(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps)
-{
-    const uint16_t *depth = p->depth + at;
-    __m128i most = _mm_loadu_si128((const __m128i *)(const void *)depth);
-    for (int32_t i = 0; i < taps->pairs; i++) {
-        const uint16_t *before = depth - taps->offset[i], *after = depth + taps->offset[i];
-        most = _mm_max_epu16(most, _mm_max_epu16(_mm_loadu_si128((const __m128i *)(const void *)before),
-                                                 _mm_loadu_si128((const __m128i *)(const void *)after)));
-    }
-    const __m128i beyond = _mm_subs_epu16(most, _mm_set1_epi16((int16_t)p->nearest));
-    return _mm_testz_si128(beyond, beyond) == 0;
-}
-
-static inline SMEAR_AVX2_FUNCTION bool gap_is_uneven8(const uint32_t *gn, const struct gap_pairs *taps)
-{
-    lanes8 least = lanes8_load(gn), most = least;
-    for (int32_t i = 0; i < taps->pairs; i++) {
-        const lanes8 a = lanes8_load(gn - taps->offset[i]), b = lanes8_load(gn + taps->offset[i]);
-        least = lanes8_min16(least, lanes8_min16(a, b));
-        most = lanes8_max16(most, lanes8_max16(a, b));
-    }
-    return lanes8_any((lanes8)((lanes8i)((most >> 16) - (least >> 16)) > (lanes8i)lanes8_all(taps->instant)));
-}
-
-static inline SMEAR_AVX2_FUNCTION bool gap_may_hide8(const struct gap_planes *p, int32_t at, const struct gap_pairs *taps,
-                                                     lanes8 times, uint32_t full, enum gap_cover cover)
-{
-    return lanes8_any(times ^ lanes8_all(full))
-        && ((cover == COVER_ALL && gap_is_hidden8(p, at, taps)) || gap_is_uneven8(p->sums.gn + at, taps));
-}
-
-static inline SMEAR_AVX2_FUNCTION struct gap_sums8 gap_choose8(struct gap_sums8 there, uint32_t full, struct gap_sums8 found)
-{
-    const lanes8i is_full = (lanes8i)(there.gn >> 16 == lanes8_all(full));
-    return (struct gap_sums8){ lanes8_choose(is_full, there.rb, found.rb), lanes8_choose(is_full, there.gn, found.gn) };
-}
-
-static inline SMEAR_AVX2_FUNCTION struct gap_pixels8 gap_pixels8_at(const struct gap_planes *p, int32_t at, uint32_t instant)
-{
-    struct gap_pixels8 c = { .own = { lanes8_load(p->sums.rb + at), lanes8_load(p->sums.gn + at) },
-                             .depth = lanes8i_load_halves(p->depth + at), .nearest = (lanes8i)lanes8_all(p->nearest),
-                             .instant = (lanes8i)lanes8_all(instant) };
-    c.times = (lanes8i)(c.own.gn >> 16);
-    c.hides = c.depth > c.nearest;
-    return c;
-}
-
-static inline SMEAR_AVX2_FUNCTION struct gap_sums8 gap_tap8(struct gap_pixels8 *c, const struct gap_planes *p, int32_t at)
-{
-    const struct gap_sums8 there = { lanes8_load(p->sums.rb + at), lanes8_load(p->sums.gn + at) };
-    const lanes8i depth = lanes8i_load_halves(p->depth + at), times = (lanes8i)(there.gn >> 16);
-    const lanes8i covers = (depth > c->depth) & ((depth > c->nearest) | (c->times > times + c->instant));
-    c->hides |= (c->depth > depth) & (times > c->times + c->instant);
-    return (struct gap_sums8){ lanes8_choose(covers, c->own.rb, there.rb), lanes8_choose(covers, c->own.gn, there.gn) };
-}
-#endif
 
 #endif

@@ -49,40 +49,16 @@ void smear_light_add_reference(uint32_t *color, const uint32_t *background, stru
 void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                             const struct light_instant *instant, bool all);
 #endif
-#if SMEAR_AVX2
-void smear_light_add_avx2(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                          const struct light_instant *instant, bool all);
-#endif
 
 static inline void smear_light_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                                    const struct light_instant *instant, bool all)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        smear_light_add_avx2(color, background, sums, n, instant, all);
-        return;
-    }
-#endif
 #if SMEAR_VECTORS
     smear_light_add_vector(color, background, sums, n, instant, all);
 #else
     smear_light_add_reference(color, background, sums, n, instant, all);
 #endif
 }
-
-/* Does what smear_light_add does to pixels of a box that differ from the background, and makes depths those behind. */
-static inline void light_box_reference(const struct packed_box *b, const struct light_instant *instant)
-{
-    for (int32_t y = 0, at = 0, behind = 0; y < b->rows; y++, at += b->pitch, behind += b->pitch_behind) {
-        smear_light_add_reference(b->color + at, b->background + behind, packed_sums_from(b->sums, at), b->n, instant, false);
-        __builtin_memcpy(b->depth + at, b->deep + behind, (size_t)b->n * sizeof *b->depth);
-    }
-}
-
-#if SMEAR_AVX2
-/* The same of linear light where n is eight at least, and rows are two. */
-void smear_light_box_avx2(const struct packed_box *b, const struct light_instant *instant);
-#endif
 
 /* How the sums at a pixel and at its taps become its mean: weights in q16, which add up to one. */
 struct light_mean {
@@ -104,20 +80,10 @@ void smear_light_means_reference(const struct gap_planes *p, int32_t at, int32_t
 void smear_light_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                               const struct light_mean *mean, enum gap_cover cover);
 #endif
-#if SMEAR_AVX2
-void smear_light_means_avx2(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
-                            const struct light_mean *mean, enum gap_cover cover);
-#endif
 
 static inline void smear_light_means(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                                      const struct light_mean *mean, enum gap_cover cover)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        smear_light_means_avx2(p, at, n, taps, mean, cover);
-        return;
-    }
-#endif
 #if SMEAR_VECTORS
     smear_light_means_vector(p, at, n, taps, mean, cover);
 #else

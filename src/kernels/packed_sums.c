@@ -3,7 +3,7 @@
 #include "kernels/packed_sums.h"
 
 #include "base/fixmath.h"
-#include "kernels/lanes8.h"
+#include "kernels/vector.h"
 
 /* ------------------------------------------------------------------ sums */
 
@@ -53,68 +53,6 @@ static void add_vector(uint32_t *color, const uint32_t *background, uint32_t *rb
         }
     }
 }
-
-#if SMEAR_AVX2
-static inline SMEAR_AVX2_FUNCTION void packed_add8(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn,
-                                                   lanes8 every)
-{
-    const lanes8 behind = lanes8_load(background);
-    lanes8 c = lanes8_load(color);
-    const lanes8 counts = ~(lanes8)(c == behind) | every;
-    lanes8_store(color, behind);
-    c &= counts;
-    lanes8_store(rb, lanes8_load(rb) + (c & 0xff00ffu));
-    lanes8_store(gn, lanes8_load(gn) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
-}
-
-/* Eight pixels from column i on of a box's row. */
-SMEAR_AVX2_INLINE void packed_box8(const struct packed_box *row, int32_t i)
-{
-    const __m256i green = _mm256_setr_epi8(1, -1, -1, -1, 5, -1, -1, -1, 9, -1, -1, -1, 13, -1, -1, -1,
-                                           1, -1, -1, -1, 5, -1, -1, -1, 9, -1, -1, -1, 13, -1, -1, -1);
-    uint32_t *const color = row->color + i, *const rb = row->sums.rb + i, *const gn = row->sums.gn + i;
-    const lanes8 behind = lanes8_load(row->background + i), pixel = lanes8_load(color);
-    const lanes8 differs = ~(lanes8)(pixel == behind), seen = pixel & differs, added = differs & lanes8_word(LANES8_65536);
-    lanes8_store(color, behind);
-    lanes8_store(rb, lanes8_load(rb) + (seen & lanes8_word(LANES8_RED_BLUE)));
-    lanes8_store(gn, lanes8_load(gn) + (added | (lanes8)_mm256_shuffle_epi8((__m256i)seen, green)));
-    _mm_storeu_si128((__m128i *)(void *)(row->depth + i), _mm_loadu_si128((const __m128i *)(const void *)(row->deep + i)));
-}
-
-/* The last eight may be some again: they look like the background by then. */
-SMEAR_AVX2_FUNCTION void smear_packed_box_avx2(const struct packed_box *b)
-{
-    struct packed_box row = *b;
-    const int32_t n = b->n, pitch = b->pitch, pitch_behind = b->pitch_behind;
-    for (int32_t y = b->rows; y > 0; y--) {
-        int32_t i = 0;
-        for (; i + 8 <= n; i += 8)
-            packed_box8(&row, i);
-        if (i < n)
-            packed_box8(&row, n - 8);
-        row.color += pitch;
-        row.depth += pitch;
-        row.sums.rb += pitch;
-        row.sums.gn += pitch;
-        row.background += pitch_behind;
-        row.deep += pitch_behind;
-    }
-}
-
-/* Half the instructions of add_vector. */
-static SMEAR_AVX2_FUNCTION void packed_add_avx2(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn,
-                                                int32_t n, bool all)
-{
-    const lanes8 every = lanes8_all(0u - all);
-    int32_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        packed_add8(color + i, background + i, rb + i, gn + i, every);
-    if (i < n && n >= 8 && !all)
-        packed_add8(color + n - 8, background + n - 8, rb + n - 8, gn + n - 8, every);
-    else if (i < n)
-        add_vector(color + i, background + i, rb + i, gn + i, n - i, all);
-}
-#endif
 
 #elif PACKED_ASM_ARMV6M
 /* clang-format off */
@@ -242,12 +180,6 @@ static void add_arm(uint32_t *color, const uint32_t *background, struct packed_s
 
 void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        packed_add_avx2(color, background, sums.rb, sums.gn, n, all);
-        return;
-    }
-#endif
 #if SMEAR_VECTORS
     add_vector(color, background, sums.rb, sums.gn, n, all);
 #else

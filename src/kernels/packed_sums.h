@@ -7,7 +7,7 @@
 #ifndef SMEAR_KERNELS_PACKED_SUMS_H
 #define SMEAR_KERNELS_PACKED_SUMS_H
 
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/kernels.h"
 
 enum { PACKED_INSTANTS_MAX = 256 };
@@ -81,30 +81,6 @@ static inline struct packed_sums packed_sums_from(struct packed_sums s, int32_t 
  * and `background` do not overlap; their upper eight bits are 0. */
 void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
 void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
-
-/* Rows of n > 0 pixels: so far from one to the next are color, depth and sums, and what is behind them. */
-struct packed_box {
-    uint32_t *color;
-    const uint32_t *background;
-    uint16_t *depth;
-    const uint16_t *deep;
-    struct packed_sums sums;
-    int32_t pitch, pitch_behind, rows, n;
-};
-
-/* Does what smear_packed_add does to pixels that differ from the background, and makes depths those behind. */
-static inline void packed_box_reference(const struct packed_box *b)
-{
-    for (int32_t y = 0, at = 0, behind = 0; y < b->rows; y++, at += b->pitch, behind += b->pitch_behind) {
-        smear_packed_add_reference(b->color + at, b->background + behind, packed_sums_from(b->sums, at), b->n, false);
-        __builtin_memcpy(b->depth + at, b->deep + behind, (size_t)b->n * sizeof *b->depth);
-    }
-}
-
-#if SMEAR_AVX2
-/* The same where n is eight at least. */
-void smear_packed_box_avx2(const struct packed_box *b);
-#endif
 
 /* The assembly needs Thumb's high registers, which GCC keeps to itself where size counts. */
 #ifdef __OPTIMIZE_SIZE__

@@ -7,7 +7,7 @@
 #define SMEAR_KERNELS_PIXEL_ROWS_H
 
 #include "base/pixel.h"
-#include "kernels/avx2.h"
+#include "kernels/vector.h"
 #include "kernels/late_blocks.h"
 
 /* ------------------------------------------------------------------ levels */
@@ -56,12 +56,6 @@ static inline void row_xrgb8888_vector(uint32_t *out, const uint32_t *in, int32_
 }
 #endif
 
-#if SMEAR_AVX2
-/* Stores rows of n >= 0 pixels, strides in pixels: a tile's rows are too short for a call each. */
-void smear_rows_xrgb8888_avx2(uint32_t *out, ptrdiff_t out_stride, const uint32_t *in, ptrdiff_t in_stride, int32_t rows,
-                              int32_t n);
-#endif
-
 static inline void row_xrgb8888(uint32_t *out, const uint32_t *in, int32_t n)
 {
 #if SMEAR_VECTORS
@@ -106,19 +100,9 @@ void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, en
 /* Stores eight pixels a round. */
 void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
 #endif
-#if SMEAR_AVX2
-/* Stores sixteen pixels a round, in two fifths of the instructions. */
-void smear_row_nearest_avx2(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
-#endif
 
 static inline void row_nearest(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        smear_row_nearest_avx2(out, in, n, format);
-        return;
-    }
-#endif
 #ifdef __OPTIMIZE_SIZE__
     row_nearest_reference(out, in, n, format);
 #elif SMEAR_VECTORS
@@ -179,21 +163,10 @@ void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit fo
 void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                int32_t mask, enum row_16bit format);
 #endif
-#if SMEAR_AVX2
-/* Stores sixteen pixels a round; mask is 7, with thresholds of the form 4 k + 2, or 31, with any. */
-void smear_rows_dithered_avx2(const struct dithered_rows *r, enum row_16bit format);
-#endif
 
 static inline void row_dithered(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                 int32_t mask, enum row_16bit format)
 {
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        const struct dithered_rows row = { out, in, 0, 0, 1, n, x, 0, threshold, mask };
-        smear_rows_dithered_avx2(&row, format);
-        return;
-    }
-#endif
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     smear_row_dithered_vector(out, in, n, x, threshold, mask, format);
 #else

@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_SHADE_RUN_H
 
 #include "base/pixel.h"
-#include "kernels/avx2.h"
 #include "kernels/kernels.h"
 
 /* Red, green and blue, q16 (codes, or linear light >> 8), and their steps. */
@@ -112,46 +111,6 @@ static inline void shade_run_armv6m(uint32_t *pixels, uint16_t *depth, int32_t n
                      :
                      : "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
-#endif
-
-/* A box of SHADE_BOX columns: places of its first pixel, where depth codes 16.16, colours and three edge functions are z, k->c
- * and e; their steps to the right and down. */
-enum { SHADE_BOX = 8 };
-struct shade_box {
-    void *pixels;
-    uint16_t *depth;
-    int32_t stride, rows;           /* pixels from row to row; how many rows */
-    uint32_t z, dz, dz_down;
-    struct shade k;
-    uint32_t k_down[3];
-    int32_t e[3], e_right[3], e_down[3];
-    bool linear, narrow;
-};
-
-/* Draws those where no edge function is negative, like shade_run. */
-static inline void shade_box_reference(const struct shade_box *b)
-{
-    for (int32_t i = 0; i < b->rows * SHADE_BOX; i++) {
-        const uint32_t x = (uint32_t)i % SHADE_BOX, y = (uint32_t)i / SHADE_BOX;
-        const int32_t at = (int32_t)y * b->stride + (int32_t)x;
-        struct shade k = b->k;
-        uint32_t e = 0;
-        for (int j = 0; j < 3; j++) {
-            k.c[j] += k.d[j] * x + b->k_down[j] * y;
-            e |= (uint32_t)b->e[j] + (uint32_t)b->e_right[j] * x + (uint32_t)b->e_down[j] * y;
-        }
-        if (e >> 31 == 0)
-            shade_run_reference(pixel_after(b->pixels, at, b->narrow), b->depth + at, 1, b->z + b->dz * x + b->dz_down * y, b->dz,
-                                &k, b->linear, b->narrow);
-    }
-}
-
-#if SMEAR_AVX2
-/* Draws n >= 4 wide pixels. */
-void smear_shade_run_avx2(uint32_t *color, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const struct shade *k, bool linear);
-
-/* Pixels beyond the edges may be written as they are. An eighth of the instructions of spans of a few pixels. */
-void smear_shade_box_avx2(const struct shade_box *b);
 #endif
 
 #endif

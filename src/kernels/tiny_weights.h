@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_TINY_WEIGHTS_H
 
 #include "base/fixmath.h"
-#include "kernels/lanes8.h"
 
 /* What turns edge functions into weights. */
 struct tiny_scale {
@@ -41,14 +40,6 @@ static inline uint32_t tiny_code(int32_t units)
     return units < 32768 << 11 ? (uint32_t)(units + 0x400) >> 11
                                : ((uint32_t)units + ((32768u - 2048u) << 15) + 0x4000u) >> 15;
 }
-
-#if SMEAR_AVX2
-SMEAR_AVX2_INLINE lanes8 tiny_code8(lanes8 units)
-{
-    const lanes8 far = (units + 0x400u) >> 11, near = (units + (((32768u - 2048u) << 15) + 0x4000u)) >> 15;
-    return lanes8_choose((lanes8i)units < 32768 << 11, far, near);
-}
-#endif
 
 /* Returns the nearest depth code (smear_depth_units) at weights w1 and w2, from units q11. */
 static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w1, uint32_t w2)

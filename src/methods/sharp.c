@@ -103,22 +103,10 @@ static void direct_job(void *argument, int job, int worker)
             smear_format_swap(t.direct + at, n);
 }
 
-/* Moves the list on, without what is kept of it if one worker has all. */
-static void advance_direct(struct smear_rows *rows, int row)
-{
-#if SMEAR_AVX2
-    if (rows->jobs.workers == 1) {
-        rows->opaque = smear_raster_advance(&rows->raster, &rows->cache, rows->bins.opaque_last, rows->opaque, row);
-        return;
-    }
-#endif
-    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-}
-
 static int draw_direct_row(struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
-    advance_direct(rows, row);
+    rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     struct row_job job = { .rows = rows, .row = row, .band = smear_band_begin(rows) };
     smear_jobs_run(&rows->jobs, direct_job, &job, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.raster, start);
@@ -221,9 +209,6 @@ int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool 
         if (SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row)) {
             result = draw_direct_row(rows, row);
         } else {
-#if SMEAR_AVX2
-            rows->opaque = smear_raster_rejoin(&rows->raster, &rows->cache, rows->opaque);
-#endif
             result = draw_window_row(rows, row);
         }
     }

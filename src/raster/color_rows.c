@@ -7,9 +7,7 @@
 #include "kernels/colors_over_w.h"
 #include "kernels/flat_run.h"
 #include "kernels/hidden_run.h"
-#include "kernels/shade_rows.h"
 #include "kernels/shade_run.h"
-#include "raster/lane_spans.h"
 #include "raster/texcoord.h"
 
 #if SMEAR_SPAN_ROWS && (SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG)
@@ -56,12 +54,6 @@ static void draw(const struct setup *s, const struct row_run *p, int32_t at, int
                   shade_pixel(k->c[0], k->c[1], k->c[2], frame_is_linear(s->frame), target_is_direct(t)));
         return;
     }
-#if SMEAR_AVX2
-    if (!target_is_direct(t) && b - a >= 4 && smear_has_avx2()) {
-        smear_shade_run_avx2(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k, frame_is_linear(s->frame));
-        return;
-    }
-#endif
     if (!target_is_direct(t) && !frame_is_linear(s->frame))
         shade_codes(t->color + (at + a), t->depth + (at + a), b - a, z, p->dz, k);
     else
@@ -149,46 +141,8 @@ static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32
     draw(s, p, at, p->a, p->b, &k);
 }
 
-#if SMEAR_AVX2
-/* All rows together. */
-static SMEAR_NOINLINE void draw_lanes(const struct setup *s, const struct span_rows *r)
-{
-    const struct smear_raster_target *const t = s->target;
-    const bool narrow = target_is_direct(t);
-    struct shade_rows k = { narrow ? (void *)(t->direct + r->at) : t->color + r->at, t->depth + r->at, t->window_rows.stride,
-                            t->x0, t->x1, { .block = s->perspective_color ? s->color_block : 0, .q = plane_from(&s->depth, r->y) },
-                            frame_is_linear(s->frame), narrow };
-    struct texel_spans spans;
-    for (int i = 0; i < 3; i++)
-        k.light.c[i] = plane_from(&s->channel[i], r->y);
-    if (rows_are_plain(s)) {
-        spans_of_rows(&spans, s, r);
-        smear_shade_rows_avx2(&k, &spans);
-        return;
-    }
-    spans.count = 0;
-    for (int32_t row = 0; row < r->count; row++) {
-        struct row_run p = { 0, r->side[row].left, 0, 0 };
-        while (p.b < r->side[row].right && smear_row_run_next(&p, s, r, row, p.b)) {
-            if (spans.count == TEXEL_SPANS) {
-                smear_shade_rows_avx2(&k, &spans);
-                spans.count = 0;
-            }
-            spans_add(&spans, r, row, &p);
-        }
-    }
-    smear_shade_rows_avx2(&k, &spans);
-}
-#endif
-
 void smear_rows_shade(const struct setup *s, const struct span_rows *r)
 {
-#if SMEAR_AVX2
-    if (fog_of(s) == FOG_NONE && s->target->x1 - s->target->x0 >= SHADE_ROWS_LEAST && smear_has_avx2()) {
-        draw_lanes(s, r);
-        return;
-    }
-#endif
     const bool whole = rows_are_whole(s, r);
     int32_t at = r->at;
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {

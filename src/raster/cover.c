@@ -9,10 +9,7 @@
 
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
-#include "kernels/flat_face.h"
 #include "kernels/flat_rows_armv6m.h"
-#include "kernels/row_sides.h"
-#include "kernels/shade_run.h"
 #include "raster/cover_tiny.h"
 #include "raster/flat_list.h"
 #include "raster/span.h"
@@ -252,64 +249,10 @@ static inline void gather_draw(struct gather *g, const struct setup *s, smear_ro
         g->ring_row = 0;
 }
 
-#if SMEAR_AVX2
-SMEAR_STATIC_ASSERT(SPAN_ROWS % 8 == 0 && (int)SPAN_ROWS <= (int)ROW_SIDES, "sides are found by eights");
-
-/* Rows [c->first, c->end) whose sides a kernel finds, of both parts at once. */
-SMEAR_INLINE void cover_rows_between(const struct setup *s, const struct corners *c, smear_rows_fn *draw, bool cut)
-{
-    const struct smear_raster_target *t = s->target;
-    struct gather g;
-    gather_start(&g, s, c->first);
-    g.rows.cut = cut;
-    while (g.rows.y < c->end) {
-        const int32_t n = min_i32(min_i32(c->end - g.rows.y, SPAN_ROWS), t->window_rows.ring - g.ring_row);
-        smear_row_sides_avx2(g.rows.side, c, g.rows.y, n, s->frame->width);
-        g.rows.count = n;
-        g.ring_row += n;
-        gather_draw(&g, s, draw);
-    }
-}
-
-static SMEAR_NOINLINE void cover_rows_lanes(const struct setup *s, smear_rows_fn *draw, bool cut)
-{
-    struct corners c;
-    corners_find(&c, s->v, s->target->y0, s->target->y1);
-    cover_rows_between(s, &c, draw, cut);
-}
-
-int smear_cover_order(const struct setup *s) { return corners_order(s->v); }
-
-void smear_cover_on(const struct setup *s, int order, int32_t bottom, bool cut)
-{
-    const struct smear_raster_target *t = s->target;
-    const struct smear_plane_rows *w = &t->window_rows;
-    struct corners c;
-    corners_ordered(&c, s->v, order, t->y0, bottom);
-    if (bottom - t->y0 > SPAN_ROWS || w->ring_row + (bottom - t->y0) > w->ring) {
-        cover_rows_between(s, &c, s->rows, cut);
-        return;
-    }
-    struct span_rows r;
-    r.y = t->y0;
-    r.count = bottom - t->y0;
-    r.cut = cut;
-    r.at = w->ring_row * w->stride - w->x0;
-    smear_row_sides_avx2(r.side, &c, r.y, r.count, s->frame->width);
-    s->rows(s, &r);
-}
-#endif
-
 static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
 {
     struct sides d;
     struct gather g;
-#if SMEAR_AVX2
-    if (smear_has_avx2()) {
-        cover_rows_lanes(s, draw, cut);
-        return;
-    }
-#endif
     if (!sides_start(&d, s))
         return;
     gather_start(&g, s, d.y);
@@ -469,49 +412,6 @@ static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
 }
 #endif
 
-#if SMEAR_AVX2
-/* The same rows by vectors, whatever cuts them off: those of one stretch of the ring after the other. */
-static SMEAR_NOINLINE void cover_flat_lanes(const struct setup *s, const struct pixel_box *box)
-{
-    const struct smear_raster_target *t = s->target;
-    const struct smear_plane_rows *w = &t->window_rows;
-    const bool breaks = s->slope == SLOPE_BOTH;
-    struct flat_area a = { .stride = w->stride, .x0 = t->x0, .x1 = t->x1, .narrow = target_is_direct(t) };
-    struct flat_face f = { .corner = { s->v[0], s->v[1], s->v[2] }, .color = target_pixel(t, s->color), .breaks = breaks };
-    f.dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope));
-    f.dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope));
-    int32_t ring_row = w->ring_row + (box->top - t->y0);
-    if (ring_row >= w->ring)
-        ring_row -= w->ring;
-    for (a.y0 = box->top; a.y0 < box->bottom; a.y0 = a.y1) {
-        const int32_t at = ring_row * w->stride - w->x0;
-        a.y1 = min_i32(a.y0 + min_i32(w->ring - ring_row, FLAT_FACE_ROWS), box->bottom);
-        a.pixels = a.narrow ? (void *)(t->direct + at) : t->color + at;
-        a.depth = t->depth + at;
-        const int32_t units = plane_at(&s->depth, 0, a.y0);
-        f.z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope);
-        smear_flat_face_avx2(&a, &f);
-        ring_row += a.y1 - a.y0;
-        if (ring_row == w->ring)
-            ring_row = 0;
-    }
-}
-
-void smear_cover_carry(const struct setup *s, struct flat_carried *f, int32_t y)
-{
-    const struct smear_raster_target *t = s->target;
-    const bool breaks = s->slope == SLOPE_BOTH;
-    smear_flat_carry_avx2(f, s->v, y);
-    const int32_t units = plane_at(&s->depth, 0, y);
-    f->z = breaks ? (uint32_t)units - FLAT_BREAK : code_from_units(units, s->slope);
-    f->dz = (uint32_t)(breaks ? s->depth.dx : step_from_units(s->depth.dx, s->slope));
-    f->dz_down = (uint32_t)(breaks ? s->depth.dy : step_from_units(s->depth.dy, s->slope));
-    f->color = target_pixel(t, s->color);
-    f->breaks = breaks;
-}
-
-#endif
-
 #if FLAT_ROWS
 /* The same rows by a kernel, whatever cuts them off. */
 static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
@@ -553,12 +453,6 @@ static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
     smear_flat_cover(s);
 #else
     const struct smear_raster_target *t = s->target;
-#if SMEAR_AVX2
-    if (t->x1 - t->x0 >= FLAT_FACE_LEAST && smear_has_avx2()) {
-        cover_flat_lanes(s, box);
-        return;
-    }
-#endif
     if (s->slope == SLOPE_BOTH) {
         cover_flat_break(s);
         return;
@@ -613,47 +507,12 @@ static void cover_small(const struct setup *s, const struct pixel_box *box, smea
     }
 }
 
-#if SMEAR_AVX2 && SMEAR_WITH_GOURAUD
-/* Draws one with colours of vertices by a kernel; false where that does not do. The kernel's columns begin where all of them lie
- * in the target: those beside the box have no covered centres. */
-static bool cover_small_shaded(const struct setup *s, const struct pixel_box *box)
-{
-    const struct smear_raster_target *t = s->target;
-    const int32_t rows = box->bottom - box->top, ring_row = t->window_rows.ring_row + (box->top - t->y0);
-    if (s->flat || !segment_gouraud(s->segment) || segment_textured(s->segment) || s->perspective_color || s->slope == SLOPE_BOTH
-        || s->writes_velocity || !draw_is_opaque(s->draw) || fog_of(s) != FOG_NONE || t->x1 - t->x0 < SHADE_BOX
-        || ring_row + rows > t->window_rows.ring || !smear_has_avx2())
-        return false;
-    const int32_t x = min_i32(max_i32(box->left, t->x0), t->x1 - SHADE_BOX), y = box->top;
-    const int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0;
-    struct tiny_edges e;
-    edges_start(&e, s, s->x1 * s->y2 - s->x2 * s->y1, x, y);
-    struct shade_box b = {
-        .pixels = target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, .depth = t->depth + at,
-        .stride = t->window_rows.stride, .rows = rows, .z = code_from_units(plane_at(&s->depth, x, y), s->slope),
-        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope), .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
-        .e = { e.e0, e.e1, e.e2 }, .e_right = { e.right0, e.right1, e.right2 }, .e_down = { e.down0, e.down1, e.down2 },
-        .linear = frame_is_linear(s->frame), .narrow = target_is_direct(t)
-    };
-    for (int i = 0; i < 3; i++) {
-        b.k.c[i] = (uint32_t)plane_at(&s->channel[i], x, y);
-        b.k.d[i] = (uint32_t)s->channel[i].dx;
-        b.k_down[i] = (uint32_t)s->channel[i].dy;
-    }
-    smear_shade_box_avx2(&b);
-    return true;
-}
-#endif
-
 /* ------------------------------------------------------------------ any triangle */
 
 #if SMEAR_SPAN_ROWS
-/* Whether even small triangles without a texture are drawn in rows. */
-static inline bool has_blend_rows(const struct setup *s) { return SMEAR_BLEND_ROWS && draw_is_blended(s->draw); }
-
 void smear_cover_choose(struct setup *s, bool small)
 {
-    s->rows = s->flat || (small && !segment_textured(s->segment) && !has_blend_rows(s)) ? NULL : smear_rows_choose(s);
+    s->rows = s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
 }
 #endif
 
@@ -664,15 +523,6 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         cover_flat_rows(s, box);
         return;
     }
-#if SMEAR_AVX2
-    if (setup_writes_velocity(s) && smear_rows_motion_suit(s)) {
-        if (small)
-            cover_small_rows(s, box, smear_rows_motion);
-        else
-            cover_rows(s, smear_rows_motion, true);
-        return;
-    }
-#endif
     if (s->rows != NULL && small) {
         cover_small_rows(s, box, s->rows);
         return;
@@ -681,10 +531,6 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         cover_rows(s, s->rows, max_i32(box->left, 0) < s->target->x0 || min_i32(box->right, s->frame->width) > s->target->x1);
         return;
     }
-#endif
-#if SMEAR_AVX2 && SMEAR_WITH_GOURAUD
-    if (small && cover_small_shaded(s, box))
-        return;
 #endif
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))

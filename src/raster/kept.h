@@ -5,48 +5,13 @@
 #ifndef SMEAR_RASTER_KEPT_H
 #define SMEAR_RASTER_KEPT_H
 
-#include "kernels/flat_face.h"
 #include "raster/flat_list.h"
-#include "raster/lane_carried.h"
-
-/* They are a list where vectors draw (kept_list.h); else a table, which takes less code. */
-#define SMEAR_KEPT_LISTS SMEAR_AVX2
 
 /* Before the words of a setup. In memory of its own, between the pool's vertices and triangles (draws.c). */
 struct kept {
     uint32_t triangle;
-#if SMEAR_KEPT_LISTS
-    int16_t end;                /* row of the frame behind its last one */
-    uint16_t next;              /* in the list; 0: none */
-    uint8_t kind;               /* kept_kind */
-    uint8_t order;              /* of corners: corners_order() */
-    bool cut;                   /* the target's columns may cut its rows off */
-#else
     int32_t end;                /* row of the frame behind its last one */
-#endif
 };
-
-#if SMEAR_KEPT_LISTS
-enum kept_kind {
-    KEPT_SETUP,
-    KEPT_ROWS,                  /* a setup of which nothing but rows is drawn, by its `rows` */
-    KEPT_FACE,                  /* in place of a setup, sides of one colour */
-    KEPT_CURVES, KEPT_PLACES    /* or what copied texels need, by these */
-};
-
-struct kept_face {
-    struct kept kept;
-    struct flat_carried face;
-};
-
-#if SMEAR_LANE_ROWS
-struct kept_texels {
-    struct kept kept;
-    uint16_t draw;              /* whose texture it is: a number in the frame's raster draws */
-    struct texel_carried texels;
-};
-#endif
-#endif
 
 /* Of triangles of one colour that assembly draws in all of a row, the lines that it goes on from are kept. */
 #define SMEAR_FLAT_KEPT (SMEAR_RASTER_CACHE && SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES)
@@ -80,13 +45,6 @@ static inline size_t kept_bytes(const struct smear_segment *s)
 #if SMEAR_FLAT_KEPT
     if (bytes < sizeof(struct kept_flat))
         bytes = sizeof(struct kept_flat);
-#endif
-#if SMEAR_KEPT_LISTS
-    bytes = ((bytes > sizeof(struct kept_face) ? bytes : sizeof(struct kept_face)) + 7) & ~(size_t)7;
-#if SMEAR_LANE_ROWS
-    if (segment_textured(s) && s->shade == SHADE_NONE && bytes < sizeof(struct kept_texels))
-        bytes = sizeof(struct kept_texels);
-#endif
 #endif
     return bytes;
 }
@@ -149,11 +107,7 @@ SMEAR_INLINE void kept_copy(struct setup *s, uint32_t *kept, bool back)
 static inline void kept_keep(struct kept *k, struct setup *s, uint32_t triangle, int32_t end)
 {
     k->triangle = triangle;
-#if SMEAR_KEPT_LISTS
-    k->end = (int16_t)end;
-#else
     k->end = end;
-#endif
     kept_copy(s, kept_setup(k), false);
 }
 

@@ -1,30 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* kept_found.h - what is kept of a triangle: in the list (kept_list.h), or looked up by its number, which takes less code. */
+/* kept_found.h - what is kept of a triangle: looked up by its number. */
 #ifndef SMEAR_RASTER_KEPT_FOUND_H
 #define SMEAR_RASTER_KEPT_FOUND_H
 
-#include "raster/kept_list.h"
+#include "raster/kept.h"
 
-#if SMEAR_KEPT_LISTS
-/* What is kept of a triangle that continues rows above the target's or goes on below them; null for others, and where there is
- * nothing. */
-static inline struct kept *find_kept(const struct smear_raster_target *target, uint32_t triangle, bool continues, bool goes_on,
-                                     bool *known)
-{
-    struct kept *const k = target->cache.entries != 0 && (continues || goes_on) ? kept_find(&target->cache, triangle) : NULL;
-    *known = k != NULL;
-    return k;
-}
-
-/* It has been taken. */
-static inline void leave_kept(const struct smear_raster_target *target, struct kept *k, bool goes_on)
-{
-    if (goes_on)
-        kept_pass(&target->cache, k);
-    else
-        kept_drop(&target->cache);
-}
-#else
 enum { PROBES = 16 };
 
 /* Whether an entry keeps nothing that rows from the target's on need. */
@@ -61,12 +41,10 @@ static inline struct kept *find_kept(const struct smear_raster_target *target, u
 }
 
 /* It has been taken. */
-static inline void leave_kept(const struct smear_raster_target *target, struct kept *k, bool goes_on)
+static inline void leave_kept(struct kept *k, bool goes_on)
 {
-    (void)target;
     if (!goes_on)
         k->triangle = SMEAR_NO_TRIANGLE;
 }
-#endif
 
 #endif

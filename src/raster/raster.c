@@ -4,7 +4,7 @@
 #include "raster/raster.h"
 
 #include "raster/cover_texels.h"
-#include "raster/cover_tiny8.h"
+#include "raster/cover_tiny.h"
 #include "raster/flat_list.h"
 #include "raster/fog.h"
 #include "raster/front_order.h"
@@ -19,29 +19,6 @@ static inline bool has_levels(const struct setup *s)
 {
     return SMEAR_WITH_TEXTURE && SMEAR_WITH_BOUNDS && segment_textured(s->segment) && s->draw->sampler.levels != 0;
 }
-
-#if SMEAR_KEPT_LISTS
-/* Whether the target's columns may cut a triangle's rows off. */
-static inline bool box_is_cut(const struct setup *s, const struct pixel_box *box)
-{
-    return max_i32(box->left, 0) < s->target->x0 || min_i32(box->right, s->frame->width) > s->target->x1;
-}
-
-/* Keeps a setup; again, where something is kept. */
-static inline void keep_setup(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
-{
-    const struct smear_raster_target *target = s->target;
-    if (k == NULL)
-        k = kept_add(&target->cache, triangle);
-    if (k == NULL)
-        return;
-    const bool rows = s->rows != NULL && !small && !target_has_velocity(target);
-    k->kind = rows ? KEPT_ROWS : KEPT_SETUP;
-    k->order = rows ? (uint8_t)smear_cover_order(s) : 0;
-    k->cut = box_is_cut(s, box);
-    kept_keep(k, s, triangle, end);
-}
-#endif
 
 static inline struct bounds bounds_of(const int32_t *const v[3])
 {
@@ -103,143 +80,6 @@ SMEAR_INLINE bool draw_tiny(const struct setup *s, uint64_t area, int32_t pixels
     return cover_has_texels(s, pixels) && smear_cover_texels(s, (int32_t)area, box);
 }
 
-#if SMEAR_KEPT_LISTS
-/* Draws rows [y, end) of a triangle of which sides are kept. */
-static SMEAR_NOINLINE void draw_face_parts(const struct kept_list *l, const struct flat_carried *face, int32_t y, int32_t end)
-{
-    struct flat_area area = l->area;
-    for (int32_t stop; y < end; y = stop) {
-        stop = min_i32(y + FLAT_FACE_ROWS, y < l->turn ? min_i32(l->turn, end) : end);
-        if (y >= l->turn) {
-            area.pixels = pixel_after(l->area.pixels, -l->back, area.narrow);
-            area.depth = l->area.depth - l->back;
-        }
-        smear_flat_carried_avx2(&area, face, y, stop);
-    }
-}
-
-static inline void draw_face(const struct kept_list *l, const struct flat_carried *face, int32_t y, int32_t end)
-{
-    if (end <= l->turn && end - y <= FLAT_FACE_ROWS)
-        smear_flat_carried_avx2(&l->area, face, y, end);
-    else
-        draw_face_parts(l, face, y, end);
-}
-
-static inline void draw_kept_face(const struct smear_raster_target *target, struct kept *k)
-{
-    leave_kept(target, k, k->end > target->y1);
-    draw_face(kept_list_of(&target->cache), &((const struct kept_face *)(void *)k)->face, target->y0, min_i32(k->end, target->y1));
-}
-
-#if SMEAR_LANE_ROWS
-static SMEAR_NOINLINE void draw_texels(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                       struct kept_texels *k, int32_t y, int32_t end)
-{
-    const struct smear_sampler *const m = &frame->draw[k->draw].sampler;
-    if (k->kept.kind == KEPT_CURVES)
-        smear_lane_curves_on(&k->texels, target, m, y, end, frame->width);
-    else
-        smear_lane_places_on(&k->texels, target, m, y, end, frame->width);
-}
-#endif
-
-/* Draws the next rows of a triangle where more than its setup is kept. */
-SMEAR_INLINE bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct kept *k)
-{
-    if (k->kind == KEPT_FACE) {
-        draw_kept_face(target, k);
-        return true;
-    }
-#if SMEAR_LANE_ROWS
-    if (k->kind >= KEPT_CURVES) {
-        leave_kept(target, k, k->end > target->y1);
-        draw_texels(frame, target, (struct kept_texels *)(void *)k, target->y0, min_i32(k->end, target->y1));
-        return true;
-    }
-#else
-    (void)frame;
-#endif
-    return false;
-}
-
-/* Draws a large triangle of one colour, of which sides are kept. False where it is none, or there is no room. */
-static inline bool keep_face(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
-{
-    const struct smear_raster_target *t = s->target;
-    if (!s->flat || target_has_velocity(t) || t->x1 - t->x0 < FLAT_FACE_LEAST || !smear_has_avx2())
-        return false;
-    struct kept_face *const k = (struct kept_face *)(void *)kept_add(&t->cache, triangle);
-    if (k == NULL)
-        return false;
-    k->kept.kind = KEPT_FACE;
-    k->kept.end = (int16_t)end;
-    smear_cover_carry(s, &k->face, box->top);
-    draw_face(kept_list_of(&t->cache), &k->face, box->top, box->bottom);
-    return true;
-}
-
-/* Draws a large triangle of copied texels likewise. */
-static SMEAR_NOINLINE bool keep_texels(const struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end)
-{
-#if SMEAR_LANE_ROWS
-    const struct smear_raster_target *t = s->target;
-    const bool shrunk = s->draw != &s->frame->draw[s->segment->draw];       /* a sampler is not kept */
-    if (s->rows == NULL || shrunk || target_has_velocity(t) || !smear_lane_carries(s, box_is_cut(s, box)))
-        return false;
-    struct kept_texels *const k = (struct kept_texels *)(void *)kept_add(&t->cache, triangle);
-    if (k == NULL)
-        return false;
-    k->kept.kind = smear_lane_carry(&k->texels, s, box->top) ? KEPT_CURVES : KEPT_PLACES;
-    k->kept.end = (int16_t)end;
-    k->draw = s->segment->draw;
-    draw_texels(s->frame, t, k, box->top, box->bottom);
-    return true;
-#else
-    (void)s;
-    (void)triangle;
-    (void)box;
-    (void)end;
-    return false;
-#endif
-}
-
-/* Keeps a triangle that goes on; its setup again, where that is kept. True where it has been drawn. */
-static SMEAR_NOINLINE bool keep(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
-{
-    if (k == NULL && !small && (keep_face(s, triangle, box, end) || keep_texels(s, triangle, box, end)))
-        return true;
-    keep_setup(k, s, triangle, box, end, small);
-    return false;
-}
-#else
-static inline bool draw_carried(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct kept *k)
-{
-    (void)frame;
-    (void)target;
-    (void)k;
-    return false;
-}
-
-static inline bool keep(struct kept *k, struct setup *s, uint32_t triangle, const struct pixel_box *box, int32_t end, bool small)
-{
-    (void)box;
-    (void)small;
-    if (k != NULL)
-        kept_keep(k, s, triangle, end);
-    return false;
-}
-#endif
-
-/* What is not kept of a setup, but found again. */
-SMEAR_INLINE void complete_kept(struct setup *s, struct smear_raster_draw *smaller, bool small)
-{
-    if (has_levels(s))
-        smear_setup_shrink(s, smaller);
-    if (cover_is_narrow(s->target))
-        smear_cover_choose(s, small);
-}
-
 /* Draws a triangle with these vertices, and this box of them where it is given. `triangle` is its number in the list's
  * geometry, or none. */
 SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -261,8 +101,6 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
 
     bool known;
     struct kept *const kept = find_kept(target, triangle, continues, goes_on, &known);
-    if (known && draw_carried(frame, target, kept))
-        return;
     struct setup s;
     struct smear_raster_draw smaller;
     start(&s, frame, target, segment, color, v);
@@ -270,7 +108,7 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
     SMEAR_ASSERT((int64_t)area > 0);
     if (known) {
         kept_take(kept, &s);
-        leave_kept(target, kept, goes_on);
+        leave_kept(kept, goes_on);
     } else {
         s.bounds = bounds;
         start_fog(&s, in_fog);
@@ -284,12 +122,12 @@ SMEAR_INLINE void draw_any(const struct smear_raster_frame *frame, const struct 
         if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
             smear_setup(&s, area);
         smear_cover_choose(&s, small);
-    } else {
-        complete_kept(&s, &smaller, small);
+    } else if (has_levels(&s)) {
+        smear_setup_shrink(&s, &smaller);
     }
     const bool is_new = make_velocity(&s) || !known;
-    if (is_new && (SMEAR_KEPT_LISTS || kept != NULL) && goes_on && keep(kept, &s, triangle, &box, bottom, small))
-        return;
+    if (is_new && kept != NULL && goes_on)
+        kept_keep(kept, &s, triangle, bottom);
     smear_cover(&s, &box, small);
 }
 
@@ -352,154 +190,6 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
         draw_entry(frame, target, t, number, &moved, in_fog);
     }
 }
-
-#if SMEAR_AVX2
-/* Copies up to eight triangles of one segment, from `head` on, but for points and what is kept. Returns how many. */
-static inline int take_tiny8(const struct smear_bins *bins, const struct smear_raster_cache *cache, uint32_t head,
-                             uint16_t vertex[8][4], uint32_t color[8])
-{
-    const uint16_t segment = bins_triangle(bins, head)->segment;
-    const struct kept_list *const list = kept_list_seen(cache);
-    uint32_t kept = list->apart ? SMEAR_NO_TRIANGLE : list->triangle;
-    uint16_t entry = kept != SMEAR_NO_TRIANGLE ? *list->link : 0;
-    int n = 0;
-    do {
-        const uint32_t number = head;
-        const struct smear_triangle *t = bins_triangle(bins, head);
-        head = t->next;
-        if (t->segment == SMEAR_POINT)
-            continue;
-        while (kept < number) {
-            entry = kept_at(cache, entry)->next;
-            kept = kept_triangle(cache, entry);
-        }
-        if (kept == number && kept_goes_on(list, kept_at(cache, entry)))
-            continue;
-        if (t->segment != segment)
-            break;
-        __builtin_memcpy(vertex[n], t->vertex, 4 * sizeof(uint16_t));
-        color[n++] = t->color;
-    } while (n < 8 && head != SMEAR_NO_TRIANGLE);
-    for (int k = n; k < 8; k++) {
-        __builtin_memcpy(vertex[k], vertex[0], sizeof vertex[0]);
-        color[k] = color[0];
-    }
-    return n;
-}
-
-/* Draws the next rows of a triangle whose setup is kept. */
-static SMEAR_NOINLINE void draw_kept_setup(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                                           struct kept *k, bool *moved)
-{
-    const struct smear_triangle *const t = bins_triangle(frame->bins, k->triangle);
-    const struct smear_segment *segment = &frame->bins->segment[t->segment];
-    const int32_t *v[3];
-    for (int i = 0; i < 3; i++)
-        v[i] = bins_vertex(frame->bins, segment, t->vertex[i]);
-    if (k->kind != KEPT_ROWS) {
-        draw_triangle(frame, target, segment, t->color, k->triangle, v, NULL, moved);
-        return;
-    }
-    struct setup s;
-    struct smear_raster_draw smaller;
-    start(&s, frame, target, segment, t->color, v);
-    kept_take(k, &s);
-    leave_kept(target, k, k->end > target->y1);
-    s.writes_velocity = false;
-    if (has_levels(&s))
-        smear_setup_shrink(&s, &smaller);
-    smear_cover_on(&s, k->order, min_i32(k->end, target->y1), k->cut);
-}
-
-/* Draws the next rows of what is kept of triangles up to this one. False if nothing is kept of this one. */
-static bool draw_kept_to(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t number, bool *moved)
-{
-    const struct kept_list *const list = kept_list_seen(&target->cache);
-    bool found = false;
-    while (list->triangle <= number) {
-        const bool is_last = list->triangle == number;
-        struct kept *const k = kept_at(&target->cache, *list->link);
-        if (!kept_goes_on(list, k)) {
-            kept_drop(&target->cache);
-            continue;
-        }
-        found = is_last;
-        if (!draw_carried(frame, target, k))
-            draw_kept_setup(frame, target, k, moved);
-    }
-    return found;
-}
-
-/* Draws up to eight triangles of one segment, the first of which is `head`, and points and kept ones among them. Returns what
- * follows. */
-static uint32_t draw_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
-                           const struct tiny8_look *look, bool *moved)
-{
-    struct tiny8_pixels pixels;
-    uint16_t vertex[8][4];
-    uint32_t color[8];
-    const int n = take_tiny8(frame->bins, &target->cache, head, vertex, color);
-    smear_tiny8_avx2(&pixels, look, (const uint16_t(*)[4])vertex, color);
-    const struct kept_list *const list = kept_list_seen(&target->cache);
-    int32_t start = 0;
-    for (int k = 0; k < n;) {
-        const uint32_t number = head;
-        const struct smear_triangle *t = bins_triangle(frame->bins, number);
-        head = t->next;
-        if (number >= list->triangle && draw_kept_to(frame, target, number, moved))
-            continue;
-        if (t->segment == SMEAR_POINT) {
-            draw_point(frame, target, t, *moved);
-            continue;
-        }
-        if ((pixels.taken >> k & 1u) != 0) {
-            tiny8_put(target, look, &pixels, start, pixels.end[k]);
-        } else {
-            const int32_t *v[3];
-            for (int i = 0; i < 3; i++)
-                v[i] = look->vertex + t->vertex[i];
-            draw_triangle(frame, target, &frame->bins->segment[t->segment], t->color, number, v, NULL, moved);
-        }
-        start = pixels.end[k++];
-    }
-    return head;
-}
-
-static void draw_list_tiny8(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
-{
-    const struct kept_list *const list = kept_list_seen(&target->cache);
-    bool moved = target->over, suits = false;
-    uint32_t segment = SMEAR_POINT;
-    struct tiny8_look look;
-    while (head != SMEAR_NO_TRIANGLE) {
-        const uint32_t number = head;
-        const struct smear_triangle *t = bins_triangle(frame->bins, number);
-        if (number >= list->triangle && draw_kept_to(frame, target, number, &moved)) {
-            head = t->next;
-            continue;
-        }
-        if (t->segment == SMEAR_POINT) {
-            draw_point(frame, target, t, moved);
-            head = t->next;
-            continue;
-        }
-        if (t->segment != segment) {
-            segment = t->segment;
-            suits = smear_raster_look(&look, frame, target, &frame->bins->segment[segment]);
-        }
-        if (suits) {
-            head = draw_tiny8(frame, target, head, &look, &moved);
-            continue;
-        }
-        const int32_t *v[3];
-        for (int i = 0; i < 3; i++)
-            v[i] = bins_vertex(frame->bins, &frame->bins->segment[segment], t->vertex[i]);
-        draw_triangle(frame, target, &frame->bins->segment[segment], t->color, number, v, NULL, &moved);
-        head = t->next;
-    }
-    draw_kept_to(frame, target, SMEAR_NO_TRIANGLE - 1, &moved);
-}
-#endif
 
 #if TINY_TRIANGLES
 /* Draws tiny triangles from a number on, if it is that of one: *head follows them. */
@@ -634,15 +324,6 @@ static SMEAR_NOINLINE void draw_from_front(const struct smear_raster_frame *fram
 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
-#if SMEAR_KEPT_LISTS
-    kept_list_begin(target);
-#endif
-#if SMEAR_AVX2
-    if (!frame_has_fog(frame) && (head != SMEAR_NO_TRIANGLE || kept_list_seen(&target->cache)->first != 0) && tiny8_suit(target)) {
-        draw_list_tiny8(frame, target, head);
-        return;
-    }
-#endif
 #if SMEAR_FRONT_ORDER
     const uint32_t ordered = smear_front_order(frame, target, head);
     if (ordered != 0) {
@@ -668,9 +349,6 @@ void smear_raster_numbers(const struct smear_raster_frame *frame, const struct s
 {
     const bool in_fog = HAS_LOOP_FOR_FOG && frame_has_fog(frame);
     bool moved = target->over;
-#if SMEAR_KEPT_LISTS
-    kept_list_begin(target);
-#endif
     for (uint32_t i = 0; i < count; i++)
         draw_entry(frame, target, bins_triangle(frame->bins, number[i]), number[i], &moved, in_fog);
 }

@@ -3,7 +3,6 @@
 #ifndef SMEAR_RASTER_H
 #define SMEAR_RASTER_H
 
-#include "kernels/tiny8.h"
 #include "raster/target.h"
 
 /* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
@@ -24,18 +23,5 @@ void smear_raster_numbers(const struct smear_raster_frame *frame, const struct s
 void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                            const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
                            const struct bounds *bounds);
-
-#if SMEAR_AVX2
-/* Moves a list on to a tile row like smear_bins_advance(), where targets are rows of the frame's finished pixels, drawn one after
- * the other with this cache (kept_list.c): triangles that are kept there may be taken out of the list, and are drawn with it all
- * the same. The other one puts them back, before other targets come. */
-uint32_t smear_raster_advance(const struct smear_raster_frame *frame, const struct smear_raster_cache *cache, const uint32_t *last,
-                              uint32_t head, int row);
-uint32_t smear_raster_rejoin(const struct smear_raster_frame *frame, const struct smear_raster_cache *cache, uint32_t head);
-
-/* Tells what triangles of a segment have in common, so that tiny ones are drawn eight at once; false where they are not. */
-bool smear_raster_look(struct tiny8_look *look, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                       const struct smear_segment *segment);
-#endif
 
 #endif

@@ -2,7 +2,7 @@
 /* raster_cache.c - memory for what is found out about a frame's triangles: setups of those that go on in the next rows, and orders
  * of lists. */
 #include "raster/front_order.h"
-#include "raster/kept_list.h"
+#include "raster/kept.h"
 #include "raster/raster.h"
 
 enum {
@@ -12,11 +12,7 @@ enum {
 
 static uint32_t entry_bytes_of(const struct smear_bins *bins)
 {
-#if SMEAR_KEPT_LISTS
-    uint32_t entry_bytes = sizeof(struct kept_face);
-#else
     uint32_t entry_bytes = sizeof(struct kept);
-#endif
     for (uint32_t i = 0; i < bins->segment_count; i++)
         entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
     return entry_bytes;
@@ -54,22 +50,10 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
 {
     const uint32_t entry_bytes = entry_bytes_of(bins);
-#if SMEAR_KEPT_LISTS
-    const size_t odd = (0u - (uintptr_t)memory) & 7u;       /* lists and sides have words of 64 bits */
-    memory = (uint8_t *)memory + odd;
-    bytes = bytes < odd ? 0 : bytes - odd;
-#endif
     const uint32_t entries = min_u32((uint32_t)(bytes / entry_bytes), ENTRIES_MAX) / (uint32_t)count;
     const struct smear_raster_cache cache = { memory, (uint16_t)entries, (uint16_t)entry_bytes };
-#if SMEAR_KEPT_LISTS
-    for (int i = 0; i < count && entries != 0; i++) {
-        const struct smear_raster_cache part = smear_raster_cache_of(&cache, i);
-        kept_list_clear(&part);
-    }
-#else
     for (uint32_t i = 0; i < entries * (uint32_t)count; i++)
         kept_at(&cache, i)->triangle = SMEAR_NO_TRIANGLE;
-#endif
     return cache;
 }
 

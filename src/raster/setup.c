@@ -435,13 +435,6 @@ static void setup_divided(struct setup *s, const struct corners *k)
     choose_blocks(t, ((uint64_t)worst << 4) * change, seen.width, change);
 }
 
-#if SMEAR_AVX2
-void smear_setup_blocks(struct texture_setup *t, uint32_t worst, int32_t width, uint32_t change)
-{
-    choose_blocks(t, ((uint64_t)worst << 4) * change, width, change);
-}
-#endif
-
 static SMEAR_NOINLINE void setup_texture(struct setup *s)
 {
     struct texture_setup *t = &s->texture;

@@ -10,7 +10,6 @@
 
 #include "base/fixmath.h"
 #include "base/tables.h"
-#include "kernels/avx2.h"
 
 struct plane {
     int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
@@ -226,12 +225,6 @@ static inline uint64_t setup_edges(struct setup *s)
 
 /* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */
 void smear_setup(struct setup *s, uint64_t area);
-
-#if SMEAR_AVX2
-/* Chooses the blocks of a divided texture: by the texels per pixel (q6) where they are most, by the pixels across of what is seen,
- * and by how much q changes over 16 pixels (q12) where it is least. */
-void smear_setup_blocks(struct texture_setup *t, uint32_t worst, int32_t width, uint32_t change);
-#endif
 
 /* Finds the level of a texture that has some: so many times smaller that there is still a texel for each pixel. Of the whole
  * triangle, so that it is the same in every tile row and band. Then smear_setup_shrink. */

@@ -6,8 +6,6 @@
 #include "raster/texcoord.h"
 #include "base/pixel.h"
 #include "kernels/flat_run.h"
-#include "kernels/linear_runs.h"
-#include "kernels/wrapped_run.h"
 
 /* Loops of their own for what is common. */
 #ifdef __OPTIMIZE_SIZE__
@@ -208,13 +206,6 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
         modulate_even(texel, c, n);
         return;
     }
-#if SMEAR_AVX2
-    if (linear) {
-        const struct light_ramp ramp = { { c[0], c[1], c[2], c[3] }, { d[0], d[1], d[2], d[3] } };
-        light_texels(texel, n, &ramp);
-        return;
-    }
-#endif
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;
@@ -275,24 +266,12 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
-#if SMEAR_AVX2
-    if (draw_is_blended(s->draw) && frame_is_linear(s->frame)) {
-        blend_linear(color, depth, in, n, z, (uint32_t)dz);
-        return;
-    }
-#endif
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
                 *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
         return;
     }
-#if SMEAR_AVX2
-    if (n >= 8 && smear_has_avx2()) {
-        smear_nearer_run_avx2(color, depth, in, n, z, (uint32_t)dz);
-        return;
-    }
-#endif
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
         uint32_t code = z >> 16;
         if (code > *depth) {

@@ -3,7 +3,6 @@
 #ifndef SMEAR_SPAN_H
 #define SMEAR_SPAN_H
 
-#include "kernels/avx2.h"
 #include "raster/setup.h"
 
 /* Longest span: a frame's width, and what blurred layers have beyond it on both sides (layer.h). */
@@ -50,21 +49,6 @@ static inline void span_mark_tiles(const struct smear_raster_target *t, const st
     for (int32_t tile = p->a >> t->tile_shift; tile <= (p->b - 1) >> t->tile_shift; tile++)
         t->moving[tile] = 1;
 }
-
-#if SMEAR_AVX2
-/* The same for spans of moving triangles, eight pixels at once, where smear_span_velocity_fits8(): blocks of eight columns
- * lie within the target's, no mask, nothing is inspected. */
-bool smear_span_velocity_fits8(const struct setup *s, const struct span *p);
-void smear_span_velocity_avx2(const struct setup *s, const struct span *p);
-
-/* Find the displacements of a triangle's vertices from open to close, q8; and the planes of setup_poses(). False where numbers
- * of 32 bits do not do. */
-bool smear_velocity_ends_avx2(const struct setup *s, int32_t dx[3], int32_t dy[3]);
-bool smear_velocity_planes_avx2(struct setup *s, int down);
-
-/* What is stored of pixel (x, y)'s velocity, q16 px, without rounding. */
-void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2]);
-#endif
 
 /* One pixel without a motion of its own: its velocity is zero or, where the
  * camera's is still to be told from depth, unknown. */

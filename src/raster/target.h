@@ -5,7 +5,6 @@
 
 #include "geometry/bins.h"
 #include "base/pixel.h"
-#include "kernels/avx2.h"
 #include "kernels/late_blocks.h"
 #include "raster/texture.h"
 
@@ -25,9 +24,9 @@ struct smear_plane_rows {
 #endif
 #endif
 
-/* Textured triangles are drawn from the front (front_order.h): not by AVX2, which draws lists in their order, nor in a page or in the
+/* Textured triangles are drawn from the front (front_order.h): not in a page or in the
  * GBA's fast memory, where size counts. */
-#if SMEAR_AVX2 || !SMEAR_RASTER_CACHE || !SMEAR_WITH_TEXTURE || defined(__wasm__) || defined(__ARM_ARCH_4T__)
+#if !SMEAR_RASTER_CACHE || !SMEAR_WITH_TEXTURE || defined(__wasm__) || defined(__ARM_ARCH_4T__)
 #define SMEAR_FRONT_ORDER 0
 #else
 #define SMEAR_FRONT_ORDER 1

@@ -4,7 +4,6 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
-#include "kernels/wrapped_run.h"
 
 /* A loop of its own for wraps: a third of the instructions, for machines that have room. */
 #if UINTPTR_MAX > 0xffffffffu && !defined(__OPTIMIZE_SIZE__)
@@ -215,16 +214,6 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
     /* In registers: `out` might be any of its words. */
     const struct smear_sampler sampler = *s;
 #if SMEAR_SAMPLE_WRAPPED
-#if SMEAR_AVX2
-    if (!sampler.turns && !sampler.bilinear && sampler.format == SMEAR_TEXEL_8888 && n >= 4 && smear_has_avx2()) {
-        const struct wrapped_texels t = { (const uint32_t *)sampler.texels, sampler.width, sampler.height, sampler.wrap_u, sampler.wrap_v };
-        const uint64_t change = run->curvature, k = (uint32_t)first;
-        const struct wrapped_walk w = { run->at + run->step * k + change * (uint32_t)(first * (first - 1) / 2), run->step + change * k,
-                                        change };
-        smear_wrapped_run_avx2(out, &t, &w, n);
-        return;
-    }
-#endif
     if (!sampler.turns && !sampler.bilinear) {
         sample_wrapped(out, &sampler, run, first, n);
         return;

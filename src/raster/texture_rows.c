@@ -597,16 +597,7 @@ LIT_ROWS(lit_narrow, TEXELS_LIT_NARROW)
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
                          : (T)->width == 128 ? KIND##_128 : (T)->width == 256 ? KIND##_256 : KIND##_any)
 
-#if SMEAR_BLEND_ROWS
-static smear_rows_fn *choose_untextured(const struct setup *s)
-{
-    if (draw_is_blended(s->draw))
-        return smear_blend_rows_choose(s);
-    return draw_is_opaque(s->draw) && !s->flat && setup_is_shaded(s) ? smear_rows_shade : NULL;
-}
-#else
 #define choose_untextured(S) (draw_is_opaque((S)->draw) && !(S)->flat && setup_is_shaded(S) ? smear_rows_shade : NULL)
-#endif
 
 smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
@@ -614,11 +605,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
     if (s->segment->uv == 0)
         return choose_untextured(s);
-#if SMEAR_LANE_ROWS
-    smear_rows_fn *lanes = smear_lane_rows_choose(s);
-    if (lanes != NULL)
-        return lanes;
-#endif
     if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
         || t->log2_height == 0 || fog_has_no_rows(s))
         return NULL;

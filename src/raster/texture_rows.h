@@ -5,7 +5,6 @@
 
 #include "raster/span.h"
 
-#include "kernels/avx2.h"
 #include "kernels/span_side.h"
 
 /* Flat colours and copied texels in rows of their own: twice to four times as
@@ -18,8 +17,8 @@
 #endif
 #endif
 
-/* Whole spans of rows one below the other, from row y on. Where vectors draw them many cost less than few. */
-enum { SPAN_ROWS = SMEAR_AVX2 ? 64 : 32 };
+/* Whole spans of rows one below the other, from row y on. */
+enum { SPAN_ROWS = 32 };
 
 struct span_rows {
     int32_t y, count;
@@ -36,12 +35,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 /* Interpolated colours without a texture, opaque: color_rows.c. */
 smear_rows_fn smear_rows_shade;
 
-#if SMEAR_AVX2
-/* One colour, opaque, and its velocities, where smear_rows_motion_suit(): velocity_avx2.c. */
-bool smear_rows_motion_suit(const struct setup *s);
-smear_rows_fn smear_rows_motion;
-#endif
-
 /* Interpolated light over a texture has rows of its own, of the same bits: not on cores whose flash has no room for them. */
 #ifndef SMEAR_SHADED_ROWS
 #ifdef __ARM_ARCH_6M__
@@ -54,21 +47,11 @@ smear_rows_fn smear_rows_motion;
 /* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
 smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
 
-/* Texels have rows of their own on processors with AVX2, of the same bits. */
-#define SMEAR_LANE_ROWS (SMEAR_AVX2 && SMEAR_SPAN_ROWS && SMEAR_WITH_TEXTURE)
-
-/* Of a triangle whose texels are nearest and opaque; null in fog and where there are no such instructions: lane_rows.c. */
-smear_rows_fn *smear_lane_rows_choose(const struct setup *s);
-
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {
     return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
-
-/* One blended colour without a texture likewise: blend_rows.c. */
-#define SMEAR_BLEND_ROWS (SMEAR_AVX2 && SMEAR_SPAN_ROWS && SMEAR_WITH_ALPHA)
-smear_rows_fn *smear_blend_rows_choose(const struct setup *s);
 
 /* Pixels [a, b) of a row, and depth codes 16.16 from pixel 0 on. */
 struct row_run {

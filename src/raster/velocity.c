@@ -60,9 +60,6 @@ static uint32_t find_displacements(const struct setup *s, int32_t dx[3], int32_t
 {
     uint32_t longest = 0;
     bool known = false;
-#if SMEAR_AVX2
-    known = smear_has_avx2() && smear_velocity_ends_avx2(s, dx, dy);
-#endif
     for (int i = 0; i < 3; i++) {
         if (!known)
             find_displacement(s, i, &dx[i], &dy[i]);
@@ -79,10 +76,6 @@ static void setup_poses(struct setup *s, uint32_t largest)
     int down = 4;
     while (largest >> down > 0xffff)
         down++;
-#if SMEAR_AVX2
-    if (smear_has_avx2() && smear_velocity_planes_avx2(s, down))
-        return;
-#endif
     for (int pose = 0; pose < s->poses; pose++) {
         int32_t x[3], y[3], r[3];
         for (int i = 0; i < 3; i++) {
@@ -234,15 +227,6 @@ static inline bool is_drawn(const struct span *p, int32_t i, uint32_t z, const u
     return p->mask != NULL ? p->mask[i >> 5] >> (i & 31) & 1u : z >> 16 > depth[i];
 }
 
-#if SMEAR_AVX2
-void smear_velocity_exact(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
-{
-    int32_t displacement[2];
-    displacement_between(s, x, y, displacement);
-    stored_velocity(s, displacement, out);
-}
-#endif
-
 void smear_span_velocity(const struct setup *s, const struct span *p)
 {
     const struct smear_raster_target *t = s->target;
@@ -255,12 +239,6 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
         return;
     }
     span_mark_tiles(t, p);
-#if SMEAR_AVX2
-    if (smear_span_velocity_fits8(s, p)) {
-        smear_span_velocity_avx2(s, p);
-        return;
-    }
-#endif
     /* Exact at multiples of 8 and at the span's ends; linear between. */
     static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
     int32_t x = p->a, at = p->at;

@@ -37,30 +37,6 @@ static struct subframe_box whole_rounds(const struct subframes *f, const struct 
     return b;
 }
 
-#if SMEAR_AVX2
-bool smear_subframe_sums_take(const struct subframes *f, const struct subframe_box *box, uint32_t k)
-{
-    const struct smear_raster_target *s = &f->t->background;
-    const struct smear_plane_rows *c = &s->color_rows, *w = &s->window_rows;
-    const struct subframe_box b = whole_rounds(f, box);
-    const int32_t rows = s->y1 - s->y0;
-    const bool light = sums_light(f);
-    if (f->blends || b.x1 - b.x0 < 8 || c->stride != w->stride || c->ring_row + rows > c->ring || w->ring_row + rows > w->ring
-        || (light && (!frame_is_linear(f->t->frame) || b.y1 - b.y0 < 2)) || !smear_has_avx2())
-        return false;
-    const int32_t at = work_row(f, &b, b.y0), behind = target_row(c, s, b.y0) + b.x0, deep = target_row(w, s, b.y0) + b.x0;
-    const struct packed_box packed = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + deep,
-                                       packed_sums_from(f->sums, at), f->t->pitch, c->stride, b.y1 - b.y0, b.x1 - b.x0 };
-    if (light) {
-        const struct light_instant instant = smear_light_instant(k, f->instants, true);
-        smear_light_box_avx2(&packed, &instant);
-    } else {
-        smear_packed_box_avx2(&packed);
-    }
-    return true;
-}
-#endif
-
 void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets)
 {
     const struct smear_raster_target *s = &f->t->background;

@@ -11,20 +11,6 @@ static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS 
 /* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
 void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
 
-/* Adds the box of instant k to the sums and makes its colours and depths background again. False where that is not done:
- * rows of the background go round, or vectors do not suit. */
-#if SMEAR_AVX2
-bool smear_subframe_sums_take(const struct subframes *f, const struct subframe_box *box, uint32_t k);
-#else
-static inline bool smear_subframe_sums_take(const struct subframes *f, const struct subframe_box *box, uint32_t k)
-{
-    (void)f;
-    (void)box;
-    (void)k;
-    return false;
-}
-#endif
-
 /* Adds the box of instant k to the sums, or sets them, and makes its colours background again. */
 void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets);
 

@@ -52,9 +52,6 @@ struct subframes {
     uint32_t moving_listed, all_listed;
     uint32_t moving_rest, blend_rest;
     uint32_t moving_seen;       /* moving triangles that may be seen, whether they are listed or not */
-#if SMEAR_AVX2
-    const struct subframe_packs *packs;         /* the first of those listed; or null */
-#endif
     uint32_t lowest, highest;   /* depth codes of the background */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */
     struct subframe_box area;      /* and nothing of it is seen elsewhere */

@@ -16,7 +16,6 @@
 #include "geometry/shutter.h"
 #include "raster/raster.h"
 #include "temporal/subframe_background.h"
-#include "temporal/subframe_eights.h"
 #include "temporal/subframe_gap.h"
 #include "temporal/subframe_pose.h"
 #include "temporal/subframe_sums.h"
@@ -154,37 +153,8 @@ static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, i
     }
 }
 
-#if SMEAR_AVX2
-static void draw_listed_by_eights(const struct subframes *f, int32_t time, struct subframe_box *all)
-{
-    struct subframe_eights eights;
-    const struct subframe_packs *const packs = f->packs;
-    smear_subframe_eights_begin(&eights, f, time, all);
-    for (int i = 0; packs != NULL && i < packs->count; i++)
-        if (packs->of[i].segment == NULL)
-            draw_moving_triangle(f, packs->of[i].triangle, time, all);
-        else
-            smear_subframe_eights_draw(&eights, &packs->of[i]);
-    for (uint32_t i = packs != NULL ? packs->listed : 0; i < f->moving_listed; i++)
-        if (!smear_subframe_eights_add(&eights, f->listed[i]))
-            draw_moving_triangle(f, f->listed[i], time, all);
-    for (uint32_t i = packs != NULL ? packs->rest : f->moving_rest; i < f->t->moving_count; i++) {
-        const uint32_t triangle = f->t->moving[i].triangle;
-        if (subframes_see(f, &f->t->moving[i]) && !smear_subframe_eights_add(&eights, triangle))
-            draw_moving_triangle(f, triangle, time, all);
-    }
-    smear_subframe_eights_end(&eights);
-}
-#endif
-
 static void draw_listed(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
-#if SMEAR_AVX2
-    if (subframe_eights_suit(f)) {
-        draw_listed_by_eights(f, time, all);
-        return;
-    }
-#endif
     for (uint32_t i = 0; i < f->moving_listed; i++)
         draw_moving_triangle(f, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)
@@ -311,10 +281,8 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
     const bool sets = samples == 0 && sums_are_set(f);
     if (samples == 0)
         smear_subframe_sums_clear(f, sets ? box : &no_box);
-    if (!smear_subframe_sums_take(f, box, (uint32_t)k)) {
-        smear_subframe_sums_add(f, box, (uint32_t)k, sets);
-        smear_subframe_restore_depth(f, box);
-    }
+    smear_subframe_sums_add(f, box, (uint32_t)k, sets);
+    smear_subframe_restore_depth(f, box);
     box_add(all, box);
     return (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
 }
@@ -368,13 +336,6 @@ static int32_t shift_of(int32_t k, int32_t n, int32_t g)
 /* Draws and sums all instants but number `drawn`, after `samples` have been taken. Returns how many have been then. */
 static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
-#if SMEAR_AVX2
-    struct subframe_packs packs;
-    if (f->refilled == NULL && smear_has_avx2()) {
-        smear_subframe_packs_make(&packs, f);
-        f->packs = &packs;
-    }
-#endif
     const bool smooths = SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0;
     const int32_t instants = (int32_t)f->instants;
     const int32_t step[2] = { smooths ? coprime(instants, 70) : 0, smooths ? coprime(instants, 98) : 0 };
@@ -388,9 +349,6 @@ static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples
         const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
         samples += add_instant(f, &box, k, samples, all);
     }
-#if SMEAR_AVX2
-    f->packs = NULL;
-#endif
     return samples;
 }
 

@@ -22,7 +22,7 @@ struct look_sums {
     uint32_t along, beside, moving;
 };
 
-#if SMEAR_AVX2 || DIFFERENCES_ASM_ARMV6M
+#if DIFFERENCES_ASM_ARMV6M
 /* Returns 1 where rows of the tiles have the pixels that lie dy farther, -1 where those as much nearer, 0 where neither. */
 static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int32_t dy)
 {

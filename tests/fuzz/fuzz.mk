@@ -93,7 +93,7 @@ fuzz-many: build/fuzz/frames-address
 # Builds that must draw the same: by compiler, optimization, width of a word, and what the code is told of the core. Most are the
 # one-file form's, whose objects draw golden frames, too (one_file.sh says what each is for). What draws is the same in all.
 ONE_FILE_BUILDS := gcc-O0 gxx-O1 gcc-O3 clang-O2 m32 plain armv7em
-FUZZ_BUILDS := gcc-O0 gxx-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 plain sse2 armv6m armv7em
+FUZZ_BUILDS := gcc-O0 gxx-O1 gcc-O2 gcc-O3 clang-O2 m32 mul16 plain unsigned armv6m armv7em
 CASES_SRC := $(filter-out $(LIB_SRC),$(FRAMES_SRC))
 $(ONE_FILE_BUILDS:%=build/fuzz/one-file/%.o): build/fuzz/one-file/%.o: $(ONE_FILE) tests/shell/one_file.sh
 	$(call say,CC,$@)
@@ -136,9 +136,9 @@ $(call fuzz_vectors,$(1),$(2) $(3))
 $(call frames_of,$(1),$(2),$(4) $(LIB_SRC:%.c=build/fuzz/$(1)/%.o))
 endef
 $(eval $(call lib_build,mul16,gcc,-std=c11 -Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,$(call host_objects,$(CASES_SRC))))
-# Chars are unsigned, as on ARM; by which GCC leaves AVX2 out, too (avx2.h). Flags and objects are those of packages (dist.sh).
+# Chars are unsigned, as on ARM. Flags and objects are those of packages (dist.sh).
 FUZZ_CACHED := SMEAR_OBJECTS=$${SMEAR_OBJECTS:-build/test/objects} sh tests/shell/launch_cached.sh $(HOST_CC)
-$(eval $(call lib_build,sse2,$(subst $$,$$$$,$(FUZZ_CACHED)),-std=gnu11 -O2 -Wall -Wextra -Werror -funsigned-char -DSMEAR_AVX2=0,\
+$(eval $(call lib_build,unsigned,$(subst $$,$$$$,$(FUZZ_CACHED)),-std=gnu11 -O2 -Wall -Wextra -Werror -funsigned-char,\
     $(call host_objects,$(CASES_SRC))))
 # Assembly for Cortex-M0 in a program for Linux, which is emulated. (Code for any address leaves it too few registers.)
 $(eval $(call lib_build,armv6m,$(FUZZ_THUMB),-std=c11 -O2 -DSMEAR_VECTORS=0 -DSMEAR_ASM_ARMV6M=1 -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,\

@@ -120,12 +120,6 @@ static void vector(struct kernel_call *c)
 }
 #endif
 
-#if SMEAR_AVX2
-static void avx2(struct kernel_call *c)
-{
-    call(c, smear_has_avx2() ? smear_gap_means_avx2 : smear_gap_means_reference);
-}
-#endif
 
 extern const struct kernel kernels_gap_means[];
 const struct kernel kernels_gap_means[] = {
@@ -134,18 +128,12 @@ const struct kernel kernels_gap_means[] = {
 #if SMEAR_VECTORS
                 { "vector", vector },
 #endif
-#if SMEAR_AVX2
-                { "avx2", avx2 },
-#endif
       } },
     { .name = "gap_means (nothing hides)", .most = 35, .size = { 4, 2, 8 }, .align = { 4, 2, 4 },
       .prepare = prepare_uncovered, .timed = 64,
       .form = { { "reference", reference }, { "two passes", two_passes },
 #if SMEAR_VECTORS
                 { "vector", vector },
-#endif
-#if SMEAR_AVX2
-                { "avx2", avx2 },
 #endif
       } },
     { .name = NULL }

@@ -62,45 +62,6 @@ static void add_vector(struct kernel_call *c)
 }
 #endif
 
-#if SMEAR_AVX2
-static void add_avx2(struct kernel_call *c)
-{
-    add(c, smear_has_avx2() ? smear_light_add_avx2 : smear_light_add_reference);
-}
-#endif
-
-/* ------------------------------------------------------------------ boxes */
-
-static void prepare_box(struct kernel_call *c)
-{
-    prepare_sums(c);
-    c->word[LINEAR] = 1;
-    if ((c->word[SHAPE] & 8u) != 0)         /* rows that look like the background */
-        __builtin_memcpy(c->plane[COLOR], c->plane[OTHER], (size_t)c->n / 2 * sizeof(uint32_t));
-}
-
-static void box(struct kernel_call *c, bool best)
-{
-    const int32_t n = 8 + (c->n - 60) / 4, pitch = n + c->n % 3, pitch_behind = n + c->n % 2;
-    const int32_t rows = 2 + (int32_t)(c->word[SHAPE] >> 4 & 1u);
-    const struct light_instant instant = smear_light_instant(c->word[INSTANT], c->word[INSTANTS], true);
-    const struct packed_box b = {
-        c->plane[COLOR], c->plane[OTHER], c->plane[3], c->plane[4], packed_sums_in(c->plane[SUMS], c->n), pitch, pitch_behind, rows, n
-    };
-#if SMEAR_AVX2
-    if (best && smear_has_avx2()) {
-        smear_light_box_avx2(&b, &instant);
-        return;
-    }
-#else
-    (void)best;
-#endif
-    light_box_reference(&b, &instant);
-}
-
-static void box_reference(struct kernel_call *c) { box(c, false); }
-static void box_best(struct kernel_call *c) { box(c, true); }
-
 /* ------------------------------------------------------------------ means */
 
 static int32_t plane_pixels(const struct kernel_call *c) { return c->n + 2 * REACH; }
@@ -199,18 +160,11 @@ static void means_best(struct kernel_call *c)
 #define VECTOR
 #define MEANS_VECTOR
 #endif
-#if SMEAR_AVX2
-#define AVX2 { "avx2", add_avx2 },
-#else
-#define AVX2
-#endif
 
 extern const struct kernel kernels_light_sums[];
 const struct kernel kernels_light_sums[] = {
     { .name = "light_add", .least = 1, .most = 33, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
-      .timed = 64, .form = { { "reference", add_reference }, VECTOR AVX2 } },
-    { .name = "light_box", .least = 60, .most = 124, .size = { 4, 4, 8, 2, 2 }, .align = { 4, 4, 4, 2, 2 }, .prepare = prepare_box,
-      .timed = 124, .form = { { "reference", box_reference }, { "best", box_best } } },
+      .timed = 64, .form = { { "reference", add_reference }, VECTOR } },
     { .name = "light_means", .most = 20, .size = { 4, 2, 8 }, .align = { 4, 2, 4 }, .prepare = prepare_means, .timed = 32,
       .form = { { "reference", means_reference }, MEANS_VECTOR { "best", means_best } } },
     { .name = "light_means (nothing hides)", .most = 20, .size = { 4, 2, 8 }, .align = { 4, 2, 4 },

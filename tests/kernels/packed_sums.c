@@ -55,24 +55,6 @@ static void add_best(struct kernel_call *c)
     smear_packed_add(c->plane[COLOR], c->plane[OTHER], sums_of(c), c->n, c->word[ALL] != 0);
 }
 
-static void box(struct kernel_call *c, bool best)
-{
-    const int32_t n = 8 + c->n / 3, pitch = n + c->n % 3, pitch_behind = n + c->n % 2;
-    const struct packed_box b = { c->plane[COLOR], c->plane[OTHER], c->plane[3], c->plane[4], sums_of(c), pitch, pitch_behind, 2, n };
-#if SMEAR_AVX2
-    if (best && smear_has_avx2()) {
-        smear_packed_box_avx2(&b);
-        return;
-    }
-#else
-    (void)best;
-#endif
-    packed_box_reference(&b);
-}
-
-static void box_reference(struct kernel_call *c) { box(c, false); }
-static void box_best(struct kernel_call *c) { box(c, true); }
-
 #if PACKED_SETS
 static void set_reference(struct kernel_call *c)
 {
@@ -124,8 +106,6 @@ const struct kernel kernels_packed_sums[] = {
                               { "lazy", add_best },
 #endif
       } },
-    { .name = "packed_box", .least = 60, .most = 100, .size = { 4, 4, 8, 2, 2 }, .align = { 4, 4, 4, 2, 2 }, .prepare = prepare_sums,
-      .timed = 100, .form = { { "reference", box_reference }, { "best", box_best } } },
 #if PACKED_SETS
     { .name = "packed_set", .least = 1, .most = 35, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
       .timed = 128, .form = { { "reference", set_reference },

@@ -12,21 +12,6 @@ static void xrgb8888_reference(struct kernel_call *c) { row_xrgb8888_reference(c
 static void xrgb8888_vector(struct kernel_call *c) { row_xrgb8888_vector(c->plane[0], c->plane[1], c->n); }
 #endif
 
-#if SMEAR_AVX2
-/* Three rows of a third of the pixels each. */
-static void xrgb8888_rows_reference(struct kernel_call *c)
-{
-    const int32_t width = c->n / 3;
-    for (int32_t i = 0; i < 3; i++)
-        row_xrgb8888_reference((uint32_t *)c->plane[0] + i * width, (const uint32_t *)c->plane[1] + i * width, width);
-}
-
-static void xrgb8888_rows_avx2(struct kernel_call *c)
-{
-    const int32_t width = c->n / 3;
-    smear_rows_xrgb8888_avx2(c->plane[0], width, c->plane[1], width, 3, width);
-}
-#endif
 
 static void prepare_nearest(struct kernel_call *c) { c->word[LAYOUT] %= 3u; }
 
@@ -48,12 +33,6 @@ static void nearest_vector(struct kernel_call *c)
 }
 #endif
 
-#if SMEAR_AVX2
-static void nearest_avx2(struct kernel_call *c)
-{
-    smear_row_nearest_avx2(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
-}
-#endif
 #endif
 
 static void prepare_dithered(struct kernel_call *c)
@@ -85,13 +64,6 @@ static void dithered_vector(struct kernel_call *c)
                               (enum row_16bit)c->word[LAYOUT]);
 }
 
-#if SMEAR_AVX2
-static void dithered_avx2(struct kernel_call *c)
-{
-    const struct dithered_rows row = { c->plane[0], c->plane[1], 0, 0, 1, c->n, (int32_t)c->word[X], 0, thresholds(c), WIDTH - 1 };
-    smear_rows_dithered_avx2(&row, (enum row_16bit)c->word[LAYOUT]);
-}
-#endif
 
 /* Thresholds of any kind, 32 of them. */
 static const uint8_t *many_thresholds(const struct kernel_call *c)
@@ -120,13 +92,6 @@ static void blue_vector(struct kernel_call *c)
                               (enum row_16bit)c->word[LAYOUT]);
 }
 
-#if SMEAR_AVX2
-static void blue_avx2(struct kernel_call *c)
-{
-    const struct dithered_rows row = { c->plane[0], c->plane[1], 0, 0, 1, c->n, (int32_t)c->word[X], 0, many_thresholds(c), 31 };
-    smear_rows_dithered_avx2(&row, (enum row_16bit)c->word[LAYOUT]);
-}
-#endif
 #endif
 
 #ifndef __OPTIMIZE_SIZE__
@@ -192,15 +157,6 @@ static void late_rows_blocks(struct kernel_call *c)
 }
 #endif
 
-#if SMEAR_AVX2
-static void rows_avx2(struct kernel_call *c)
-{
-    const int32_t width = c->n / 3;
-    const struct dithered_rows rows = { c->plane[0], c->plane[1], width, width, 3, width, (int32_t)c->word[X],
-                                        (int32_t)c->word[Y] & 15, smear_dither_ordered, 7 };
-    smear_rows_dithered_avx2(&rows, (enum row_16bit)c->word[LAYOUT]);
-}
-#endif
 #endif
 
 /* A row of L4 begins with column 0, which lies X / 2 bytes before what is written. Some have a block of the first pixel's
@@ -244,19 +200,12 @@ const struct kernel kernels_pixel_rows[] = {
                 { "vector", xrgb8888_vector },
 #endif
       } },
-#if SMEAR_AVX2
-    { .name = "rows_xrgb8888", .most = 105, .size = { 4, 4 },
-      .form = { { "reference", xrgb8888_rows_reference }, { "avx2", xrgb8888_rows_avx2 } } },
-#endif
     { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
       .form = { { "reference", nearest_reference },
 #ifndef __OPTIMIZE_SIZE__
                 { "unrolled", nearest_unrolled },
 #if SMEAR_VECTORS
                 { "vector", nearest_vector },
-#endif
-#if SMEAR_AVX2
-                { "avx2", nearest_avx2 },
 #endif
 #endif
       } },
@@ -267,17 +216,11 @@ const struct kernel kernels_pixel_rows[] = {
 #if SMEAR_VECTORS
                 { "vector", dithered_vector },
 #endif
-#if SMEAR_AVX2
-                { "avx2", dithered_avx2 },
-#endif
 #endif
       } },
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     { .name = "row_dithered_blue", .most = 67, .size = { 2, 4 }, .prepare = prepare_blue,
       .form = { { "reference", blue_reference }, { "vector", blue_vector },
-#if SMEAR_AVX2
-                { "avx2", blue_avx2 },
-#endif
       } },
 #endif
 #ifndef __OPTIMIZE_SIZE__
@@ -287,10 +230,6 @@ const struct kernel kernels_pixel_rows[] = {
     { .name = "rows_dithered_blocks (late)", .most = 201, .size = { 2, 4 }, .align = { 4 }, .prepare = prepare_late,
       .form = { { "reference", late_rows }, { "blocks", late_rows_blocks } } },
 #endif
-#endif
-#if SMEAR_AVX2
-    { .name = "rows_dithered", .most = 201, .size = { 2, 4 }, .prepare = prepare_dithered,
-      .form = { { "reference", rows_reference }, { "avx2", rows_avx2 } } },
 #endif
     { .name = "row_l4", .most = 67, .size = { 1, 4 }, .prepare = prepare_l4,
       .form = { { "reference", l4_reference },

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* triangles.c - how check_kernels calls kernels/triangles.h, triangles8.h and points8.h: fours and eights of triangles among
+/* triangles.c - how check_kernels calls kernels/triangles.h: fours of triangles among
  * sixteen vertices, near one another or far apart, of which each call makes many from one number; and ranges of indices. */
-#include "kernels/points8.h"
+#include "kernels/triangles.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -10,7 +10,7 @@ enum { VERTICES = 16, FOURS = 64, SEED = 0 };
 /* Four triangles, the part of the frame they are in, and how they are seen. */
 struct fours {
     struct smear_place place[VERTICES];
-    uint16_t index[24];             /* of fours, the first half */
+    uint16_t index[12];
     struct triangles_setup setup;
 };
 
@@ -40,7 +40,7 @@ static void make(struct fours *f, uint32_t *seed)
             s->depth = f->place[0].screen.depth + (next(seed) & 256u ? f->place[0].screen.depth >> 5 : 0);
         f->place[i].first = place_first(s->x, s->y);
     }
-    for (int i = 0; i < 24; i++)
+    for (int i = 0; i < 12; i++)
         f->index[i] = (uint16_t)(next(seed) >> 8) % VERTICES;
     const int second = (int)(flags & 1u) + 1;
     const int32_t low = (flags & 4u) != 0 ? (x >> 8) + 1 : 0;
@@ -82,63 +82,6 @@ static void reference(struct kernel_call *c)
     many(c, &triangles_reference);
 }
 
-/* Keeps what is defined. */
-static uint32_t sum_up_eight(uint32_t sum, const struct smear_triangles8 *t)
-{
-    sum = sum * 31u + (t->seen | t->far << 8 | (t->seen & t->tiny) << 16 | (t->seen & t->back) << 24);
-    for (int k = 0; k < 8; k++) {
-        if ((t->seen >> k & 1u) == 0)
-            continue;
-        sum = sum * 31u + (uint32_t)t->area[k];
-        sum = (sum * 31u + t->low[k]) * 31u + t->high[k];
-        sum = (sum * 31u + t->edge1[k]) * 31u + t->edge2[k];
-        for (int i = 0; i < 3; i++)
-            sum = sum * 31u + (uint32_t)t->depth[i][k];
-        if ((t->tiny >> k & 1u) != 0)
-            sum = ((sum * 31u + (uint32_t)t->e1[k]) * 31u + (uint32_t)t->e2[k]) * 31u + t->covered[k];
-    }
-    return sum;
-}
-
-static uint32_t sum_up_points(uint32_t sum, const struct smear_points8 *p)
-{
-    sum = (sum * 31u + p->first) * 31u + p->second;
-    for (int n = 0; n < 2; n++)
-        for (int k = 0; k < 8; k++)
-            if (((n == 0 ? p->first : p->second) >> k & 1u) != 0) {
-                sum = ((sum * 31u + p->row[n][k]) * 31u + p->w1[n][k]) * 31u + p->w2[n][k];
-                for (int i = 0; i < 4; i++)
-                    sum = sum * 31u + p->entry[n][k][i];
-            }
-    return sum;
-}
-
-static void many_eights(struct kernel_call *c, triangles8_fn *look, points_fn *find)
-{
-    const uint32_t color[8] = { 1, 2, 3, 4, 5, 6, 7, 0xffffffffu };
-    struct fours f;
-    struct smear_triangles8 t;
-    struct smear_points8 p;
-    uint32_t seed = c->word[SEED], sum = 0, found = 0;
-    for (int i = 0; i < FOURS; i++) {
-        make(&f, &seed);
-        look(&t, f.place, f.index, &f.setup);
-        sum = sum_up_eight(sum, &t);
-        if ((t.seen & t.tiny) == 0)
-            continue;
-        find(&p, &t, color, &(struct points_setup){ (1u << 22) / 24u + 1u, (i & 1) != 0 });
-        sum = sum_up_points(sum, &p);
-        found |= p.first;
-    }
-    c->word[1] = sum;
-    c->word[2] = found;
-}
-
-static void eights_reference(struct kernel_call *c)
-{
-    many_eights(c, &triangles8_reference, &points_reference);
-}
-
 static void range_reference(struct kernel_call *c)
 {
     const struct index_range r = indices_range_reference(c->plane[0], c->n);
@@ -166,27 +109,6 @@ static void range_vector(struct kernel_call *c)
 }
 #endif
 
-#if SMEAR_AVX2
-SMEAR_AVX2_FUNCTION static void look_by_avx2(struct smear_triangles8 *out, const struct smear_place *place, const uint16_t index[24],
-                                             const struct triangles_setup *s)
-{
-    triangles8_avx2(out, place, index, s);
-}
-
-SMEAR_AVX2_FUNCTION static void find_by_avx2(struct smear_points8 *out, const struct smear_triangles8 *t, const uint32_t color[8],
-                                             const struct points_setup *s)
-{
-    points_avx2(out, t, color, s);
-}
-
-static void eights_avx2(struct kernel_call *c)
-{
-    if (smear_has_avx2())
-        many_eights(c, &look_by_avx2, &find_by_avx2);
-    else
-        eights_reference(c);
-}
-#endif
 
 extern const struct kernel kernels_triangles[];
 const struct kernel kernels_triangles[] = {
@@ -194,12 +116,6 @@ const struct kernel kernels_triangles[] = {
       .form = { { "reference", reference },
 #if SMEAR_VECTORS
                 { "vector", vector },
-#endif
-      } },
-    { .name = "eights (made, looked at)", .least = 8 * FOURS, .most = 8 * FOURS, .size = { 1 }, .timed = 8 * FOURS,
-      .form = { { "reference", eights_reference },
-#if SMEAR_AVX2
-                { "avx2", eights_avx2 },
 #endif
       } },
     { .name = "indices_range", .most = 35, .size = { 2 }, .timed = 192,

@@ -13,8 +13,8 @@ rm -rf "$base"
 mkdir -p "$base"
 # The library is compiled once for all projects that want it alike. Those of boards, which have flags and a standard in common
 # therefore, do without what boards do not have; a build of fuzz-builds has the same (tests/fuzz/fuzz.mk).
-file_flags="-O1 -Wall -Wextra -Werror -DSMEAR_AVX2=0"
-board_flags="-O2 -Wall -Wextra -Werror -funsigned-char -DSMEAR_AVX2=0"
+file_flags="-O1 -Wall -Wextra -Werror"
+board_flags="-O2 -Wall -Wextra -Werror -funsigned-char"
 SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
 CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
 export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER

@@ -1490,7 +1490,7 @@ static void draw_band(struct planes *p, const struct smear_raster_cache *cache, 
     smear_raster_list(&frame, &t, 0);
 }
 
-/* Memory has room for all that may be kept, or for some. Where what is kept is looked up by numbers, bands may come twice, and late:
+/* Memory has room for all that may be kept, or for some. Bands may come twice, and late:
  * jobs draw every second one. */
 static void test_what_bands_keep_of_triangles_changes_nothing(void)
 {
@@ -1504,11 +1504,11 @@ static void test_what_bands_keep_of_triangles_changes_nothing(void)
         planes_clear(&cut);
         const size_t bytes = chance(2) ? sizeof memory : (size_t)between(0, 2048);
         const struct smear_raster_cache cache = smear_raster_cache_make(memory, bytes, 1, &geometry);
-        const int32_t band = between(1, 16), late = SMEAR_KEPT_LISTS || chance(2) ? -1 : between(0, H / band) * band;
+        const int32_t band = between(1, 16), late = chance(2) ? -1 : between(0, H / band) * band;
         for (int32_t y = 0; y < H; y += band) {
             if (y == late)
                 continue;
-            for (int times = !SMEAR_KEPT_LISTS && chance(4) ? 2 : 1; times > 0; times--)
+            for (int times = chance(4) ? 2 : 1; times > 0; times--)
                 draw_band(&cut, &cache, y, min_i32(y + band, H));
         }
         if (late >= 0 && late < H)

@@ -8,7 +8,6 @@
  * Without arguments, all but `targets`. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
  * whether everything could be measured; with --strict, whether all bars were met as well. */
-#include "kernels/avx2.h"
 #include "tools/bench/chart.h"
 #include "tools/bench/count.h"
 #include "tools/bench/groups.h"
@@ -113,8 +112,6 @@ int main(int argc, char **argv)
     }
     if (!make_folder("build", &f) || !make_folder(sheet.folder, &f))
         return finish(false, sheet.folder, &f);
-    printf("by kernels %s\n\n", smear_has_avx2() ? "for AVX2, which this processor has (make bench OPT='-O2 -DSMEAR_AVX2=0': without)"
-                                                 : "without AVX2");
     for (int i = 1; i < argc && ok; i++) {
         const struct report *report = find_report(argv[i]);
         if (strcmp(argv[i], "--strict") == 0) {

@@ -103,7 +103,7 @@ static double auto_mean_at(const struct bars *b, enum chart_set set, double rmse
     return above.cost * pow(below.cost / above.cost, log(rmse / above.rmse) / log(below.rmse / above.rmse));
 }
 
-/* What a sharp frame cost when those bars were set, in parts of which they are (commit 4cc3f2b, which had no AVX2): instructions
+/* What a sharp frame cost when those bars were set, in parts of which they are (commit 4cc3f2b): instructions
  * at 320x240 in the main condition, counted by `valgrind --tool=callgrind --toggle-collect=bench_frame`. */
 static const struct {
     const char *kind;
