@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* flat_lines.h - depth-tested pixels of one colour in rows one below the other, between two edges, by assembly. */
+/* flat_lines.h - depth-tested pixels of one colour in rows one below the other, between two edges. */
 #ifndef SMEAR_KERNELS_FLAT_LINES_H
 #define SMEAR_KERNELS_FLAT_LINES_H
 
@@ -17,9 +17,6 @@ SMEAR_INLINE uint32_t flat_code(uint32_t z, bool breaks)
 {
     return !breaks ? z : FLAT_BREAK_CODE + ((int32_t)z < 0 ? z << 5 : z << 1);
 }
-
-/* Not where size counts: there flat_rows.h does on Cortex-M0+. On ARM7 files for which it counts call those for which it does not. */
-#define SMEAR_FLAT_LINES (((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE) || SMEAR_ASM_ARM)
 
 /* The next row, and what changes from row to row: in the order in which assembly takes them. Of sides, the left one first, these are
  * the low and the high words of struct edge_fine; z of pixel 0, which may lie outside the memory, and its steps to the right and down, are
@@ -84,6 +81,39 @@ static inline void flat_lines_reference(struct flat_lines *l, int32_t n)
         for (int32_t x = a; x < b; x++)
             flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, l->breaks), l->narrow ? l->color & 0xffffu : l->color,
                        l->narrow);
+        flat_lines_go_down(l, side);
+    }
+    flat_lines_side(l, 0, &side[0]);
+    flat_lines_side(l, 1, &side[1]);
+}
+
+/* Draws pixels [a, b) of the next row, a < b. Those of a row whose codes have their break within it one by one. */
+SMEAR_INLINE void flat_line(const struct flat_lines *l, int32_t a, int32_t b, bool narrow)
+{
+    void *const pixels = (void *)((uintptr_t)l->depth * (narrow ? 1u : 2u) + l->to_pixels);
+    const uint32_t color = narrow ? l->color & 0xffffu : l->color;
+    uint32_t z = l->z + l->dz * (uint32_t)a, dz = l->dz;
+    if (l->breaks) {
+        if (((z ^ (z + dz * (uint32_t)(b - a - 1))) >> 31) != 0) {
+            for (int32_t x = a; x < b; x++, z += dz)
+                flat_pixel(pixels, l->depth, x, flat_code(z, true), color, narrow);
+            return;
+        }
+        dz <<= (int32_t)z < 0 ? 5 : 1;
+        z = flat_code(z, true);
+    }
+    flat_run(pixel_after(pixels, a, narrow), l->depth + a, b - a, z, dz, color, narrow);
+}
+
+/* In runs of each row. */
+SMEAR_INLINE void flat_lines_runs(struct flat_lines *l, int32_t n, bool narrow)
+{
+    struct edge_fine side[2];
+    flat_lines_take_sides(l, side);
+    for (; n > 0; n--) {
+        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
+        if (a < b)
+            flat_line(l, a, b, narrow);
         flat_lines_go_down(l, side);
     }
     flat_lines_side(l, 0, &side[0]);

@@ -7,7 +7,7 @@
 #include "kernels/flat_lines.h"
 #include "kernels/flat_row_armv6m.h"
 
-#if SMEAR_FLAT_LINES && SMEAR_ASM_ARMV6M
+#if SMEAR_ASM_ARMV6M
 
 SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, x) == 16 && offsetof(struct flat_lines, x0) == 32 && offsetof(struct flat_lines, z) == 48
                         && offsetof(struct flat_lines, to_pixels) == 56 && offsetof(struct flat_lines, color) == 64,

@@ -9,7 +9,6 @@
 
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
-#include "kernels/flat_rows_armv6m.h"
 #include "raster/cover_tiny.h"
 #include "raster/flat_list.h"
 #include "raster/span.h"
@@ -294,181 +293,6 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
         gather_draw(&g, s, draw);
     }
 }
-
-#if !SMEAR_FLAT_LINES
-/* n pixels from index `at` on, of the colour as the target has it. */
-SMEAR_INLINE void run_flat_at(const struct smear_raster_target *t, int32_t at, int32_t n, uint32_t z,
-                              uint32_t dz, uint32_t color)
-{
-    if (target_is_direct(t))
-        flat_run(t->direct + at, t->depth + at, n, z, dz, color, true);
-    else
-        flat_run(t->color + at, t->depth + at, n, z, dz, color, false);
-}
-
-/* Pixels [a, b) of row y, of which some may lie in the other slope of the depth
- * code. Column 0 of the row is at index `at`. */
-static SMEAR_NOINLINE void row_flat_break(const struct setup *s, int32_t y, int32_t at, int32_t a, int32_t b)
-{
-    const struct smear_raster_target *t = s->target;
-    const int32_t dx = s->depth.dx;
-    int32_t units = plane_at(&s->depth, a, y);
-    while (a < b) {
-        enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
-        int32_t n = b - a, last = add_wrap(units, mul_wrap(dx, n - 1));
-        if ((last < SLOPE_BREAK) != (units < SLOPE_BREAK))
-            n = pixels_to_break(units, dx, n);
-        run_flat_at(t, at + a, n, code_from_units(units, slope), (uint32_t)step_from_units(dx, slope),
-                    target_pixel(t, s->color));
-        units = add_wrap(units, mul_wrap(dx, n));
-        a += n;
-    }
-}
-
-/* One colour, no motion: the simplest rows, without a call for each but at a depth break. Colour and depth
- * of opaque draws lie in the window's rows alike. `cut`: the target's columns may cut rows off;
- * `breaks`: depth codes may have their break in rows. */
-SMEAR_INLINE void cover_flat(const struct setup *s, const bool cut, const bool breaks)
-{
-    const struct smear_raster_target *t = s->target;
-    struct sides d;
-    if (!sides_start(&d, s))
-        return;
-    const uint32_t color = target_pixel(t, s->color), dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
-    const int32_t stride = t->window_rows.stride;
-    int32_t units = plane_at(&s->depth, 0, d.y);
-    uint32_t z = code_from_units(units, s->slope);
-    int32_t y = d.y, ring_row = t->window_rows.ring_row + (y - t->y0);
-    if (ring_row >= t->window_rows.ring)
-        ring_row -= t->window_rows.ring;
-    int32_t knee = y;
-    while (y < d.end) {
-        if (y == knee)
-            knee = sides_part(&d, y);
-        /* Rows up to the middle vertex, or to the end of the ring. */
-        int32_t n = min_i32(knee - y, t->window_rows.ring - ring_row), at = ring_row * stride - t->window_rows.x0;
-        struct edge_walk left = d.left, right = d.right;
-        y += n;
-        ring_row += n;
-        if (ring_row == t->window_rows.ring)
-            ring_row = 0;
-        for (; n > 0; n--, at += stride) {
-            int32_t a = edge_pixel(&left), b = edge_pixel(&right);
-            const int32_t row_units = units;
-            const uint32_t row_z = z;
-            edge_step(&left);
-            edge_step(&right);
-            units = add_wrap(units, s->depth.dy);
-            z += dz_down;
-            if (cut) {
-                a = max_i32(a, t->x0);
-                b = min_i32(b, t->x1);
-            }
-            if (a >= b)
-                continue;
-            uint32_t first = row_z + dz * (uint32_t)a, step = dz;
-            if (breaks) {
-                const int32_t here = add_wrap(row_units, mul_wrap(s->depth.dx, a)),
-                              last = add_wrap(here, mul_wrap(s->depth.dx, b - a - 1));
-                const enum depth_slope slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
-                if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK)) {
-                    row_flat_break(s, y - n, at, a, b);
-                    continue;
-                }
-                first = code_from_units(here, slope);
-                step = (uint32_t)step_from_units(s->depth.dx, slope);
-            }
-            run_flat_at(t, at + a, b - a, first, step, color);
-        }
-        d.left = left;
-        d.right = right;
-    }
-}
-#endif
-
-/* Rows that nothing cuts have a loop of their own, but on cores whose flash has no room for it. */
-#if SMEAR_FLAT_LINES || FLAT_ROWS
-#elif defined(__ARM_ARCH_6M__)
-#define cover_flat_whole cover_flat_cut
-#else
-static SMEAR_NOINLINE void cover_flat_whole(const struct setup *s)
-{
-    cover_flat(s, false, false);
-}
-#endif
-
-#if !SMEAR_FLAT_LINES && !FLAT_ROWS
-static SMEAR_NOINLINE void cover_flat_cut(const struct setup *s)
-{
-    cover_flat(s, true, false);
-}
-#endif
-
-#if !SMEAR_FLAT_LINES
-static SMEAR_NOINLINE void cover_flat_break(const struct setup *s)
-{
-    cover_flat(s, true, true);
-}
-#endif
-
-#if FLAT_ROWS
-/* The same rows by a kernel, whatever cuts them off. */
-static SMEAR_NOINLINE void cover_flat_kernel(const struct setup *s)
-{
-    const struct smear_raster_target *t = s->target;
-    struct sides d;
-    if (!sides_start(&d, s))
-        return;
-    const int32_t units = plane_at(&s->depth, 0, d.y);
-    struct flat_rows rows = {
-        .stride = t->window_rows.stride, .x0 = t->x0, .x1 = t->x1,
-        .z = code_from_units(units, s->slope), .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
-        .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
-        .color = target_pixel(t, s->color), .narrow = target_is_direct(t)
-    };
-    int32_t y = d.y, knee = y, ring_row = t->window_rows.ring_row + (y - t->y0);
-    if (ring_row >= t->window_rows.ring)
-        ring_row -= t->window_rows.ring;
-    for (; y < d.end; y += rows.rows) {
-        if (y == knee)
-            knee = sides_part(&d, y);
-        const int32_t at = ring_row * rows.stride - t->window_rows.x0;
-        rows.rows = min_i32(knee - y, t->window_rows.ring - ring_row);
-        rows.pixels = rows.narrow ? (void *)(t->direct + at) : t->color + at;
-        rows.depth = t->depth + at;
-        flat_rows_armv6m(&rows, &d.left, &d.right);
-        rows.z += rows.dz_down * (uint32_t)rows.rows;
-        ring_row += rows.rows;
-        if (ring_row == t->window_rows.ring)
-            ring_row = 0;
-    }
-}
-#endif
-
-static void cover_flat_rows(const struct setup *s, const struct pixel_box *box)
-{
-#if SMEAR_FLAT_LINES
-    (void)box;
-    smear_flat_cover(s);
-#else
-    const struct smear_raster_target *t = s->target;
-    if (s->slope == SLOPE_BOTH) {
-        cover_flat_break(s);
-        return;
-    }
-#if FLAT_ROWS
-    (void)t;
-    (void)box;
-    cover_flat_kernel(s);
-#else
-    if (box->left < t->x0 || box->right > t->x1)
-        cover_flat_cut(s);
-    else
-        cover_flat_whole(s);
-#endif
-#endif
-}
 #endif
 
 /* ------------------------------------------------------------------ small triangles */
@@ -518,11 +342,11 @@ void smear_cover_choose(struct setup *s, bool small)
 
 void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
 {
-#if SMEAR_SPAN_ROWS
     if (s->flat && !s->writes_velocity && !small) {
-        cover_flat_rows(s, box);
+        smear_flat_cover(s);
         return;
     }
+#if SMEAR_SPAN_ROWS
     if (s->rows != NULL && small) {
         cover_small_rows(s, box, s->rows);
         return;

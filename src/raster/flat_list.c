@@ -3,15 +3,11 @@
 #include "raster/flat_list.h"
 
 #include "kernels/corners.h"
-#include "kernels/flat_lines_arm.h"
-#include "kernels/flat_lines_armv6m.h"
-#include "kernels/flat_lines_armv7em.h"
+#include "kernels/flat_lines_bind.h"
 #include "kernels/gradient.h"
 #include "raster/cover_tiny.h"
 #include "raster/gradient.h"
 #include "raster/kept_found.h"
-
-#if SMEAR_FLAT_LIST
 
 /* Columns of its box. */
 struct columns {
@@ -158,6 +154,11 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
 /* One copy of each loop: fast memory has no room for more. */
 #define FLAT_COPY SMEAR_NOINLINE
 #define FLAT_ROWS_COPY static SMEAR_NOINLINE
+#else
+#define FLAT_COPY inline
+#define FLAT_ROWS_COPY SMEAR_INLINE
+#endif
+
 #if SMEAR_LATE_BLOCKS
 static FLAT_COPY void draw_late_lines(struct flat_lines *l, int32_t n) { flat_lines_late_arm(l, n); }
 
@@ -175,20 +176,8 @@ static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
         return;
     }
 #endif
-    flat_lines_arm(l, n, SMEAR_DIRECT && l->narrow);
+    flat_lines(l, n, SMEAR_DIRECT && l->narrow);
 }
-#else
-#define FLAT_COPY inline
-#define FLAT_ROWS_COPY SMEAR_INLINE
-static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
-{
-#if SMEAR_ASM_ARMV6M
-    flat_lines_armv6m(l, n);
-#else
-    flat_lines_armv7em(l, n);
-#endif
-}
-#endif
 
 /* Draws n rows of which some lie behind the ring's last one: `left` rows lie before its end. */
 static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t left, int32_t ring)
@@ -344,5 +333,3 @@ void smear_flat_cover(const struct setup *s)
     codes_make(&l, s->slope, plane_at(&s->depth, 0, y), s->depth.dx, s->depth.dy);
     draw_rows(t, &l, &c, y, end, false);
 }
-
-#endif

@@ -6,14 +6,9 @@
 #include "kernels/flat_lines.h"
 #include "raster/setup.h"
 
-/* They are made ready on their own where a kernel draws their rows and size does not count: without what others need, that takes
- * half of the instructions. */
-#define SMEAR_FLAT_LIST SMEAR_FLAT_LINES
-
 /* Where lists have no loop for tiny ones (tiny_list.h), each entry is asked whether it is one. */
 #define SMEAR_FLAT_ENTRIES SMEAR_ASM_ARM
 
-#if SMEAR_FLAT_LIST
 /* Whether triangles of a segment have one colour each, are opaque, and have no motion of their own. */
 static inline bool segment_is_flat(const struct smear_raster_frame *frame, const struct smear_segment *segment)
 {
@@ -37,7 +32,6 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 
 /* Draws the target's rows of one that is ready: not small, without velocity. */
 void smear_flat_cover(const struct setup *s);
-#endif
 
 /* Draws an entry of a list likewise. There is no fog, and the target has no velocity. False where it is another, or tiny. */
 bool smear_flat_entry(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t);

@@ -203,7 +203,7 @@ static inline bool draw_tiny_ones(struct tiny_triangles *t, uint32_t number, uin
 }
 #endif
 
-#if SMEAR_FLAT_LIST && SMEAR_TINY_LIST
+#if SMEAR_TINY_LIST
 /* Draws triangles of one segment that have no colours of vertices, from `head` on, and points among them: those where `points` is given
  * at once. Returns what follows. */
 static SMEAR_NOINLINE uint32_t draw_flat_ones(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -279,12 +279,10 @@ static void draw_list_tiny(const struct smear_raster_frame *frame, const struct 
         if (t->segment != segment) {
             segment = t->segment;
             tiny = suits = tiny_look(&look, frame, target, g);
-#if SMEAR_FLAT_LIST
             if (suits && !look.box.shaded) {
                 head = draw_flat_ones(frame, target, &look, at_once ? &points : NULL, number, &moved);
                 continue;
             }
-#endif
 #if TINY_TRIANGLES
             loops = suits && at_once && tiny_loop(&triangles, &look, &points, frame->bins, g);
 #endif
@@ -359,7 +357,7 @@ void smear_raster_triangle(const struct smear_raster_frame *frame, const struct 
                            const struct bounds *bounds)
 {
     bool moved = false;
-#if SMEAR_FLAT_LIST && !SMEAR_FLAT_ENTRIES
+#if !SMEAR_FLAT_ENTRIES
     if (flat_list_suits(frame, target, segment) && smear_flat_triangle(target, v, color, bounds, false, SMEAR_NO_TRIANGLE))
         return;
 #endif

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* flat_run.c - how check_kernels calls kernels/flat_run.h. */
-#include "kernels/flat_lines_arm.h"
-#include "kernels/flat_lines_armv6m.h"
-#include "kernels/flat_lines_armv7em.h"
-#include "kernels/flat_rows_armv6m.h"
+#include "kernels/flat_lines_bind.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -50,32 +47,6 @@ static void rows_prepare(struct kernel_call *c)
     }
 }
 
-static void rows_by(struct kernel_call *c, bool narrow, bool best)
-{
-    const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
-    const int32_t x0 = c->n % (STRIDE - COLUMNS);
-    const struct flat_rows rows = { c->plane[0], c->plane[1], STRIDE, c->n / STRIDE, x0, x0 + COLUMNS, c->word[Z], c->word[DZ],
-                                    c->word[DZ_DOWN], narrow ? c->word[COLOR] & 0xffffu : c->word[COLOR], narrow };
-    struct edge_walk a, b;
-    edge_start(&a, left, left + 2, 0);
-    edge_start(&b, right, right + 2, 0);
-#if FLAT_ROWS
-    if (best)
-        flat_rows_armv6m(&rows, &a, &b);
-    else
-#else
-    (void)best;
-#endif
-        flat_rows_reference(&rows, &a, &b);
-    c->word[LEFT] = (uint32_t)edge_pixel(&a);
-    c->word[RIGHT] = (uint32_t)edge_pixel(&b);
-}
-
-static void wide_rows(struct kernel_call *c) { rows_by(c, false, false); }
-static void wide_rows_best(struct kernel_call *c) { rows_by(c, false, true); }
-static void narrow_rows(struct kernel_call *c) { rows_by(c, true, false); }
-static void narrow_rows_best(struct kernel_call *c) { rows_by(c, true, true); }
-
 /* Depth is small enough that sums and differences fit; often it is exactly at the break in a pixel. */
 static void breaks_prepare(struct kernel_call *c)
 {
@@ -102,21 +73,9 @@ static void lines_by(struct kernel_call *c, bool narrow, bool breaks, bool best)
     edge_fine_start(&e, right, right + 2, -((right[1] + 127) >> 8));
     flat_lines_side(&l, 1, &e);
     for (int32_t part = 1, n = rows; n > 0; n -= part, part = n) {
-#if SMEAR_FLAT_LINES && SMEAR_ASM_ARMV6M
         if (best)
-            flat_lines_armv6m(&l, part);
+            flat_lines(&l, part, narrow);
         else
-#elif SMEAR_FLAT_LINES && SMEAR_ASM_ARMV7EM
-        if (best)
-            flat_lines_armv7em(&l, part);
-        else
-#elif SMEAR_FLAT_LINES
-        if (best)
-            flat_lines_arm(&l, part, narrow);
-        else
-#else
-        (void)best;
-#endif
             flat_lines_reference(&l, part);
     }
     c->word[LEFT] = l.x[0][1];
@@ -198,10 +157,6 @@ const struct kernel kernels_flat_run[] = {
     { .name = "flat_run (narrow)", .least = 1, .most = 19, .size = { 2, 2 },
       .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR(narrow_vector),
                 { "best", narrow_best } } },
-    { .name = "flat_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
-      .form = { { "reference", wide_rows }, { "best", wide_rows_best } } },
-    { .name = "flat_rows (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
-      .form = { { "reference", narrow_rows }, { "best", narrow_rows_best } } },
     { .name = "flat_lines", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
       .form = { { "reference", wide_lines }, { "best", wide_lines_best } } },
     { .name = "flat_lines (narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = rows_prepare,
