@@ -20,8 +20,8 @@ $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CF
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
 # Fog makes hot functions larger than fast memory has room for.
 CFLAGS += -DSMEAR_WITH_FOG=0
-CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
-$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o: CFLAGS += -Os
+CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_SMALL_CODE=0 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
+$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/ports/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o $(BUILD)/src/raster/tiny_draw.o: CFLAGS += -Os
 
 # The core has no pipeline that waits for loads: what is loaded early only takes registers.
 CFLAGS += -fno-schedule-insns

@@ -106,10 +106,13 @@ static inline void smear_plain_trap(void)
 #define SMEAR_NOINLINE
 #endif
 
+/* All files of a build agree on what is left out for size. */
+#ifndef SMEAR_SMALL_CODE
 #ifdef __OPTIMIZE_SIZE__
 #define SMEAR_SMALL_CODE 1
 #else
 #define SMEAR_SMALL_CODE 0
+#endif
 #endif
 
 /* What is rarely called is not inlined into what is called often, unless size counts. */

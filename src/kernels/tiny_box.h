@@ -8,6 +8,9 @@
 #include "kernels/kernels.h"
 #include "kernels/tiny_weights.h"
 
+/* Where size counts, one loop of C does. */
+#define TINY_ASM_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+
 /* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
  * rounds codes (tiny_pixel). */
 struct tiny_channel {
@@ -41,18 +44,13 @@ struct tiny_box {
     bool shaded, linear, narrow;
 };
 
-/* Codes are (units + bias) >> shift where all of a triangle's are on one side of their break: false where they are not. Weights
- * are rounded down: what they weigh is up to 2 less than its least corner. */
-static inline bool tiny_codes(struct tiny_box *b, int32_t q0, int32_t low, int32_t high)
+/* Makes what turns units into codes: (units + bias) >> shift where all of a triangle's are on one side of the codes' break, no shift
+ * where they are on both, or size counts. Weights are rounded down: what they weigh is up to 2 less than its least corner. */
+static inline void tiny_codes(struct tiny_box *b, int32_t q0, int32_t low, int32_t high)
 {
-    if (high < 32768 << 11) {
-        b->units = (uint32_t)q0 + 0x400u;
-        b->code_shift = 11;
-        return true;
-    }
-    b->units = (uint32_t)q0 + ((32768u - 2048u) << 15) + 0x4000u;
-    b->code_shift = 15;
-    return low - 2 >= 32768 << 11;
+    const bool far = !SMEAR_SMALL_CODE && high < 32768 << 11, near = !SMEAR_SMALL_CODE && low - 2 >= 32768 << 11;
+    b->units = (uint32_t)q0 + (far ? 0x400u : near ? ((32768u - 2048u) << 15) + 0x4000u : 0);
+    b->code_shift = far ? 11 : near ? 15 : 0;
 }
 
 static inline void tiny_units(struct tiny_box *b, int32_t to1, int32_t to2)
@@ -88,20 +86,21 @@ static inline uint32_t tiny_channel_at(const struct tiny_channel *c, uint32_t w1
 
 SMEAR_INLINE uint32_t tiny_box_color(const struct tiny_box *b, uint32_t w1, uint32_t w2, bool linear)
 {
-    const uint32_t red = tiny_channel_at(&b->channel[0], w1, w2, linear), blue = tiny_channel_at(&b->channel[1], w1, w2, linear);
-    const uint32_t green = tiny_channel_at(&b->channel[2], w1, w2, linear);
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[red], smear_srgb_encode[green], smear_srgb_encode[blue]);
-    return pixel_make(0, red, green, blue);
+    uint32_t c[3];
+    for (int i = 0; i < 3; i++) {
+        c[i] = tiny_channel_at(&b->channel[i], w1, w2, linear);
+        c[i] = linear ? smear_srgb_encode[c[i]] : c[i];
+    }
+    return pixel_make(0, c[0], c[2], c[1]);
 }
 
-/* Pixel (e1, e2), where it is nearer. */
+/* Pixel (e1, e2), where it is nearer. `across`: of codes on both sides of their break. */
 SMEAR_INLINE void tiny_box_pixel(const struct tiny_box *b, uint16_t *depth, void *pixel, int32_t e1, int32_t e2, bool shaded,
-                                 bool linear, bool narrow)
+                                 bool linear, bool narrow, bool across)
 {
     const struct tiny_scale scale = { b->recip, b->up };
     const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
-    const uint32_t code = tiny_units_at(b, w1, w2) >> b->code_shift;
+    const uint32_t units = tiny_units_at(b, w1, w2), code = across ? tiny_code((int32_t)units) : units >> b->code_shift;
     if (code > *depth) {
         uint32_t color = b->color;
         *depth = (uint16_t)code;
@@ -124,13 +123,14 @@ static inline void tiny_box_reference(struct tiny_box *b)
             const int32_t e1 = b->e1 + b->right1 * x + b->down1 * y, e2 = b->e2 + b->right2 * x + b->down2 * y;
             const int32_t at = y * b->stride + x;
             if (((b->sum - e1 - e2) | e1 | e2) >= 0)
-                tiny_box_pixel(b, b->depth + at, pixel_after(b->pixels, at, b->narrow), e1, e2, b->shaded, b->linear, b->narrow);
+                tiny_box_pixel(b, b->depth + at, pixel_after(b->pixels, at, b->narrow), e1, e2, b->shaded, b->linear, b->narrow,
+                               b->code_shift == 0);
         }
 }
 
 /* A loop for each kind. What pixels need stays in the box: compilers that keep it at hand before each row take longer for that than
  * rows of one or two pixels do. */
-SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bool narrow)
+SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bool narrow, bool across)
 {
     const int32_t right1 = b->right1, right2 = b->right2;
     uint16_t *row = b->depth;
@@ -143,7 +143,7 @@ SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bo
             if ((e0 | e1 | e2) >= 0) {
                 const struct tiny_box *box = b;
                 SMEAR_KEEP_VALUE(box);
-                tiny_box_pixel(box, depth, pixel, e1, e2, shaded, linear, narrow);
+                tiny_box_pixel(box, depth, pixel, e1, e2, shaded, linear, narrow, across);
             }
             e0 -= right1 + right2;
             e1 += right1;
@@ -160,18 +160,18 @@ SMEAR_INLINE void tiny_box_rows(struct tiny_box *b, bool shaded, bool linear, bo
 static inline void tiny_box_unrolled(struct tiny_box *b)
 {
     if (!b->shaded && b->narrow)
-        tiny_box_rows(b, false, false, true);
+        tiny_box_rows(b, false, false, true, false);
     else if (!b->shaded)
-        tiny_box_rows(b, false, false, false);
+        tiny_box_rows(b, false, false, false, false);
     else if (!b->linear && b->narrow)
-        tiny_box_rows(b, true, false, true);
+        tiny_box_rows(b, true, false, true, false);
     else if (!b->linear)
-        tiny_box_rows(b, true, false, false);
+        tiny_box_rows(b, true, false, false, false);
     else
-        tiny_box_rows(b, true, true, b->narrow);
+        tiny_box_rows(b, true, true, b->narrow, false);
 }
 
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
 SMEAR_STATIC_ASSERT(offsetof(struct tiny_box, stride) == 20 && offsetof(struct tiny_box, rows) == 28
                         && offsetof(struct tiny_box, up) == 32 && offsetof(struct tiny_box, units) == 40
                         && offsetof(struct tiny_box, to1_low) == 48 && offsetof(struct tiny_box, to_pixel) == 64
@@ -480,9 +480,19 @@ static SMEAR_NOINLINE void tiny_box_armv7em(struct tiny_box *b)
 }
 #endif
 
+static SMEAR_RARE void tiny_box_across(struct tiny_box *b) { tiny_box_reference(b); }
+
 static inline void tiny_box(struct tiny_box *b)
 {
-#if SMEAR_ASM_ARMV6M
+    if (SMEAR_SMALL_CODE || SMEAR_ASM_ARM) {    /* targets are wide there */
+        tiny_box_rows(b, b->shaded, b->linear, false, SMEAR_SMALL_CODE || b->code_shift == 0);
+        return;
+    }
+    if (b->code_shift == 0) {
+        tiny_box_across(b);
+        return;
+    }
+#if TINY_ASM_ARMV6M
     if (!b->shaded || !b->linear) {
         tiny_box_armv6m(b);
         return;

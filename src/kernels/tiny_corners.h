@@ -22,7 +22,7 @@ static inline void tiny_span_reference(struct tiny_span *s, const int32_t *v0, c
     s->high = max_i32(v0[2], max_i32(v1[2], v2[2]));
 }
 
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
 /* Two thirds of the instructions that compilers take. */
 SMEAR_INLINE void tiny_span_armv6m(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
 {
@@ -99,7 +99,7 @@ SMEAR_INLINE void tiny_span_armv7em(struct tiny_span *s, const int32_t *v0, cons
 
 SMEAR_INLINE void tiny_span(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
 {
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
     tiny_span_armv6m(s, v0, v1, v2);
 #elif SMEAR_ASM_ARMV7EM
     tiny_span_armv7em(s, v0, v1, v2);
@@ -142,12 +142,13 @@ static inline void tiny_channel_make(struct tiny_channel *c, uint32_t c0, uint32
 /* Two words of each corner: red and green, blue. What rounds is 2^21 for codes, 0 for linear light. */
 static inline void tiny_colors_reference(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
 {
-    tiny_channel_make(&b->channel[0], c0[0], c1[0], c2[0], round);
-    tiny_channel_make(&b->channel[1], c0[1], c1[1], c2[1], round);
-    tiny_channel_make(&b->channel[2], c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, round);
+    for (int i = 0; i < 3; i++) {
+        const int word = i & 1, shift = i << 3 & 16;        /* red, blue, green */
+        tiny_channel_make(&b->channel[i], c0[word] >> shift, c1[word] >> shift, c2[word] >> shift, round);
+    }
 }
 
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
 /* One of the channels, AT bytes into the words, whose corners r1, r2 and r3 point to. */
 #define TINY_CORNERS_CHANNEL(AT) \
     "ldrh r6, [r1, #" AT "]\n\t" \
@@ -420,7 +421,7 @@ static inline void tiny_corners_armv7em(struct tiny_box *b, const int32_t *v0, c
 
 static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x, int32_t y)
 {
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
     tiny_corners_armv6m(b, v0, v1, v2, x, y);
 #elif SMEAR_ASM_ARMV7EM
     tiny_corners_armv7em(b, v0, v1, v2, x, y);
@@ -431,7 +432,7 @@ static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int
 
 static inline void tiny_colors(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
 {
-#if SMEAR_ASM_ARMV6M
+#if TINY_ASM_ARMV6M
     tiny_colors_armv6m(b, c0, c1, c2, round);
 #else
     tiny_colors_reference(b, c0, c1, c2, round);

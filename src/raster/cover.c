@@ -9,7 +9,6 @@
 
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
-#include "raster/cover_tiny.h"
 #include "raster/flat_list.h"
 #include "raster/span.h"
 #include "raster/texture_rows.h"
@@ -342,7 +341,7 @@ void smear_cover_choose(struct setup *s, bool small)
 
 void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
 {
-    if (s->flat && !s->writes_velocity && !small) {
+    if (HAS_FLAT_ROWS && s->flat && !s->writes_velocity && !small) {
         smear_flat_cover(s);
         return;
     }
@@ -359,7 +358,7 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
         write = smear_span_level;
-    if (small)
+    if (small && !SMEAR_SMALL_CODE)
         cover_small(s, box, write);
     else
         cover_large(s, write);

@@ -5,10 +5,11 @@
 
 #include "geometry/tiny.h"
 #include "raster/texture_rows.h"
+#include "raster/tiny_draw.h"
 
-/* Boxes of at most this many pixels in both directions are walked with edge functions (tiny.h), which fit 32 bits there; a
- * texture's set-up is cheaper for them, too. */
-enum { SMALL_PX = 8, SMALL_TEXTURED_PX = 16 };
+/* Boxes of at most SMALL_PX pixels in both directions, or so many where they are textured, are walked with edge functions (tiny.h), which
+ * fit 32 bits there; a texture's set-up is cheaper for them, too. */
+enum { SMALL_TEXTURED_PX = 16 };
 
 /* Whether a triangle is set up by smear_setup_small. */
 static inline bool cover_is_small(const struct setup *s, bool small)
@@ -16,10 +17,13 @@ static inline bool cover_is_small(const struct setup *s, bool small)
     return small && segment_textured(s->segment) && segment_moves(s->segment) == 0 && !fog_varies(s);
 }
 
-/* Pixels [left, right) of rows [top, bottom). */
-struct pixel_box {
-    int32_t left, right, top, bottom;
-};
+/* Does what smear_tiny_box does, and pixels that it draws have the velocity of what has no motion of its own. Velocities are there. */
+void smear_velocity_tiny(struct tiny_look *l, const struct setup *s, const struct pixel_box *box, const struct tiny_depths *depths);
+
+static inline void edges_start(struct tiny_edges *e, const struct setup *s, int32_t area, int32_t x, int32_t y)
+{
+    tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, area, x, y);
+}
 
 #if SMEAR_SPAN_ROWS
 /* Chooses what draws a triangle's rows at once; `small`: it has at most so many columns and rows. */

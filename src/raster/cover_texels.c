@@ -190,7 +190,7 @@ static inline uint32_t index_at(const struct few_texels *k, int32_t u, int32_t v
 /* The texel at coordinates, as 0xAARRGGBB. */
 static inline uint32_t texel_at(const struct few_texels *k, const struct smear_sampler *m, int32_t u, int32_t v)
 {
-    if (k->from_v >= 0)
+    if (!SMEAR_SMALL_CODE && k->from_v >= 0)
         return sampler_fetch(m, index_at(k, u, v), m->format);
     return smear_sample_at(m, smear_sampler_texel(m, 0, u >> 1), smear_sampler_texel(m, 1, v >> 1));
 }
@@ -273,8 +273,8 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
     if (SMEAR_WITH_FOG && fog_varies(s))
         return false;
     k.in_fog = fog_of(s) != FOG_NONE;
-    const bool turns = load_turns(&k, m);
-    if (!turns)
+    const bool turns = !SMEAR_SMALL_CODE && load_turns(&k, m);
+    if (!SMEAR_SMALL_CODE && !turns)
         k.from_v = -1;
 #if FEW_COPIES
     const bool narrow = target_is_direct(s->target);

@@ -3,7 +3,7 @@
 #ifndef SMEAR_COVER_TEXELS_H
 #define SMEAR_COVER_TEXELS_H
 
-#include "raster/cover_tiny.h"
+#include "raster/cover.h"
 
 /* Whether smear_cover_texels may take a triangle whose box has so many pixels. */
 static inline bool cover_has_texels(const struct setup *s, int32_t pixels)

@@ -230,7 +230,9 @@ static void draw(const struct smear_edge_units *e, const struct smear_raster_fra
     const int low = 31 - count_leading_zeros(any & (~any + 1u)), high = 31 - count_leading_zeros(any);
     const struct smear_raster_target part = part_of(t, left, right, t->y0 + (low << EDGE_BAND_LOG2),
                                                     min_i32(t->y0 + ((high + 1) << EDGE_BAND_LOG2), t->y1));
-    smear_raster_triangle(frame, &part, m.segment, m.color, m.v, &m.bounds);
+    struct smear_raster_pass pass;
+    smear_raster_begin(&pass, frame, &part);
+    smear_raster_triangle(&pass, m.segment, m.color, m.v, &m.bounds);
 }
 
 void smear_edges_draw(const struct smear_edge_units *e, const struct smear_raster_frame *frame, const struct smear_raster_target *t,

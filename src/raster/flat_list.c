@@ -5,9 +5,11 @@
 #include "kernels/corners.h"
 #include "kernels/flat_lines_bind.h"
 #include "kernels/gradient.h"
-#include "raster/cover_tiny.h"
+#include "raster/cover.h"
 #include "raster/gradient.h"
 #include "raster/kept_found.h"
+
+#if !SMEAR_SMALL_CODE
 
 /* Columns of its box. */
 struct columns {
@@ -306,20 +308,6 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     return true;
 }
 
-#if SMEAR_FLAT_ENTRIES
-bool smear_flat_entry(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t)
-{
-    const struct smear_bins *const bins = frame->bins;
-    if (t->segment == SMEAR_POINT)
-        return false;
-    const struct smear_segment *const g = &bins->segment[t->segment];
-    const int32_t *const v[3] = { bins_vertex(bins, g, t->vertex[0]), bins_vertex(bins, g, t->vertex[1]),
-                                  bins_vertex(bins, g, t->vertex[2]) };
-    return segment_is_flat(frame, g)
-        && smear_flat_triangle(target, v, t->color, NULL, target->x0 <= 0 && target->x1 >= frame->width, SMEAR_NO_TRIANGLE);
-}
-#endif
-
 void smear_flat_cover(const struct setup *s)
 {
     const struct smear_raster_target *t = s->target;
@@ -333,3 +321,5 @@ void smear_flat_cover(const struct setup *s)
     codes_make(&l, s->slope, plane_at(&s->depth, 0, y), s->depth.dx, s->depth.dy);
     draw_rows(t, &l, &c, y, end, false);
 }
+
+#endif

@@ -5,7 +5,6 @@
 
 #include "raster/target.h"
 
-#if SMEAR_FRONT_ORDER
 /* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
 struct front_memory {
     uint32_t bytes;         /* of both */
@@ -27,6 +26,5 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
 
 /* Whether something nearer hides all pixels of a triangle. */
 bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t);
-#endif
 
 #endif

@@ -14,7 +14,7 @@ struct kept {
 };
 
 /* Of triangles of one colour that assembly draws in all of a row, the lines that it goes on from are kept. */
-#define SMEAR_FLAT_KEPT (SMEAR_RASTER_CACHE && !SMEAR_FLAT_ENTRIES)
+#define SMEAR_FLAT_KEPT SMEAR_RASTER_CACHE
 
 #if SMEAR_FLAT_KEPT
 struct kept_flat {

@@ -3,7 +3,7 @@
 #ifndef SMEAR_RASTER_H
 #define SMEAR_RASTER_H
 
-#include "raster/target.h"
+#include "raster/tiny_draw.h"
 
 /* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
  * geometry's segments; they are empty. Returns the first; and which is that of target i. */
@@ -18,10 +18,26 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                           const uint32_t *number, uint32_t count);
 
-/* Draws one triangle whose vertices are given, and their box: records laid out as in the segment, clockwise
- * on the screen, of positive area and within the guard band. No velocities. */
-void smear_raster_triangle(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                           const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
+/* What draws triangles of a target one after the other, and what those of the last one's segment have in common. */
+struct smear_raster_pass {
+    const struct smear_raster_frame *frame;
+    const struct smear_raster_target *target;
+    const struct smear_segment *segment;    /* or null */
+    bool boxed;             /* those of few pixels are drawn by smear_tiny_draw */
+    bool plain;             /* their pixels say nothing but colour and depth, without fog */
+    bool flat;              /* and the others by smear_flat_triangle */
+    bool tiny;              /* the last one had few pixels */
+    bool moved;             /* one that moves has been drawn */
+    bool whole;             /* the target has all columns of the frame */
+    bool keeps;             /* and not all of its rows: what goes on below is kept */
+    struct tiny_look box;
+};
+
+void smear_raster_begin(struct smear_raster_pass *p, const struct smear_raster_frame *frame, const struct smear_raster_target *target);
+
+/* Draws a triangle whose vertices are given, and their box: records laid out as in the segment, clockwise on the screen, of positive
+ * area and within the guard band. No velocities. */
+void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
                            const struct bounds *bounds);
 
 #endif

@@ -128,6 +128,11 @@ struct setup {
     struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
 };
 
+/* Pixels [left, right) of rows [top, bottom). */
+struct pixel_box {
+    int32_t left, right, top, bottom;
+};
+
 /* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
 static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
 {

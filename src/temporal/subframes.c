@@ -139,27 +139,30 @@ static bool fill(struct subframes *f, int kinds, bool next)
 
 /* ------------------------------------------------------------------ instants */
 
-static inline void draw(const struct posed *p, const struct subframes *f, const struct smear_raster_target *target)
+static inline void draw(const struct posed *p, struct smear_raster_pass *pass)
 {
-    smear_raster_triangle(f->t->frame, target, p->segment, p->color, p->v, &p->bounds);
+    smear_raster_triangle(pass, p->segment, p->color, p->v, &p->bounds);
 }
 
-static void draw_moving_triangle(const struct subframes *f, uint32_t triangle, int32_t time, struct subframe_box *all)
+static void draw_moving_triangle(const struct subframes *f, struct smear_raster_pass *pass, uint32_t triangle, int32_t time,
+                                 struct subframe_box *all)
 {
     struct posed p;
     for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f)) {
-        draw(&p, f, &f->work);
+        draw(&p, pass);
         box_add(all, &p.box);
     }
 }
 
 static void draw_listed(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
+    struct smear_raster_pass pass;
+    smear_raster_begin(&pass, f->t->frame, &f->work);
     for (uint32_t i = 0; i < f->moving_listed; i++)
-        draw_moving_triangle(f, f->listed[i], time, all);
+        draw_moving_triangle(f, &pass, f->listed[i], time, all);
     for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)
         if (subframes_see(f, &f->t->moving[i]))
-            draw_moving_triangle(f, f->t->moving[i].triangle, time, all);
+            draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
 }
 
 static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
@@ -171,45 +174,48 @@ static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *
             draw_listed(f, time, all);
 }
 
-enum blend_pass {
+enum blend_step {
     BLEND_BOX,          /* finds where moving triangles are */
     BLEND_ALL,          /* draws all */
     BLEND_BACKGROUND    /* draws those that do not move */
 };
 
-static void blend_one(const struct subframes *f, uint32_t triangle, int32_t time, enum blend_pass pass,
-                      const struct smear_raster_target *target, struct subframe_box *all)
+static void blend_one(const struct subframes *f, struct smear_raster_pass *pass, uint32_t triangle, int32_t time,
+                      enum blend_step step, struct subframe_box *all)
 {
     const struct smear_bins *g = f->t->frame->bins;
     bool moves = g->segment[bins_triangle(g, triangle)->segment].path;
     struct posed p;
-    if ((pass == BLEND_BOX && !moves) || (pass == BLEND_BACKGROUND && moves))
+    if ((step == BLEND_BOX && !moves) || (step == BLEND_BACKGROUND && moves))
         return;
     for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f))
-        if (pass == BLEND_BOX)
+        if (step == BLEND_BOX)
             box_add(all, &p.box);
         else
-            draw(&p, f, target);
+            draw(&p, pass);
 }
 
-static SMEAR_RARE void blend_listed(const struct subframes *f, int32_t time, enum blend_pass pass,
+static SMEAR_RARE void blend_listed(const struct subframes *f, int32_t time, enum blend_step step,
                                     const struct smear_raster_target *target, struct subframe_box *all)
 {
+    struct smear_raster_pass pass;
+    if (step != BLEND_BOX)
+        smear_raster_begin(&pass, f->t->frame, target);
     for (uint32_t i = f->moving_listed; i < f->all_listed; i++)
-        blend_one(f, f->listed[i], time, pass, target, all);
+        blend_one(f, &pass, f->listed[i], time, step, all);
     for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE;
          i = bins_triangle(f->t->frame->bins, i)->next)
-        blend_one(f, i, time, pass, target, all);
+        blend_one(f, &pass, i, time, step, all);
 }
 
-static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_pass pass,
+static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_step step,
                              const struct smear_raster_target *target, struct subframe_box *all)
 {
     if (f->refilled == NULL)
-        blend_listed(f, time, pass, target, all);
+        blend_listed(f, time, step, target, all);
     else
         for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
-            blend_listed(f, time, pass, target, all);
+            blend_listed(f, time, step, target, all);
 }
 
 /* The work planes within a box. */

@@ -12,7 +12,7 @@ enum { PLACE,
 enum { STRIDE = 9,
        LEAST_AREA = 200 };
 
-/* A triangle around the box: corners are up to 4 px from its first pixel. Its units lie on one side of the codes' break. */
+/* A triangle around the box: corners are up to 4 px from its first pixel. */
 static bool make(struct tiny_box *b, struct kernel_call *c, bool shaded, bool linear, bool narrow)
 {
     const uint32_t place = c->word[PLACE];
@@ -47,7 +47,8 @@ static bool make(struct tiny_box *b, struct kernel_call *c, bool shaded, bool li
                                                ((uint32_t)from << 14) + (linear ? 0 : 1u << 21) };
     }
     tiny_units(b, q1 - q0, q2 - q0);
-    return tiny_codes(b, q0, min_i32(q0, min_i32(q1, q2)), max_i32(q0, max_i32(q1, q2)));
+    tiny_codes(b, q0, min_i32(q0, min_i32(q1, q2)), max_i32(q0, max_i32(q1, q2)));
+    return true;
 }
 
 #define CALLS(NAME, SHADED, LINEAR, NARROW)             \
@@ -61,7 +62,7 @@ static bool make(struct tiny_box *b, struct kernel_call *c, bool shaded, bool li
     {                                                   \
         struct tiny_box b;                              \
         if (make(&b, c, SHADED, LINEAR, NARROW))        \
-            tiny_box_unrolled(&b);                      \
+            b.code_shift == 0 ? tiny_box_reference(&b) : tiny_box_unrolled(&b);                      \
     }                                                   \
     static void NAME##_best(struct kernel_call *c)      \
     {                                                   \

@@ -492,6 +492,8 @@ static void test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them(v
             .x0 = 0, .y0 = 0, .x1 = W, .y1 = H, .color = still_color, .color_rows = rows, .depth = still_depth,
             .window_rows = rows
         };
+        struct smear_raster_pass pass;
+        smear_raster_begin(&pass, &frame, &target);
         for (uint32_t i = 0; i < mover_count; i++) {
             const struct smear_triangle *t = bins_triangle(&geometry, mover[i].triangle);
             const struct smear_segment *s = &segment[t->segment];
@@ -505,7 +507,7 @@ static void test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them(v
                 box = (struct bounds){ min_i32(box.x0, v[k][0]), min_i32(box.y0, v[k][1]), max_i32(box.x1, v[k][0]),
                                        max_i32(box.y1, v[k][1]) };
             if (area > 0)
-                smear_raster_triangle(&frame, &target, s, t->color, v, &box);
+                smear_raster_triangle(&pass, s, t->color, v, &box);
         }
         int32_t unequal = 0;
         for (int i = 0; i < W * H; i++)
