@@ -12,7 +12,65 @@
  *
  * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction,
  * from the pixel's velocity, from its depth and from the velocity of the last tap in front. */
-#include "filter/reconstruct.h"
+#include "filter/filter.h"
+
+#include "filter/gather.h"
+
+/* The direction of a neighbourhood. */
+struct direction {
+    struct vector v;
+    int32_t length;             /* |v|, q8 */
+    int32_t pairs;              /* 0: shorter than 2 px, nothing is gathered */
+    int32_t spacing;            /* 2^12 / pairs: distance of pairs in units of v */
+    uint32_t center;            /* the centre's weight times its speed: 1.2 / (2 pairs), q12 */
+};
+
+/* What follows from a pixel's velocity in a neighbourhood. */
+struct own_motion {
+    const struct direction *around;     /* the neighbourhood it is valid for; null at first */
+    uint32_t word;
+    struct vector second;       /* the second direction, as long as the first */
+    int32_t background;         /* speed that taps not in front start with, q8 */
+    uint32_t over;              /* its inverse_speed */
+    bool slow;                  /* at most 1/2 px */
+};
+
+/* What follows from a pixel's depth: what lies in front and behind, each found once it is needed. */
+struct own_depth {
+    uint32_t units;
+    uint32_t front, front_scale;        /* fully in front from here on; 2^30 / (front - units) */
+    uint32_t behind, behind_scale;      /* fully behind down to here; 2^30 / (units - behind) */
+    uint16_t code;
+    bool has_front, has_behind;
+};
+
+struct gathering {
+    const struct smear_window *w;
+    const struct smear_row_table *rows;
+    bool linear, box, fence, guertin, orthographic;
+    int32_t wanted;             /* pairs */
+    uint32_t far_units;         /* orthographic: depth units from the eye to the far plane */
+    const uint32_t *color;      /* the window's planes from the tile's first column on */
+    const uint16_t *depth_code;
+    int32_t x0;                 /* that column */
+    struct own_motion motion;
+    struct own_depth depth;
+    uint32_t front_word;        /* velocity of the last tap in front */
+    int32_t front_speed;        /* q8 */
+    int32_t background;         /* of the pixel: greatest speed so far, q8 */
+    uint32_t over;              /* its inverse_speed */
+};
+
+/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up as tile_looked_up() does. */
+struct choice {
+    struct direction direction[9];
+    const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */
+    bool alike;                         /* no need to look */
+    bool gathers;                       /* one of them is long enough */
+};
+
+/* 1/20 and 1/19 of units up to 2^20, in products of 32 bits. */
+static const uint32_t share_20 = 52429, share_19 = 55188;      /* q20 */
 
 /* ------------------------------------------------------------------ lengths */
 
@@ -339,17 +397,16 @@ static inline const struct direction *choose(const struct choice *c, const struc
     return c->at[dy + 1][dx + 1];
 }
 
-/* Filters columns [first, n) of the tile. */
-SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out, int32_t y0, int32_t first,
-                                  int32_t n, bool edge)
+/* Filters the tile's n columns. */
+SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out, int32_t y0, int32_t n, bool edge)
 {
     const struct smear_window *w = g->w;
     const int32_t x0 = g->x0;
     uint32_t taps = 0;
     for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
-        uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)(x0 + first);
-        uint32_t inner = (uint32_t)(x0 + first) * NOISE_X + (uint32_t)y * NOISE_Y;
-        for (int32_t x = first; x < n; x++, at++, inner += NOISE_X) {
+        uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
+        uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
+        for (int32_t x = 0; x < n; x++, at++, inner += NOISE_X) {
             const struct direction *top = choose(choice, w, x, y - y0, inner);
             if (top->pairs == 0) {
                 out[x] = w->color[at];
@@ -368,9 +425,8 @@ SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choi
     return taps;
 }
 
-/* With `eight`, eight pixels at once where there are so many. */
-static uint32_t reconstruct_tile(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
-                                 int32_t column, const struct smear_blur_settings *settings, bool eight)
+uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
+                                int32_t column, const struct smear_blur_settings *settings)
 {
     struct gathering g = {
         .w = w, .rows = rows, .linear = settings->linear,
@@ -384,19 +440,10 @@ static uint32_t reconstruct_tile(uint32_t *out, const struct smear_window *w, co
         smear_blur_copy(out, w, rows, column);
         return 0;
     }
-    int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift, n = min_i32(w->tile, w->width - x0), first = 0;
+    int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift, n = min_i32(w->tile, w->width - x0);
     bool edge = x0 <= w->reach || x0 + w->tile + w->reach > w->width;
-    uint32_t taps = 0;
     g.x0 = x0;
     g.color = w->color + x0;
     g.depth_code = w->depth + x0;
-    (void)eight;
-    return taps + (edge ? gather_tile(&g, &choice, out, y0, first, n, true) : gather_tile(&g, &choice, out, y0, first, n, false));
+    return edge ? gather_tile(&g, &choice, out, y0, n, true) : gather_tile(&g, &choice, out, y0, n, false);
 }
-
-uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
-                                int32_t column, const struct smear_blur_settings *settings)
-{
-    return reconstruct_tile(out, w, rows, row, column, settings, false);
-}
-

@@ -6,20 +6,7 @@
 #include "raster/window.h"
 
 /* Reduces the velocities of tile `column` of tile row `row`. */
-void smear_tilemax_reference(const struct smear_window *w, int32_t row, int32_t column);
-
-static inline void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
-{
-    smear_tilemax_reference(w, row, column);
-}
-
-/* Beyond these, measured on the scenes of the quality suite, the mean along the own velocity loses to weighted taps. */
-enum {
-    small_spread = 6,           /* 1/8 px: the widest range of velocities that all count as one, */
-    small_step = 16,            /* 1/8 px: the largest step of velocity from pixel to pixel that does not show, */
-    small_share = 2,            /* or 1/2^small_share of the longest motion */
-    small_carry = 32            /* 1/8 px: less motion along an axis hardly carries anything out of a tile */
-};
+void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column);
 
 /* Finds the 3 x 3 neighbourhood of every tile in `row`, where rows up to `known` have been reduced: the row being
  * finished knows all three, the one below it is looked at with two. With `corner`, a diagonal neighbour counts only if

@@ -59,10 +59,8 @@ static void find_displacement(const struct setup *s, int i, int32_t *dx, int32_t
 static uint32_t find_displacements(const struct setup *s, int32_t dx[3], int32_t dy[3])
 {
     uint32_t longest = 0;
-    bool known = false;
     for (int i = 0; i < 3; i++) {
-        if (!known)
-            find_displacement(s, i, &dx[i], &dy[i]);
+        find_displacement(s, i, &dx[i], &dy[i]);
         longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
     }
     return longest;
