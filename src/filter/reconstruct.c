@@ -35,13 +35,12 @@ struct own_motion {
     bool slow;                  /* at most 1/2 px */
 };
 
-/* What follows from a pixel's depth: what lies in front and behind, each found once it is needed. */
+/* What follows from a pixel's depth: where taps are fully in front and fully behind. */
 struct own_depth {
     uint32_t units;
-    uint32_t front, front_scale;        /* fully in front from here on; 2^30 / (front - units) */
-    uint32_t behind, behind_scale;      /* fully behind down to here; 2^30 / (units - behind) */
+    uint32_t front, front_scale;        /* from here on; 2^30 / (front - units) */
+    uint32_t behind, behind_scale;      /* down to here; 2^30 / (units - behind) */
     uint16_t code;
-    bool has_front, has_behind;
 };
 
 struct gathering {
@@ -59,14 +58,6 @@ struct gathering {
     int32_t front_speed;        /* q8 */
     int32_t background;         /* of the pixel: greatest speed so far, q8 */
     uint32_t over;              /* its inverse_speed */
-};
-
-/* The 3 x 3 neighbourhoods whose directions the tile's pixels may take: each looks one up as tile_looked_up() does. */
-struct choice {
-    struct direction direction[9];
-    const struct direction *at[3][3];   /* beyond the frame: the nearest inside it */
-    bool alike;                         /* no need to look */
-    bool gathers;                       /* one of them is long enough */
 };
 
 /* 1/20 and 1/19 of units up to 2^20, in products of 32 bits. */
@@ -174,37 +165,25 @@ static inline uint32_t part_of(uint32_t units, uint32_t share_q20)
     return units < 1u << 16 ? units * share_q20 >> 20 : (units >> 4) * share_q20 >> 16;
 }
 
-/* Finds where taps are fully in front: 5 % nearer, z_q = 0.95 z_p. For a perspective, units are 1 / z; for an
+/* Finds where taps are fully in front: 5 % nearer, z_q = 0.95 z_p; and likewise behind. For a perspective, units are 1 / z; for an
  * orthographic view, z is far_units - units. */
-static SMEAR_NOINLINE void own_depth_front(struct gathering *g)
+static SMEAR_NOINLINE void own_depth_make(struct gathering *g, uint16_t code)
 {
     struct own_depth *d = &g->depth;
-    uint32_t step = 1;
-    if (d->units != 0)
-        step = max_u32(SMEAR_WITH_VIEWS && g->orthographic ? part_of(g->far_units - d->units, share_20)
-                                       : part_of(d->units, share_19), 1);
-    d->front = d->units + step;
-    d->front_scale = inverse_q30(step);
-    d->has_front = true;
-}
-
-static SMEAR_NOINLINE void own_depth_behind(struct gathering *g)
-{
-    struct own_depth *d = &g->depth;
-    uint32_t step = max_u32(SMEAR_WITH_VIEWS && g->orthographic
-                                ? part_of(g->far_units - d->units, share_19)
-                                : part_of(d->units, share_20),
-                            1);
-    d->behind = d->units > step ? d->units - step : 0;
-    d->behind_scale = inverse_q30(d->units - d->behind);
-    d->has_behind = true;
+    const uint32_t units = smear_depth_units(code);
+    const bool even = SMEAR_WITH_VIEWS && g->orthographic;
+    uint32_t front = even ? part_of(g->far_units - units, share_20) : part_of(units, share_19);
+    const uint32_t behind = max_u32(even ? part_of(g->far_units - units, share_19) : part_of(units, share_20), 1);
+    front = units != 0 ? max_u32(front, 1) : 1;
+    *d = (struct own_depth){ units, units + front, inverse_q30(front), units > behind ? units - behind : 0, 0, code };
+    d->behind_scale = units != 0 ? inverse_q30(units - d->behind) : 0;
 }
 
 /* ------------------------------------------------------------------ the gather */
 
 /* Returns the mean. Weights are q12: the taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
  * its distance), so sums of 16-bit values fit 32 bits. */
-SMEAR_INLINE uint32_t mean_of(const struct weighed_sum *s, bool linear)
+static uint32_t mean_of(const struct weighed_sum *s, bool linear)
 {
     int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm(s->weight << zeros);            /* 2^(61 - zeros) / weight */
@@ -234,21 +213,17 @@ SMEAR_INLINE uint32_t mean_of(const struct weighed_sum *s, bool linear)
 }
 
 /* Returns how far in front the tap is, 0 .. 256. */
-SMEAR_INLINE uint32_t front_share(struct gathering *g, uint32_t code)
+static uint32_t front_share(struct gathering *g, uint32_t code)
 {
     uint32_t units = smear_depth_units((uint16_t)code);
-    if (!g->depth.has_front)
-        own_depth_front(g);
     if (units >= g->depth.front)
         return 256u;
     return (units - g->depth.units) * g->depth.front_scale >> 22;
 }
 
-SMEAR_INLINE uint32_t behind_share(struct gathering *g, uint32_t code)
+static uint32_t behind_share(struct gathering *g, uint32_t code)
 {
     uint32_t units = smear_depth_units((uint16_t)code);
-    if (!g->depth.has_behind)
-        own_depth_behind(g);
     if (units <= g->depth.behind)
         return 256u;
     return (g->depth.units - units) * g->depth.behind_scale >> 22;
@@ -294,11 +269,9 @@ struct tap_frame {
 
 /* Adds a tap; x, y and distance are in q20 px. */
 SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct tap_frame *f, int32_t x, int32_t y,
-                      int32_t distance, uint32_t shape, bool edge)
+                      int32_t distance, uint32_t shape)
 {
-    int32_t column = x >> 20;
-    if (edge)
-        column = clamp_i32(column, f->left, f->right);
+    const int32_t column = clamp_i32(x >> 20, f->left, f->right);
     int32_t at = (int32_t)f->row[y >> 20] + column;
     uint32_t code = g->depth_code[at], weight;
     int32_t cover = g->background - (distance >> 12);           /* q8 */
@@ -322,8 +295,7 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
 }
 
 /* Filters the pixel in column x of the tile and row y of the table. */
-SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise,
-                             bool edge)
+static uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise)
 {
     const struct own_motion *m = &g->motion;
     const struct direction *top = m->around;
@@ -345,8 +317,8 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
     uint32_t wider = g->box ? 0 : (uint32_t)top->spacing;
     for (int k = 0; t > 0; t -= top->spacing, shape += wider, k ^= 1) {
         int32_t dx = d[k].x * t, dy = d[k].y * t, distance = length * t;
-        tap(g, &sum, &f, base[k].x + dx, base[k].y + dy, distance + shift, shape, edge);
-        tap(g, &sum, &f, base[k].x - dx, base[k].y - dy, distance - shift, shape, edge);
+        tap(g, &sum, &f, base[k].x + dx, base[k].y + dy, distance + shift, shape);
+        tap(g, &sum, &f, base[k].x - dx, base[k].y - dy, distance - shift, shape);
     }
     uint32_t pixel = g->color[here];
     if (sum.weight == 0)
@@ -358,92 +330,63 @@ SMEAR_INLINE uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32
 
 /* ------------------------------------------------------------------ the tile */
 
-static void choice_make(struct choice *c, const struct gathering *g, int32_t row, int32_t column)
+/* Makes the directions of the 3 x 3 neighbourhoods that the tile's pixels may take, as tile_looked_up() has them; beyond the frame:
+ * the nearest inside it. Returns whether one is long enough. */
+static bool directions_make(struct direction direction[9], const struct gathering *g, int32_t row, int32_t column)
 {
     const struct smear_window *w = g->w;
-    const struct smear_tile_neighborhood *own = &window_around(w, row)[column];
-    c->alike = true;
-    direction_make(&c->direction[4], g, own);
-    c->gathers = c->direction[4].pairs != 0;
-    for (int dy = -1; dy <= 1; dy++)
-        for (int dx = -1; dx <= 1; dx++) {
-            int32_t line = clamp_i32(row + dy, 0, w->rows - 1);
-            const struct smear_tile_neighborhood *other =
-                &window_around(w, line)[clamp_i32(column + dx, 0, w->columns - 1)];
-            struct direction *d = &c->direction[4];
-            if (other->x != own->x || other->y != own->y) {
-                d = &c->direction[3 * dy + dx + 4];
-                direction_make(d, g, other);
-                c->gathers = c->gathers || d->pairs != 0;
-                c->alike = false;
-            }
-            c->at[dy + 1][dx + 1] = d;
-        }
-}
-
-static inline const struct direction *choose(const struct choice *c, const struct smear_window *w,
-                                             int32_t x, int32_t y, uint32_t inner)
-{
-    if (c->alike)
-        return &c->direction[4];
-    int shift = w->tile_shift;
-    uint32_t quarter = (uint32_t)w->tile >> 2, half = 2u * quarter;
-    bool inside_x = (uint32_t)x - quarter < half, inside_y = (uint32_t)y - quarter < half;
-    if (inside_x && inside_y)
-        return &c->direction[4];
-    uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
-    int32_t dx = inside_x ? 0 : tile_jump(x, smear_sine[(angle + 64u) & 255u], shift);
-    int32_t dy = inside_y ? 0 : tile_jump(y, smear_sine[angle & 255u], shift);
-    return c->at[dy + 1][dx + 1];
-}
-
-/* Filters the tile's n columns. */
-SMEAR_INLINE uint32_t gather_tile(struct gathering *g, const struct choice *choice, uint32_t *out, int32_t y0, int32_t n, bool edge)
-{
-    const struct smear_window *w = g->w;
-    const int32_t x0 = g->x0;
-    uint32_t taps = 0;
-    for (int32_t y = g->rows->y0; y < g->rows->y1; y++, out += w->tile) {
-        uint32_t at = g->rows->offset[y - g->rows->first] + (uint32_t)x0;
-        uint32_t inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
-        for (int32_t x = 0; x < n; x++, at++, inner += NOISE_X) {
-            const struct direction *top = choose(choice, w, x, y - y0, inner);
-            if (top->pairs == 0) {
-                out[x] = w->color[at];
-                continue;
-            }
-            uint32_t word = window_velocity_word(w, at);
-            if (word != g->motion.word || top != g->motion.around)
-                own_motion_make(g, top, at, word);
-            uint16_t code = w->depth[at];
-            if (code != g->depth.code)
-                g->depth = (struct own_depth){ .units = smear_depth_units(code), .code = code };
-            out[x] = gather(g, (int32_t)at - x0, x, y - g->rows->first, noise_of(inner), edge);
-            taps += 2u * (uint32_t)top->pairs + 1u;
-        }
+    bool any = false;
+    for (int i = 0; i < 9; i++) {
+        const int32_t line = clamp_i32(row + i / 3 - 1, 0, w->rows - 1);
+        direction_make(&direction[i], g, &window_around(w, line)[clamp_i32(column + i % 3 - 1, 0, w->columns - 1)]);
+        any = any || direction[i].pairs != 0;
     }
-    return taps;
+    return any;
+}
+
+/* Finds the direction of a pixel of the tile. */
+static const struct direction *choose(const struct direction direction[9], const struct smear_window *w, int32_t x, int32_t y,
+                                      uint32_t inner)
+{
+    const uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
+    return &direction[4 + tile_jump(x, smear_sine[(angle + 64u) & 255u], w->tile_shift)
+                      + 3 * tile_jump(y, smear_sine[angle & 255u], w->tile_shift)];
 }
 
 uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
                                 int32_t column, const struct smear_blur_settings *settings)
 {
+    const int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift, n = min_i32(w->tile, w->width - x0);
     struct gathering g = {
         .w = w, .rows = rows, .linear = settings->linear,
         .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
         .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
-        .wanted = clamp_i32(settings->samples / 2, 1, 64), .far_units = blur_far_units(settings)
+        .wanted = clamp_i32(settings->samples / 2, 1, 64), .far_units = blur_far_units(settings),
+        .color = w->color + x0, .depth_code = w->depth + x0, .x0 = x0
     };
-    struct choice choice;
-    choice_make(&choice, &g, row, column);
-    if (!choice.gathers) {
+    struct direction direction[9];
+    uint32_t taps = 0;
+    if (!directions_make(direction, &g, row, column)) {
         smear_blur_copy(out, w, rows, column);
         return 0;
     }
-    int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift, n = min_i32(w->tile, w->width - x0);
-    bool edge = x0 <= w->reach || x0 + w->tile + w->reach > w->width;
-    g.x0 = x0;
-    g.color = w->color + x0;
-    g.depth_code = w->depth + x0;
-    return edge ? gather_tile(&g, &choice, out, y0, n, true) : gather_tile(&g, &choice, out, y0, n, false);
+    own_depth_make(&g, 0);
+    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
+        uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0, inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
+        for (int32_t x = 0; x < n; x++, at++, inner += NOISE_X) {
+            const struct direction *top = choose(direction, w, x, y - y0, inner);
+            if (top->pairs == 0) {
+                out[x] = w->color[at];
+                continue;
+            }
+            const uint32_t word = window_velocity_word(w, at);
+            if (word != g.motion.word || top != g.motion.around)
+                own_motion_make(&g, top, at, word);
+            if (w->depth[at] != g.depth.code)
+                own_depth_make(&g, w->depth[at]);
+            out[x] = gather(&g, (int32_t)at - x0, x, y - rows->first, noise_of(inner));
+            taps += 2u * (uint32_t)top->pairs + 1u;
+        }
+    }
+    return taps;
 }
