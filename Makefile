@@ -64,7 +64,9 @@ include platform/$(TARGET)/target.mk
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
 # with others lies in its root, below them.
-SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display filter ports temporal layers methods model) src
+# The methods of other systems lie above it, in rooms that it does not know.
+OTHER_ROOMS := $(addprefix src/,filter layers accumulate timemask)
+SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal methods model) src $(OTHER_ROOMS)
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game
@@ -244,6 +246,11 @@ layers:
 NO_ROOMS := platform/examples $(patsubst %/,%,$(sort $(dir $(shell find tests/examples/stand_ins -name "*.h"))))
 FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
 
+.PHONY: core-alone
+## the core links without the rooms of other systems' methods, and draws the same
+core-alone: build/host/libsmear.a
+	sh tests/shell/core_alone.sh $< $(filter-out $(OTHER_ROOMS),$(SRC_ROOMS))
+
 .PHONY: format format-check
 ## sources are indented as .clang-format says (needs clang-format-14); make format indents them
 format-check:
@@ -254,7 +261,7 @@ format:
 
 ## how src/ is built, measured: longest functions, switches of the top floor
 house:
-	sh tests/shell/house.sh
+	OTHERS="$(OTHER_ROOMS)" sh tests/shell/house.sh
 
 ## writes src/base/tables.c again
 tables: build/gentables

@@ -29,8 +29,9 @@
 
 /* Bytes of one of each thing, at most, with pointers of 4 bytes and of 8. */
 #define SMEAR_BY_POINTER_(narrow, wide) (sizeof(void *) < 8 ? (narrow) : (wide))
-#define SMEAR_CONTEXT_BYTES SMEAR_BY_POINTER_(1480u, 1792u)     /* the context itself */
-#define SMEAR_FILTERING_BYTES SMEAR_BY_POINTER_(264u, 272u)     /* what filters keep beside a window */
+#define SMEAR_CONTEXT_BYTES SMEAR_BY_POINTER_(1448u, 1752u)     /* the context itself */
+#define SMEAR_FILTERING_BYTES SMEAR_BY_POINTER_(304u, 328u)     /* what filters keep beside a window */
+#define SMEAR_SUMMING_BYTES SMEAR_BY_POINTER_(16u, 16u)         /* what SMEAR_ACCUMULATE keeps beside its sums */
 #define SMEAR_DAMAGE_BYTES SMEAR_BY_POINTER_(40u, 64u)  /* what is kept beside the window's rows or the display's tiles */
 #define SMEAR_DAMAGED_DRAW_BYTES 16u        /* what is kept of a draw where the display keeps tiles of sharp frames */
 #define SMEAR_SUBMITTED_BYTES SMEAR_BY_POINTER_(188u, 224u)     /* a draw with its transforms */
@@ -175,8 +176,8 @@
     (SMEAR_WITH_CURVES && !(o) ? SMEAR_UP8_((size_t)(d) * SMEAR_OLDER_BYTES) + SMEAR_OLDER_CAMERA_BYTES : 0u)
 /* SMEAR_ACCUMULATE: r g b of the frame's pixels, or of a band's. */
 #define SMEAR_SUMS_(w, h, m, rows) \
-    (((m) & SMEAR_SET(SMEAR_ACCUMULATE)) != 0 ? SMEAR_UP8_((size_t)(w) * (size_t)(h) * SMEAR_SUM_BYTES_) \
-     : ((m) & SMEAR_SET_ACCUMULATE_BANDS) != 0 ? SMEAR_UP8_((size_t)(w) * (rows) * SMEAR_SUM_BYTES_) : 0u)
+    (((m) & SMEAR_SET(SMEAR_ACCUMULATE)) != 0 ? SMEAR_SUMMING_BYTES + SMEAR_UP8_((size_t)(w) * (size_t)(h) * SMEAR_SUM_BYTES_) \
+     : ((m) & SMEAR_SET_ACCUMULATE_BANDS) != 0 ? SMEAR_SUMMING_BYTES + SMEAR_UP8_((size_t)(w) * (rows) * SMEAR_SUM_BYTES_) : 0u)
 #define SMEAR_SUM_BYTES_ (SMEAR_WITH_LINEAR ? 12u : 6u)
 /* Bands as they are sent, or in 8-bit greys before that, and what a row of these leaves to the next. */
 #define SMEAR_BANDS_(w, b, n, f, q, z) \

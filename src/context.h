@@ -10,9 +10,6 @@
 #include "geometry/assemble.h"
 #include "geometry/history.h"
 #include "geometry/pose.h"
-#include "layers/layer.h"
-#include "methods/accumulate.h"
-#include "methods/filtered.h"
 #include "methods/temporal.h"
 
 /* A draw of this frame, with its poses. */
@@ -48,12 +45,17 @@ struct smear_context {
     uint8_t parts_wait;             /* assemblies until they are to do so again */
     uint16_t part_rows;             /* tile rows that are likely to find room at once, from the last part of the frame; 0: all */
     bool row_is_full;               /* the last one did not: the next one is not likely to */
-    struct smear_sums sums;
-    struct smear_filtered filtered;
     struct smear_temporal temporal;
     struct smear_damage *damage;    /* null without desc.reuse */
-    struct smear_layers *layers;    /* null without a method that has layers */
-    int32_t filter_row;             /* rows taken by smear_filter_row */
+
+    /* methods of other systems (others.h) */
+    struct smear_sums *sums;
+    struct smear_filtered *filtered;
+    struct smear_layers *layers;
+    bool has_groups;                /* draws of the frame are drawn in groups, each on its own: */
+    uint16_t *group_of;             /* per draw, */
+    uint16_t *sequence;             /* and draws in the order in which groups stay together */
+    bool has_fixed;                 /* a draw stays where it is before a camera that moves */
 };
 
 #endif

@@ -12,20 +12,10 @@ static bool find_track(struct smear_track *track, const struct smear_context *c,
     return d->open != NULL && !d->cut && d->motion == SMEAR_MOTION_FULL;
 }
 
-/* Returns how many layers there are that may have cameras of their own. */
-static int own_cameras(const struct smear_context *c)
+/* Whether layers of the frame may have cameras of their own. */
+static bool has_cameras(const struct smear_context *c)
 {
-    return SMEAR_WITH_LAYERS && smear_method_has_layers(c->frame.method) ? c->layers->setting_count : 0;
-}
-
-/* Whether one of these moves along a curve. */
-static bool layers_are_curved(struct smear_context *c)
-{
-    struct smear_layer_setting *s = own_cameras(c) != 0 ? c->layers->setting : NULL;
-    for (int i = 0; i < own_cameras(c); i++, s++)
-        if (s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older))
-            return true;
-    return false;
+    return SMEAR_WITH_LAYERS && smear_method_has_layers(c->frame.method);
 }
 
 static bool frame_is_curved(struct smear_context *c)
@@ -35,7 +25,7 @@ static bool frame_is_curved(struct smear_context *c)
     for (uint32_t i = 0; i < c->draw_count && !curved; i++)
         curved = (find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track))
               || (SMEAR_WITH_DEFORM && smear_draw_bends(&c->submitted[i].draw, &c->shot));
-    return curved || layers_are_curved(c);
+    return curved || (has_cameras(c) && smear_layers_are_curved(c));
 }
 
 /* What stays where it is before the camera does so at every moment, whatever the curves of both are. */
@@ -58,9 +48,8 @@ void smear_draws_find_curves(struct smear_context *c)
     find_attached(c);
     if (c->shot.camera_moves)
         smear_cameras_bend(&c->shot, c->shot.camera, c->shot.has_older);
-    for (int i = 0; i < own_cameras(c); i++)
-        if (c->layers->setting[i].has_camera)
-            smear_cameras_bend(&c->shot, c->layers->setting[i].camera, c->layers->setting[i].has_older);
+    if (has_cameras(c))
+        smear_layers_bend(c);
     for (uint32_t i = 0; i < c->draw_count; i++) {
         struct smear_submitted *s = &c->submitted[i];
         if (!SMEAR_WITH_DEFORM || !smear_draw_bends(&s->draw, &c->shot))

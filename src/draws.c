@@ -6,7 +6,6 @@
 #include "geometry/assemble_path.h"
 #include "geometry/parts.h"
 #include "geometry/ranges.h"
-#include "layers/groups.h"
 
 /* Several cores assemble draws: not where size counts, or the assembler's state lies on the stack. */
 #define SMEAR_ASSEMBLY_JOBS (SMEAR_WITH_WORKERS && !SMEAR_FAST_STACK && !SMEAR_SMALL_CODE)
@@ -37,7 +36,7 @@ static void classify_draw(struct smear_context *c, uint32_t i)
     r->fixed = false;
     if (frame_has_depth_velocity(&c->rows.raster))
         find_own_motion(r, &p, c->submitted[i].draw.motion);
-    c->filtered.blur.held = c->filtered.blur.held || r->fixed;
+    c->has_fixed = c->has_fixed || r->fixed;
     if (c->frame.method == SMEAR_CAMERA)
         r->moves = false;
     c->stats.draws_moved += r->moves;
@@ -189,7 +188,7 @@ enum draws { DRAWS_ALL, DRAWS_IN_ORDER, DRAWS_MOVING, DRAWS_STATIC };
 /* The kind of draw that a fill takes. */
 static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
 {
-    if (frame_has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP)
+    if (draw_is_grouped(c, i))
         return FILL_GROUP;
     return c->raster_draw[i].alpha == SMEAR_BLEND ? FILL_BLENDED : c->raster_draw[i].moves ? FILL_MOVING : FILL_STATIC;
 }
@@ -198,7 +197,7 @@ static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
 static bool fill_lacks(const struct smear_context *c, const struct smear_refill *f, uint32_t k, uint32_t i)
 {
     const uint8_t kind = fill_kind(c, i);
-    return k >= f->draw && (f->kinds & kind) != 0 && (kind != FILL_GROUP || c->layers->group_of[i] == f->group);
+    return k >= f->draw && (f->kinds & kind) != 0 && (kind != FILL_GROUP || c->group_of[i] == f->group);
 }
 
 static bool is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
@@ -211,17 +210,14 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
                           const struct smear_instant *instant)
 {
     struct smear_assembly a;
-    const struct smear_group *group = frame_has_layers(c) && c->layers->group_of[i] != SMEAR_NO_GROUP
-                                    ? &c->layers->group[c->layers->group_of[i]] : NULL;
     if (frame_has_layers(c))
-        c->assembler.keep_motion = group != NULL && group->method == SMEAR_LAYERED;
-    const bool is_sharp = frame_has_layers(c) && (group == NULL || group->method == SMEAR_NONE);
-    if (!smear_draws_make_assembly(c, i, is_sharp ? &smear_instant_now : instant, &a)) {
+        instant = smear_layers_instant(c, i, instant);
+    if (!smear_draws_make_assembly(c, i, instant, &a)) {
         c->stats.draws_beside++;
         return true;
     }
-    if (group != NULL)
-        return smear_groups_assemble(c->layers, &c->assembler, &a);
+    if (draw_is_grouped(c, i))
+        return smear_layers_assemble(c, &a);
     return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
 }
 
@@ -263,7 +259,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     struct smear_tile_box *seen = NULL;
     const struct smear_tile_box *ranges = ranges_all(as->bins);
     for (uint32_t k = 0; k < c->draw_count; k++) {
-        const uint32_t i = frame_has_layers(c) ? c->layers->sequence[k] : k;
+        const uint32_t i = frame_has_layers(c) ? c->sequence[k] : k;
         if (ranges != NULL) {
             as->ranges = ranges;
             ranges += ranges_of(as->bins, c->submitted[i].draw.mesh->triangle_count);

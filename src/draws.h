@@ -5,24 +5,21 @@
 
 #include "context.h"
 #include "display/points.h"
+#include "others.h"
 
 /* Whether the frame has blurred layers. */
-static inline bool frame_has_layers(const struct smear_context *c)
-{
-    return SMEAR_WITH_LAYERS && c->layers != NULL && c->layers->on;
-}
+static inline bool frame_has_layers(const struct smear_context *c) { return SMEAR_WITH_LAYERS && c->has_groups; }
 
-/* Returns the three cameras of a draw's layer, if it has its own. */
-static inline const smear_camera *layer_camera(const struct smear_context *c, uint32_t i)
+/* Whether a draw belongs to a group of one. */
+static inline bool draw_is_grouped(const struct smear_context *c, uint32_t i)
 {
-    const uint32_t layer = frame_has_layers(c) ? c->layers->layer_of[i] : SMEAR_NO_LAYER;
-    return layer != SMEAR_NO_LAYER && c->layers->setting[layer].has_camera ? c->layers->setting[layer].camera : NULL;
+    return frame_has_layers(c) && c->group_of[i] != SMEAR_NO_GROUP;
 }
 
 /* Finds the poses of draw `i`. */
 static inline void poses_of(struct smear_draw_poses *p, const struct smear_context *c, uint32_t i)
 {
-    smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, layer_camera(c, i));
+    smear_draw_poses_make(p, &c->shot, &c->submitted[i].draw, frame_has_layers(c) ? smear_layers_camera(c, i) : NULL);
 }
 
 /* Finds out whether anything of the frame moves along a curve; then all past poses become those at times of the exposure.
@@ -58,9 +55,6 @@ void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant
 #else
 #define smear_draws_find_ranges(c, instant) ((void)0)
 #endif
-
-/* Finds which draws are blurred as layers, and how they move. */
-void smear_draws_find_layers(struct smear_context *c, const struct smear_instant *middle);
 
 /* Find out which of what is kept is not what the frame wants: of a temporal method, and of sharp frames alone. */
 #if SMEAR_WITH_DAMAGE

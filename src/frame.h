@@ -8,9 +8,12 @@
 /* Draws what was submitted and hands it to flush. Returns SMEAR_OK, or what flush returned if negative. */
 int smear_frame_render(struct smear_context *c);
 
-/* The filter alone: begins, then takes a row of another renderer's pixels at a time. */
-void smear_frame_filter_begin(struct smear_context *c);
-int smear_frame_filter_row(struct smear_context *c, const uint32_t *color, const uint32_t *depth,
-                           const int16_t *velocity);
+/* Keeps a frame whose pointers have been followed. */
+void smear_frame_keep(struct smear_context *c, const smear_frame *f);
+
+/* Get the stages ready for a frame, and sum up its statistics: what comes before all rows, and after them. `by_depth`: velocities may
+ * come from depth. */
+void smear_frame_prepare(struct smear_context *c, bool by_depth);
+void smear_frame_sum_up(struct smear_context *c);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/compiled.h"
 #include "layout.h"
-#include "probe.h"
+#include "others.h"
 #include "raster/fog.h"
 #include "validate.h"
 
@@ -70,33 +70,6 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
 
 /* ------------------------------------------------------------------ frame */
 
-/* Copies the frame's layers, or makes the one it has without. */
-static void keep_layers(struct smear_layers *l, const smear_frame *f)
-{
-    static const smear_layer all = { .mask = 255 };
-    l->setting_count = f->layer_count != 0 ? f->layer_count : 1;
-    for (int i = 0; i < l->setting_count; i++) {
-        struct smear_layer_setting *s = &l->setting[i];
-        s->layer = f->layer_count != 0 ? f->layer[i] : all;
-        if (s->layer.method == 0)
-            s->layer.method = f->method;
-        s->has_camera = s->layer.camera != NULL;
-        if (s->has_camera) {
-            s->camera[0] = *s->layer.camera;
-            s->camera[1] = s->layer.open != NULL ? *s->layer.open : s->camera[0];
-            s->camera[2] = s->layer.close != NULL ? *s->layer.close : s->camera[0];
-            s->has_older = s->layer.open != NULL && s->layer.close != NULL;
-            if (!smear_camera_is_of_kind(&s->camera[1], s->camera) || !smear_camera_is_of_kind(&s->camera[2], s->camera)) {
-                s->camera[1] = s->camera[2] = s->camera[0];
-                s->has_older = false;
-            }
-        }
-        s->layer.camera = s->layer.open = s->layer.close = NULL;
-        s->shutter = s->layer.shutter_degrees != 0
-                   ? (int32_t)(((uint32_t)s->layer.shutter_degrees << 16) / f->shutter.degrees) : 1 << 16;
-    }
-}
-
 /* Validates a frame and fills in its defaults. What is refused leaves the context as it was: only the last step writes to it. */
 static int resolve(struct smear_context *c, smear_frame *f)
 {
@@ -114,8 +87,7 @@ static int resolve(struct smear_context *c, smear_frame *f)
     return result;
 }
 
-/* Keeps a frame whose pointers have been followed. */
-static void keep_frame(struct smear_context *c, const smear_frame *f)
+void smear_frame_keep(struct smear_context *c, const smear_frame *f)
 {
     c->frame = *f;
     c->frame.camera = c->frame.open = c->frame.close = NULL;
@@ -158,7 +130,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     if (result != SMEAR_OK)
         return result;
     if (SMEAR_WITH_LAYERS && smear_method_has_layers(f.method))
-        keep_layers(c->layers, &f);
+        smear_layers_keep(c, &f);
     struct smear_older *older = SMEAR_WITH_CURVES ? c->history.older : NULL;
     smear_shot_aim(&c->shot, &f, c->has_kept_camera ? &c->kept_camera : NULL,
                    older != NULL && older->has_camera ? &older->camera : NULL);
@@ -170,7 +142,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     c->kept_camera = *f.camera;
     c->has_kept_camera = true;
     smear_sun_make(&c->sun, f.light);
-    keep_frame(c, &f);
+    smear_frame_keep(c, &f);
     if (SMEAR_FOG_MOST)
         keep_fog(c, f.fog);
     c->history.frame++;
@@ -274,55 +246,4 @@ void smear_work(smear_context *c, int worker)
 void smear_get_stats(const smear_context *c, smear_stats *stats)
 {
     *stats = c->stats;
-}
-
-struct smear_probe smear_probe(const smear_context *c)
-{
-    return (struct smear_probe){ &c->rows, &c->filtered, &c->temporal, c->frame.method, c->frame.samples,
-                                 c->shot.half_exposure, c->direct };
-}
-
-/* ------------------------------------------------------------------ the filter alone */
-
-int smear_filter_begin(smear_context *c, const smear_frame *frame)
-{
-    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL)
-        return SMEAR_ERR_ARG;
-    if (c->state == STATE_DRAWING)
-        return SMEAR_ERR_ORDER;
-    smear_frame f = *frame;
-    if (f.camera == NULL || f.camera->near_plane <= 0)
-        return FAULT(FRAME_CAMERA);
-    int result = smear_resolve_frame(&f, &c->desc);
-    if (result == SMEAR_OK)
-        result = smear_check_overlay(f.overlay);
-    if (SMEAR_OVERLAY_MOST && result == SMEAR_OK && f.overlay != NULL && f.overlay->points != NULL)
-        result = FAULT(FRAME_POINTS);           /* there is no camera that sees them */
-    if (result != SMEAR_OK)
-        return result;
-    if (!smear_method_is_filter(f.method) || f.method == SMEAR_CAMERA)
-        return FAULT(FRAME_METHOD);
-    if (c->desc.workers > 1)
-        return FAULT(DESC_WORKERS);
-    f.shutter.poses = 0;
-    c->shot.camera[0] = *f.camera;
-    c->shot.camera[0].half_height = 0;
-    c->shot.camera_moves = false;
-    smear_shot_expose(&c->shot, &f);
-    keep_frame(c, &f);
-    c->state = STATE_FILTER;
-    smear_frame_filter_begin(c);
-    return SMEAR_OK;
-}
-
-int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth, const int16_t *velocity)
-{
-    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || color == NULL || depth == NULL || velocity == NULL)
-        return SMEAR_ERR_ARG;
-    if (c->state != STATE_FILTER)
-        return SMEAR_ERR_ORDER;
-    c->state = STATE_DRAWING;
-    const int result = smear_frame_filter_row(c, color, depth, velocity);
-    c->state = result != SMEAR_OK || c->filter_row == c->rows.window.height ? STATE_IDLE : STATE_FILTER;
-    return result;
 }

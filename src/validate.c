@@ -5,11 +5,11 @@
 #include "smear_memory.h"
 #include "smear_overlay.h"
 
+#include "base/jobs.h"
 #include "display/diffuse.h"
 #include "display/pixel_format.h"
-#include "methods/accumulate.h"
 #include "needs.h"
-#include "ports/pingpong.h"
+#include "others.h"
 #include "temporal/subframes.h"
 #include "temporal/tile_method.h"
 
@@ -207,7 +207,7 @@ static const struct field blur_fields[] = {
     FRAME(filter.camera_step, STEP, 0, 0, SMEAR_CAMERA_STEP_MOST),
 #if SMEAR_WITH_FILTERS
     FRAME(filter.kind, KIND, 0, 0, SMEAR_FILTER_PINGPONG),
-    FRAME(filter.pingpong.passes, PASSES, 2, 1, PINGPONG_PASSES_MAX), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
+    FRAME(filter.pingpong.passes, PASSES, 2, 1, SMEAR_PASSES_MOST), FRAME(filter.pingpong.taps, TAPS, 8, 2, 64),
     FRAME(filter.pingpong.base, BASE, 0, 0, 64), FRAME(filter.pingpong.jitter, JITTER, 0, 0, 128),
     FRAME(filter.pingpong.spread, SPREAD, 0, 0, 1),
 #endif
@@ -243,7 +243,7 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
         return FAULT(FRAME_METHOD);
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
-    if ((sums && f->samples > SUM_SAMPLES_MAX)
+    if ((sums && f->samples > SMEAR_SUM_SAMPLES_MOST)
         || (f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_SUBFRAMES_MOST))
         return FAULT(FRAME_SAMPLES);
     /* A tile that the display keeps would have edges with tiles that are not drawn. */
@@ -257,37 +257,6 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
     return SMEAR_OK;
 }
 
-static int resolve_filter(smear_frame *f, const smear_desc *d)
-{
-    smear_filter *filter = &f->filter;
-    smear_pingpong *p = &filter->pingpong;
-    if (!SMEAR_FILTER_KINDS) {
-        filter->kind = SMEAR_FILTER_RECONSTRUCT;
-        return SMEAR_OK;
-    }
-    if (f->method == SMEAR_CAMERA && filter->camera_step == 0)
-        filter->camera_step = 1;
-    if (filter->camera_step == 3)
-        return FAULT(FRAME_STEP);
-    if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))
-        filter->kind = SMEAR_FILTER_RECONSTRUCT;
-    else if (f->method == SMEAR_PINGPONG)
-        filter->kind = SMEAR_FILTER_PINGPONG;
-    else if (filter->kind == SMEAR_FILTER_DEFAULT)
-        filter->kind = SMEAR_FILTER_MEAN;
-    if (p->base == 0)
-        p->base = p->taps;
-    if (p->bias == 0)
-        p->bias = p->spread ? 16 : 255;     /* what is nearest to the truth over the suite */
-    if (p->base < 2)
-        return FAULT(FRAME_BASE);
-    if (!smear_method_is_filter(f->method) || filter->kind != SMEAR_FILTER_PINGPONG)
-        return SMEAR_OK;
-    if (!wants(d, SMEAR_SET(SMEAR_PINGPONG)))
-        return FAULT(FRAME_KIND);
-    return p->passes > d->filter.passes ? FAULT(FRAME_PASSES) : SMEAR_OK;
-}
-
 int smear_resolve_frame(smear_frame *f, const smear_desc *d)
 {
     int result = resolve_fields(f, frame_fields, (int)(sizeof frame_fields / sizeof *frame_fields));
@@ -296,7 +265,7 @@ int smear_resolve_frame(smear_frame *f, const smear_desc *d)
     if (result == SMEAR_OK)
         result = resolve_method(f, d);
     if (result == SMEAR_OK)
-        result = resolve_filter(f, d);
+        result = SMEAR_WITH_RECONSTRUCT ? smear_filter_resolve(f, d) : SMEAR_OK;
     if (result != SMEAR_OK)
         return result;
     if (f->shutter.frame_us == 0 && (f->shutter.mode != SMEAR_SHUTTER_NATIVE || f->shutter.us != 0))

@@ -265,6 +265,7 @@ s390x() {
 find_assets
 suite includes $make -s layers
 suite house $make -s house
+suite core-alone $make -s core-alone
 # What groups share is built before. Warnings of the optimizer are errors here.
 suite build $make -s $jobs CC="$launcher ${CC:-cc} -Werror" all build/host/run build/host/frames build/host/demo build/host/game build/host/tiny \
     build/tapes/golden.c build/tapes/small.c build/demo/target_screen build/dist-single build/one-file/single/smear.c

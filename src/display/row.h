@@ -27,6 +27,9 @@ enum {
     FILL_GROUP = 8                              /* those of a group of a layer, and no others */
 };
 
+/* The group of a draw that is in none: it is drawn with the background. */
+#define SMEAR_NO_GROUP 0xffffu
+
 /* How a tile row is drawn whose triangles do not find room at once: the store is filled with some, then with the next ones
  * in their order, as often as it takes, and all over again for each picture that is drawn of them. */
 struct smear_refill {

@@ -14,7 +14,6 @@ static uint8_t find_layer(const struct smear_layers *l, const smear_draw *draw)
 
 void smear_groups_begin(struct smear_layers *l)
 {
-    l->on = true;
     l->group_count = 0;
 }
 

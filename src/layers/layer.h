@@ -8,10 +8,9 @@
 #ifndef SMEAR_LAYER_H
 #define SMEAR_LAYER_H
 
-#include "geometry/bins.h"
+#include "display/row.h"
 
-/* The group of a draw that is in none (it is drawn with the background), and its layer. */
-#define SMEAR_NO_GROUP 0xffffu
+/* The layer of a draw that is in none; its group is SMEAR_NO_GROUP, row.h. */
 #define SMEAR_NO_LAYER 0xffu
 
 /* A layer of the frame. */
@@ -70,7 +69,6 @@ struct smear_layer_rows {
 enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };
 
 struct smear_layers {
-    bool on;                    /* the frame has blurred layers */
     struct smear_layer_setting *setting;
     int setting_count;
     uint8_t *layer_of;          /* per draw: its setting, or SMEAR_NO_LAYER */

@@ -7,38 +7,19 @@
 #include "display/band.h"
 #include "display/pixel_format.h"
 #include "display/points.h"
-#include "raster/velocity.h"
 
 /* ------------------------------------------------------------------ into the window */
 
-struct draw_job {
-    struct row_job row;
-    const struct smear_depth_velocity *by_depth;
-};
-
 static void draw_job(void *argument, int job, int worker)
 {
-    const struct draw_job *r = (const struct draw_job *)argument;
-    struct smear_rows *rows = r->row.rows;
-    const struct smear_window *w = &rows->window;
-    const bool by_depth = SMEAR_WITH_FILTERS && r->by_depth != NULL;
+    const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
     (void)worker;
-    smear_row_target(rows, r->row.row, &t);
-    if (SMEAR_WITH_RECONSTRUCT && rows->keeps_motion) {
-        t.velocity8 = w->velocity8;
-        t.velocity16 = w->velocity16;
-        t.inspect = rows->inspect;
-    }
-    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth
-        || !(r->row.steps & ROW_FINISH))
-        return;
-    const struct smear_camera_store store = { rows->raster.velocity_scale, rows->raster.inspect_scale,
-                                              rows->raster.reach_q3, rows->inspect };
-    smear_camera_velocity(w, &r->by_depth->reprojection, &store, r->by_depth->step, t.x0, t.x1, t.y0, t.y1);
+    smear_row_target(r->rows, r->row, &t);
+    smear_row_draw_opaque(r, job, &t, 0);
 }
 
-static void inspect_row(const struct smear_rows *rows, int row)
+void smear_sharp_inspect_row(const struct smear_rows *rows, int row)
 {
     const struct smear_window *w = &rows->window;
     for (int32_t y = row_top(rows, row); y < row_bottom(rows, row); y++) {
@@ -49,7 +30,7 @@ static void inspect_row(const struct smear_rows *rows, int row)
     }
 }
 
-static void advance_lists(struct smear_rows *rows, int row)
+void smear_sharp_advance_lists(struct smear_rows *rows, int row)
 {
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
@@ -57,14 +38,14 @@ static void advance_lists(struct smear_rows *rows, int row)
         rows->window.moving[i] = 0;
 }
 
-void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth)
+void smear_sharp_draw_row(struct smear_rows *rows, int row)
 {
-    struct draw_job job = { .row = { .rows = rows, .row = row }, .by_depth = by_depth };
+    struct row_job job = { .rows = rows, .row = row };
     const uint32_t start = stage_start(rows);
-    advance_lists(rows, row);
-    smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
+    smear_sharp_advance_lists(rows, row);
+    smear_row_run(rows, draw_job, &job, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
-        inspect_row(rows, row);
+        smear_sharp_inspect_row(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
@@ -144,7 +125,7 @@ static inline int draw_window_row(struct smear_rows *rows, int row)
     if (rows->late)
         SMEAR_ENTER_STAGE(SMEAR_STAGE_LATE);
 #endif
-    smear_sharp_draw_row(rows, row, NULL);
+    smear_sharp_draw_row(rows, row);
     smear_row_blend(rows, row);
     const int result = smear_band_finish_row(rows, row);
 #if SMEAR_LATE_BLOCKS
@@ -159,14 +140,14 @@ static inline int draw_window_row(struct smear_rows *rows, int row)
 /* Draws a run of tiles of a row whose lists have been moved on. */
 static int draw_damaged_run(struct smear_rows *rows, int row, const struct smear_damage_run *run)
 {
-    struct draw_job job = { .row = { .rows = rows, .row = row } };
+    struct row_job job = { .rows = rows, .row = row };
     const uint32_t start = stage_start(rows);
-    job.row.x0 = tile_left(rows, run->first);
-    job.row.x1 = tile_right(rows, run->end - 1);
-    smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
-    smear_row_blend_columns(&job.row);
+    job.x0 = tile_left(rows, run->first);
+    job.x1 = tile_right(rows, run->end - 1);
+    smear_row_run(rows, draw_job, &job, FILL_STATIC | FILL_MOVING);
+    smear_row_blend_columns(&job);
     stage_end(rows, &rows->stats->time.raster, start);
-    return smear_band_finish_columns(&job.row);
+    return smear_band_finish_columns(&job);
 }
 
 static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage, int row)
@@ -174,7 +155,7 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
     struct smear_damage_run run = { 0, 0 };
     int result = SMEAR_OK;
     const uint32_t start = stage_start(rows);
-    advance_lists(rows, row);
+    smear_sharp_advance_lists(rows, row);
     row_advance_blended(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 #if SMEAR_LATE_BLOCKS

@@ -4,17 +4,15 @@
 #define SMEAR_SHARP_H
 
 #include "display/damage.h"
-#include "ports/camera_velocity.h"
+#include "display/row.h"
 
-/* How drawn rows get velocities for what does not move itself, from depth and two cameras; or null. */
-struct smear_depth_velocity {
-    struct smear_reprojection reprojection;
-    int32_t step;               /* smear_filter.camera_step */
-};
+/* Draws opaque triangles of tile row `row` into the window: colour and depth. */
+void smear_sharp_draw_row(struct smear_rows *rows, int row);
 
-/* Draws opaque triangles of tile row `row` into the window: colour, depth and, where the method reads them,
- * velocities. */
-void smear_sharp_draw_row(struct smear_rows *rows, int row, const struct smear_depth_velocity *by_depth);
+/* What comes before it and after it, where another method draws a row: the lists move on, nothing in it moves; and
+ * desc.debug.inspect looks at it. */
+void smear_sharp_advance_lists(struct smear_rows *rows, int row);
+void smear_sharp_inspect_row(const struct smear_rows *rows, int row);
 
 /* Draws, converts and hands out the tile rows [first, end), a part of the frame that has been assembled. `direct`: as
  * the display's own pixels, straight into the band. Of frames that `damage` compares, tiles that the display lacks, by way of the

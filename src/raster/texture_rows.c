@@ -102,7 +102,7 @@ SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s,
     }
     p->z = code_from_units(units, slope);
     p->dz = (uint32_t)step_from_units(dx, slope);
-    if (s->writes_velocity) {
+    if (setup_writes_velocity(s)) {
         const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
         const struct span span = {
             .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y,

@@ -47,6 +47,9 @@ struct smear_window {
     struct smear_tile_neighborhood *around;     /* likewise, of rows with all neighbours */
 };
 
+/* Returns the pixels of a plane. */
+static inline size_t window_plane(const struct smear_window *w) { return (size_t)w->width * (size_t)w->ring; }
+
 static inline int32_t window_ring_row(const struct smear_window *w, int32_t y)
 {
     return (int32_t)((uint32_t)y % (uint32_t)w->ring);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* accuracy.c - see accuracy.h. Reads the library's own window (src/probe.h), so that a filter can
+/* accuracy.c - see accuracy.h. Reads the library's own window (src/filter/probe.h), so that a filter can
  * be compared on the very velocities it read. */
 #include "tests/ref/accuracy.h"
 
 #include "tests/test.h"
 
-#include "probe.h"
+#include "filter/probe.h"
 
 #include <dirent.h>
 #include <math.h>

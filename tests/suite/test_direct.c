@@ -3,7 +3,7 @@
  * pixels and converted. A context with a window never draws directly. */
 #include "smear_overlay.h"
 
-#include "probe.h"
+#include "filter/probe.h"
 #include "base/pixel.h"
 #include "raster/texture.h"
 #include "tools/scenes/present.h"

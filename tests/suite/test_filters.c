@@ -3,7 +3,7 @@
  * direct taps, half size; on scenes of the suite. */
 #include "tests/ref/accuracy.h"
 
-#include "ports/pingpong.h"
+#include "filter/pingpong.h"
 #include "tests/test.h"
 
 #include <math.h>

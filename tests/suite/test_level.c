@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_level.c - meshes whose vertices have normals or colours that are the same within every triangle: they are found, and
  * drawn as flat ones are (smear_segment.flat), to the bit as by their vertices. Host only. */
-#include "probe.h"
+#include "filter/probe.h"
 #include "geometry/vertex.h"
 
 #include "tests/rig.h"

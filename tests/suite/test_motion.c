@@ -4,7 +4,7 @@
 #include "tests/rig.h"
 #include "tests/test.h"
 
-#include "probe.h"
+#include "filter/probe.h"
 
 #include <math.h>
 #include <stdlib.h>

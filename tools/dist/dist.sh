@@ -4,7 +4,7 @@
 # Writes the forms in which people take a library: OUT/single (smear.c, smear.h and three small headers), and
 # OUT/FORM/smear for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests and examples, and
 # an archive of each, OUT/smear-VERSION-FORM.tar.gz or .zip, the same bytes from the same sources. ROOM... are the
-# folders of src/, src/ itself last, the lowest first. URL: where the project lives, for manifests. FORMS=single: only that one.
+# folders of src/ and src/ itself, the lowest first. URL: where the project lives, for manifests. FORMS=single: only that one.
 set -eu
 tool=$1 out=$2
 shift 2

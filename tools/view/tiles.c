@@ -4,7 +4,7 @@
 #include "tools/view/tiles.h"
 
 #include "layers/layer.h"
-#include "probe.h"
+#include "filter/probe.h"
 
 #include <stdlib.h>
 

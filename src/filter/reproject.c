@@ -6,7 +6,7 @@
  * translation. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
  * shows at s w, s = (x / f, y / f, 1), is P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B'
  * b) / w): linear in x, y and 1 / w, which is what depth codes tell. */
-#include "ports/reproject.h"
+#include "filter/reproject.h"
 
 #include "base/fixmath.h"
 #include "geometry/pose.h"

@@ -8,7 +8,7 @@
 #define SMEAR_TIMEMASK_SHADE_H
 
 #include "raster/setup.h"
-#include "temporal/timemask_cover.h"
+#include "timemask/timemask_cover.h"
 
 /* Time in a segment is counted in 1/64, from its middle. */
 enum { TIMEMASK_TIME_LOG2 = 6 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* camera_velocity.c - one pass over the depth codes of a row, whatever is drawn there. */
-#include "ports/camera_velocity.h"
+#include "filter/camera_velocity.h"
 
 #include "raster/velocity.h"
 

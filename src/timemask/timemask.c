@@ -5,9 +5,9 @@
 
 #include "geometry/shutter.h"
 #include "geometry/space.h"
-#include "temporal/timemask_cover.h"
-#include "temporal/timemask_shade.h"
-#include "temporal/timemask_samples.h"
+#include "timemask/timemask_cover.h"
+#include "timemask/timemask_shade.h"
+#include "timemask/timemask_samples.h"
 #include "geometry/transform.h"
 
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* pingpong.c - plans the passes, and gathers a tile's pixels in one of them. */
-#include "ports/pingpong.h"
+#include "filter/pingpong.h"
 
 #include "filter/gather.h"
 

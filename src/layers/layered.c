@@ -9,7 +9,7 @@
  *     finish      blended draws, conversion; flush
  *
  * A group that does not reach the row costs nothing there. */
-#include "methods/layered.h"
+#include "layers/layered.h"
 
 #include "kernels/fill.h"
 #include "display/band.h"

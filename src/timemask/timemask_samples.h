@@ -9,7 +9,7 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
-#include "temporal/timemask_cover.h"
+#include "timemask/timemask_cover.h"
 
 enum { TIMEMASK_ENTRIES = 5 };
 

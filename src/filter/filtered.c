@@ -3,13 +3,16 @@
  *
  *     reduce      finds the longest velocity of each tile of the row that was drawn
  *     finish      the row above: neighbourhoods, then per tile: filter, blended draws, conversion; then flush */
-#include "methods/filtered.h"
+#include "filter/filtered.h"
 
 #include "base/fixmath.h"
+#include "draws.h"
 #include "display/band.h"
 #include "display/points.h"
 #include "filter/tilemax.h"
-#include "ports/half.h"
+#include "filter/half.h"
+#include "methods/sharp.h"
+#include "raster/velocity.h"
 
 #if SMEAR_WITH_RECONSTRUCT
 
@@ -106,7 +109,7 @@ static void convert_static(const struct filter_job *r, int column)
 /* Returns what a pass reads: what the one before it left, or the picture. */
 static const uint32_t *pass_input(const struct smear_filtered *f, int pass)
 {
-    return pass == 0 ? f->window->color : f->ports->pass_plane[pass - 1];
+    return pass == 0 ? f->window->color : f->pass_plane[pass - 1];
 }
 
 /* Filters rows [y0, y1) of a tile of the window that is read; rows of `tile` are that window's tile apart. Returns the
@@ -121,8 +124,8 @@ static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int 
         return 0;
     }
     if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG) {
-        const int last = f->ports->passes - 1;
-        return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->ports->pass[last], row, column, y0, y1,
+        const int last = f->passes - 1;
+        return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->pass[last], row, column, y0, y1,
                                    &f->blur);
     }
     if ((SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_MEAN) || (kind == TILE_UNIFORM && (f->blur.flags & SMEAR_UNIFORM)))
@@ -197,8 +200,8 @@ static void pass_tile_job(void *argument, int column, int worker)
     const struct pass_job *r = (const struct pass_job *)argument;
     const struct smear_filtered *f = r->filtered;
     const struct smear_row_table table = row_table(f, r->row, r->y0, r->y1);
-    r->rows->samples[worker] += smear_pingpong_pass(f->ports->pass_plane[r->pass], 0, pass_input(f, r->pass), f->window,
-                                                    &table, &f->ports->pass[r->pass], r->row, column, r->y0, r->y1,
+    r->rows->samples[worker] += smear_pingpong_pass(f->pass_plane[r->pass], 0, pass_input(f, r->pass), f->window,
+                                                    &table, &f->pass[r->pass], r->row, column, r->y0, r->y1,
                                                     &f->blur);
 }
 
@@ -206,20 +209,19 @@ static void pass_tile_job(void *argument, int column, int worker)
  * behind the one before it as it reaches. Returns the end of the rows that the last pass may read. */
 static int32_t run_passes(struct smear_filtered *f, struct smear_rows *rows, int known)
 {
-    struct smear_ports *ports = f->ports;
     int32_t end = filtered_bottom(f, known);
-    for (int i = 0; i < ports->passes - 1; i++) {
+    for (int i = 0; i < f->passes - 1; i++) {
         const int32_t input_end = end;
         if (known != rows->window.rows - 1)
-            end = max_i32(end - ports->pass[i].reach, 0);
-        for (int32_t y = ports->pass_end[i]; y < end;) {
+            end = max_i32(end - f->pass[i].reach, 0);
+        for (int32_t y = f->pass_end[i]; y < end;) {
             const int row = y >> f->window->tile_shift;
             struct pass_job job = { f, rows, i, row, y, min_i32(end, filtered_bottom(f, row)) };
             fill_row_table(f, row, input_end);
             smear_jobs_run(&rows->jobs, pass_tile_job, &job, rows->window.columns);
             y = job.y1;
         }
-        ports->pass_end[i] = max_i32(ports->pass_end[i], end);
+        f->pass_end[i] = max_i32(f->pass_end[i], end);
     }
     return end;
 }
@@ -249,7 +251,7 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
         smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(f, rows, row);
     int32_t end = w->height;
-    if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG && f->ports->passes > 1)
+    if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG && f->passes > 1)
         end = run_passes(f, rows, known);
     fill_row_table(f, row, end);
     if (rows->blends && rows->refill != NULL)
@@ -287,15 +289,38 @@ int smear_filtered_roll(struct smear_filtered *f, struct smear_rows *rows, int r
     return result;
 }
 
-int smear_filtered_rows(struct smear_filtered *f, struct smear_rows *rows, int first, int end)
+/* ------------------------------------------------------------------ rows with velocities */
+
+static void draw_job(void *argument, int job, int worker)
 {
+    const struct filter_job *r = (const struct filter_job *)argument;
+    struct smear_rows *rows = r->row.rows;
+    const struct smear_filtered *f = r->filtered;
+    const struct smear_window *w = &rows->window;
     const bool by_depth = frame_has_depth_velocity(&rows->raster);
-    int result = SMEAR_OK;
-    for (int row = first; row < end && result == SMEAR_OK; row++) {
-        smear_sharp_draw_row(rows, row, by_depth ? &f->ports->by_depth : NULL);
-        result = smear_filtered_roll(f, rows, row);
-    }
-    return result;
+    struct smear_raster_target t;
+    (void)worker;
+    smear_row_target(rows, r->row.row, &t);
+    t.velocity8 = w->velocity8;
+    t.velocity16 = w->velocity16;
+    t.inspect = rows->inspect;
+    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth
+        || !(r->row.steps & ROW_FINISH))
+        return;
+    const struct smear_camera_store store = { rows->raster.velocity_scale, rows->raster.inspect_scale,
+                                              rows->raster.reach_q3, rows->inspect };
+    smear_camera_velocity(w, &f->reprojection, &store, f->camera_step, t.x0, t.x1, t.y0, t.y1);
+}
+
+static void draw_row(struct smear_filtered *f, struct smear_rows *rows, int row)
+{
+    struct filter_job job = { .row = { .rows = rows, .row = row }, .filtered = f };
+    const uint32_t start = stage_start(rows);
+    smear_sharp_advance_lists(rows, row);
+    smear_row_run(rows, draw_job, &job.row, FILL_STATIC | FILL_MOVING);
+    if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
+        smear_sharp_inspect_row(rows, row);
+    stage_end(rows, &rows->stats->time.raster, start);
 }
 
 /* ------------------------------------------------------------------ a frame */
@@ -309,8 +334,8 @@ static uint32_t far_over_range(const smear_camera *camera)
     return over > 0xffffffffu ? 0xffffffffu : (uint32_t)over;
 }
 
-void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *rows, const smear_frame *frame,
-                          const smear_camera *camera)
+static void begin_filter(struct smear_filtered *f, const struct smear_rows *rows, const smear_frame *frame,
+                         const smear_camera *camera)
 {
     f->method = frame->method;
     f->kind = frame->filter.kind;
@@ -325,75 +350,50 @@ void smear_filtered_begin(struct smear_filtered *f, const struct smear_rows *row
     f->window = frame->method == SMEAR_HALF ? f->half : &rows->window;
     if (!SMEAR_WITH_FILTERS)
         return;
-    f->ports->by_depth.step = frame->filter.camera_step;
-    f->ports->passes = smear_pingpong_plan(f->ports->pass, &frame->filter.pingpong, f->window->reach);
+    f->camera_step = frame->filter.camera_step;
+    f->passes = smear_pingpong_plan(f->pass, &frame->filter.pingpong, f->window->reach);
     for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
-        f->ports->pass_end[i] = 0;
+        f->pass_end[i] = 0;
 }
 
-/* ------------------------------------------------------------------ pixels of another renderer */
-
-#if SMEAR_WITH_RECONSTRUCT
-
-/* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
-static uint16_t depth_code(uint32_t distance, int32_t near_plane)
+void smear_filtered_begin(struct smear_context *c, bool by_depth)
 {
-    if (distance == 0)
-        return 0;
-    if (distance <= (uint32_t)near_plane)
-        return 65535;
-    int zeros = count_leading_zeros(distance);
-    uint64_t near_units = (uint64_t)(uint32_t)near_plane * SMEAR_DEPTH_NEAR;        /* 51 bits */
-    uint32_t r = recip_norm(distance << zeros);                                     /* 2^(61 - zeros) / d */
-    uint64_t units = ((near_units >> 20) * r) >> (41 - zeros);
-    if (units < 32768u)
-        return (uint16_t)max_u32((uint32_t)units, 2);
-    return (uint16_t)min_u32(32768u + (((uint32_t)units - 32768u + 8u) >> 4), 65535u);
+    struct smear_raster_frame *raster = &c->rows.raster;
+    const bool spans = shot_spans_exposure(&c->shot);
+    raster->velocity_scale = spans ? 32768 : c->shot.half_exposure >> 8;
+    raster->inspect_scale = spans ? (int32_t)((360u << 16) / c->frame.shutter.degrees) : 65536;
+    raster->reach_q3 = c->rows.window.reach * 8;
+    raster->velocity_from_depth = by_depth && c->frame.filter.camera_step != 0 && c->shot.camera_moves && !c->shot.cut;
+    if (smear_method_is_filter(c->frame.method))
+        begin_filter(c->filtered, &c->rows, &c->frame, &c->shot.camera[0]);
 }
 
-/* Makes half the exposure's displacement in 1/8 px, no longer than the reach, from 1/16 px per frame. */
-static void pack_velocity(const struct smear_rows *rows, const int16_t in[2], int32_t out[2])
+/* All is drawn once with velocities; a row is filtered when those below it, as far as the reach, are there. Blended
+ * draws go over a row when it is finished, so a part of the frame begins with the rows that are not. */
+int smear_filtered_render(struct smear_context *c)
 {
-    int32_t scale = rows->raster.velocity_scale;       /* q16 */
-    int32_t x = (int32_t)((int64_t)in[0] * scale >> 9), y = (int32_t)((int64_t)in[1] * scale >> 9);  /* q11 */
-    uint64_t square = (uint64_t)((int64_t)x * x) + (uint64_t)((int64_t)y * y);
-    uint32_t reach = (uint32_t)rows->window.reach << 11;
-    if (square > (uint64_t)reach * reach) {
-        uint32_t length = sqrt_floor_64(square);
-        int32_t factor = ratio_q30(reach, length);
-        x = (int32_t)((int64_t)x * factor >> 30);
-        y = (int32_t)((int64_t)y * factor >> 30);
+    const struct smear_instant middle = smear_instant_middle(&c->shot);
+    struct smear_filtered *f = c->filtered;
+    const int rows = c->rows.window.rows, late = c->rows.blends ? f->window->lag : 0;
+    int result = SMEAR_OK;
+    f->blur.held = c->has_fixed;
+    if (frame_has_depth_velocity(&c->rows.raster)) {
+        const struct smear_shutter_order at = smear_shot_order(&c->shot);
+        const bool spans = shot_spans_exposure(&c->shot);
+        const smear_camera *camera = c->shot.camera;
+        smear_reproject_make(&f->reprojection, &camera[at.middle], &camera[at.open],
+                             &camera[at.close], spans ? smear_instant_now.weight : middle.weight, spans,
+                             c->rows.window.width, c->rows.window.height);
     }
-    out[0] = (x + 128) >> 8;
-    out[1] = (y + 128) >> 8;
-}
-
-void smear_filtered_take_row(struct smear_rows *rows, int32_t y, const uint32_t *color, const uint32_t *depth,
-                             const int16_t *velocity, int32_t near_plane)
-{
-    struct smear_window *w = &rows->window;
-    const int32_t at = window_ring_row(w, y) * w->width;
-    if ((y & (w->tile - 1)) == 0)
-        for (int32_t i = 0; i < w->columns; i++)
-            w->moving[i] = 0;
-    for (int32_t x = 0; x < w->width; x++) {
-        int32_t v[2] = { 0, 0 };
-        if ((velocity[2 * x] | velocity[2 * x + 1]) != 0)
-            pack_velocity(rows, velocity + 2 * x, v);
-        if ((v[0] | v[1]) != 0)
-            w->moving[x >> w->tile_shift] = 1;
-        w->color[at + x] = color[x] & 0xffffffu;
-        w->depth[at + x] = depth_code(depth[x], near_plane);
-        if (w->velocity8 != NULL) {
-            w->velocity8[2 * (at + x)] = (int8_t)v[0];
-            w->velocity8[2 * (at + x) + 1] = (int8_t)v[1];
-        } else {
-            w->velocity16[2 * (at + x)] = (int16_t)v[0];
-            w->velocity16[2 * (at + x) + 1] = (int16_t)v[1];
+    for (int row = 0, end; row < rows && result == SMEAR_OK;) {
+        struct smear_refill refill;
+        end = smear_draws_assemble(c, max_i32(row - late, 0), row, rows, &middle, &refill);
+        for (; row < end && result == SMEAR_OK; row++) {
+            draw_row(f, &c->rows, row);
+            result = smear_filtered_roll(f, &c->rows, row);
         }
     }
+    return result;
 }
-
-#endif
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_cover.c - edges of a moving triangle in a block of pixels, and the runs they leave in a row. */
-#include "temporal/timemask_cover.h"
+#include "timemask/timemask_cover.h"
 
 enum {
     SAMPLE_Q = 14,              /* fraction bits of samples in planes */

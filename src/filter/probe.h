@@ -4,7 +4,7 @@
 #ifndef SMEAR_PROBE_H
 #define SMEAR_PROBE_H
 
-#include "methods/filtered.h"
+#include "filter/filtered.h"
 #include "methods/temporal.h"
 
 struct smear_probe {
