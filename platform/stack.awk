@@ -15,7 +15,6 @@ BEGIN {
     reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
-    reach["src/filter/pingpong.c"] = "(^|:)row_(light|codes)(_wide)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
     if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
