@@ -163,7 +163,6 @@
                + SMEAR_UP8_(SMEAR_LAYER_PX_(w, T, r) * SMEAR_VELOCITY_BYTES_(r)) \
                + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 4u) + SMEAR_UP8_((size_t)(w) * (size_t)(T) * 2u) \
                + SMEAR_UP8_((SMEAR_LAYER_WIDTH_(w, r) / (size_t)(T) + 1u) * 12u) \
-               + SMEAR_UP8_((SMEAR_MAX_(SMEAR_LAYER_WIDTH_(w, r), SMEAR_LAYER_ROWS_(T, r)) + 2u) * 2u) \
                + 2u * SMEAR_UP8_(SMEAR_LAYER_ROWS_(T, r) * 2u) + (size_t)(d) * SMEAR_GROUP_BYTES + 3u * SMEAR_UP8_((size_t)(d) * 2u) \
                + SMEAR_UP8_(d) + (size_t)(k) * ((size_t)(T) * 560u + 5120u) + SMEAR_LAYERS_BYTES \
                + SMEAR_UP8_(SMEAR_LAYERS_MAX * SMEAR_LAYER_BYTES) \

@@ -29,7 +29,6 @@ static void lay_out_layer_rows(struct smear_layer_rows *r, struct smear_arena *a
     r->over_depth = arena_take(a, (size_t)d->width * (size_t)d->tile, 2);
     r->row_first = arena_take(a, (size_t)r->rows, sizeof *r->row_first);
     r->row_end = arena_take(a, (size_t)r->rows, sizeof *r->row_end);
-    r->edge = arena_take(a, (size_t)max_i32(r->width, r->rows) + 2u, sizeof *r->edge);
     r->work_bytes = (uint32_t)smear_streak_work(d->tile);
     r->work = arena_take(a, d->workers, r->work_bytes);
 }

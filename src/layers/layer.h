@@ -58,7 +58,6 @@ struct smear_layer_rows {
     uint32_t *over;                     /* of the tile row, where groups pass through each other (streak.h) */
     uint16_t *over_depth;
     int16_t *row_first, *row_end;       /* the columns of each row within which something is drawn */
-    int16_t *edge;                      /* streak.h */
     void *work;                         /* work_bytes per worker: streak.h */
     uint32_t work_bytes;
 };

@@ -286,7 +286,7 @@ static void set_area(struct layers_row *r)
         .marks = group->marks, .marked_from = group->marked_from, .height = height,
         .nearest = group->rank != 0 ? 65536u : group->nearest,
         .farthest = group->rank != 0 ? 65536u : group->farthest,
-        .edge = rows->edge, .work = rows->work, .linear = frame->raster.linear
+        .work = rows->work, .linear = frame->raster.linear
     };
 }
 
@@ -344,8 +344,6 @@ static void merge_group(struct layers_row *r, struct smear_group *group)
     const int32_t y0 = row_top(frame, r->row.row) + frame->window.tile - r->streak.reach_y, y1 = y0 + r->area.rows;
     set_target(r, y0, y1);
     set_gather(r);
-    if (rows->held.group != group)
-        smear_streak_edges(&r->streak, rows->edge, r->streak.upright ? rows->rows : rows->width);
     draw_group(r);
     rows->held = (struct smear_held_rows){ group, y0, y1, r->target.x0, r->target.x1 };
     if (group->method == SMEAR_LAYERED)

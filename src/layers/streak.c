@@ -7,8 +7,44 @@
  *
  *     gather      sums what is drawn on a line
  *     means       takes the line's means at its nodes and shares them out to the rows it passes between
- *     finish      mixes pixels between nodes, over the background by coverage and depth (streak_finish.c) */
-#include "layers/streak_part.h"
+ *     finish      mixes pixels between nodes, over the background by coverage and depth. Where the background lies within the
+ *                 group's depths, the mean is taken again of what is in front of it; where groups pass through each other, their
+ *                 depths tell which is in front */
+#include "layers/streak.h"
+
+#include "base/fixmath.h"
+#include "base/pixel.h"
+
+enum {
+    RED, GREEN, BLUE, COVER, CHANNELS,
+    NODES = 35,                 /* memory for nodes of each row of a tile */
+    STEPS_MAX = 320,            /* memory for steps of a line */
+    NEAR = 5                    /* places where the depth of a mean is looked up */
+};
+
+/* A pixel, a sum or a mean: codes, of which coverage 255 is one, or linear light, of which 65535 is. Sums wrap; their differences do
+ * not. */
+struct sums {
+    uint32_t c[CHANNELS];
+};
+
+/* The part of an area that is in work: steps [first, end) along the lines by places [low, high) across them. */
+struct part {
+    const struct smear_streak *s;
+    const struct smear_streak_area *a;
+    int32_t low, high;          /* places across */
+    int32_t first, end;         /* steps; the first is a node */
+    int32_t nodes;              /* along */
+    int32_t along, across;      /* from a node to the next along, and to the next place across */
+    uint32_t nearest, farthest; /* depth codes that are drawn */
+    bool has_range;             /* they were found; else they are those that the group keeps to */
+    struct sums *node;
+    struct sums *sums;          /* of all pixels before a step */
+    /* The steps of each row that a mean reaches, where rows lie along the lines: mixed between nodes, means would go on
+     * beyond them. */
+    int16_t first_of[64], end_of[64];
+    int16_t near_x[NEAR], near_y[NEAR];         /* from a pixel */
+};
 
 /* ------------------------------------------------------------------ lines */
 
@@ -55,18 +91,6 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     s->reach_y = s->upright ? s->half + 1 : across;
 }
 
-void smear_streak_edges(const struct smear_streak *s, int16_t *edge, int32_t steps)
-{
-    int32_t n = 0, last = 0;
-    edge[n++] = 0;
-    for (int32_t i = 0, at = 0x8000; i < steps; i++, at += s->slope)
-        if (at >> 16 != last) {
-            last = at >> 16;
-            edge[n++] = (int16_t)i;
-        }
-    edge[n] = (int16_t)steps;
-}
-
 /* Returns the place across at which a line from 0 passes after i steps, q16. */
 static inline int32_t passes(const struct smear_streak *s, int32_t i)
 {
@@ -95,174 +119,74 @@ static void steps_within(const struct smear_streak *s, int32_t start, int32_t lo
     *end = min_i32(*end, step_to(s, (s->slope > 0 ? high : low - 1) - start, bias));
 }
 
-/* ------------------------------------------------------------------ sums along a line */
-
-enum {
-    NODES = 70,                 /* memory for nodes of each row of a tile; half as many of linear light */
-    STEPS_MAX = 640             /* memory for steps of a line; likewise */
-};
+/* ------------------------------------------------------------------ sums and means along a line */
 
 size_t smear_streak_work(int32_t tile)
 {
-    return (size_t)(NODES * tile + STEPS_MAX) * sizeof(lanes);
+    return (size_t)(NODES * tile + STEPS_MAX) * sizeof(struct sums);
 }
 
-/* A line and the part of it on which something may be drawn. */
-struct line {
-    int32_t start;
-    int32_t from, to;           /* steps */
-    int32_t place, by, runs;    /* the first place across, what leads to the next one, how many there are */
-    const int16_t *edge;        /* the step at which the line comes to each place, and one more */
-    int32_t base;               /* sums begin at this step */
-};
-
-/* Finds the places across that a line passes from step l->from to step l->to. */
-static void find_runs(const struct smear_streak_part *m, struct line *l)
+static struct sums sums_of_pixel(uint32_t p, bool linear)
 {
-    int32_t a = l->start + ((passes(m->s, l->from) + 0x8000) >> 16);
-    int32_t b = l->start + ((passes(m->s, l->to - 1) + 0x8000) >> 16);
-    int32_t most = m->s->upright ? m->a->stride : m->a->rows;
-    int32_t low = clamp_i32(min_i32(a, b), 0, most), high = clamp_i32(max_i32(a, b) + 1, 0, most);
-    l->by = m->s->slope < 0 ? -1 : 1;
-    l->place = m->s->slope < 0 ? high - 1 : low;
-    l->runs = high - low;
-    l->edge = m->a->edge + abs_i32(l->place - l->start);
+    if (linear)
+        return (struct sums){ { smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)], smear_srgb_decode[pixel_blue(p)],
+                                65535u } };
+    return (struct sums){ { pixel_red(p), pixel_green(p), pixel_blue(p), 255u } };
 }
 
-/* Finds the steps of run k; returns whether something may be drawn there. */
-static inline bool run_of(const struct smear_streak_part *m, const struct line *l, int32_t k, int32_t *first,
-                          int32_t *end)
+static void sums_add(struct sums *to, const struct sums *l, uint32_t times)
 {
-    *first = max_i32(l->edge[k], l->from);
-    *end = min_i32(l->edge[k + 1], l->to);
-    if (!m->s->upright) {
-        *first = max_i32(*first, m->a->row_first[l->place + l->by * k]);
-        *end = min_i32(*end, m->a->row_end[l->place + l->by * k]);
-    }
-    return *first < *end;
+    for (int i = 0; i < CHANNELS; i++)
+        to->c[i] += l->c[i] * times;
 }
 
-static inline lanes *fill(lanes *out, const lanes *end, lanes value)
+/* Divides a weighed sum by all weights. Codes are rounded to nearest: the mean of equal ones is exact. */
+static uint32_t mean_of(const struct smear_streak *s, uint32_t weighed, bool linear)
 {
-    for (; out + 4 <= end; out += 4)
-        out[0] = out[1] = out[2] = out[3] = value;
-    while (out < end)
-        *out++ = value;
-    return out;
+    return linear ? mulh_u32(weighed, s->over << 10) : (weighed + (s->length >> 1)) * s->over >> 22;
 }
 
-/* Sums up steps [base, base + count) of a line. */
-static void gather_codes(const struct smear_streak_part *m, const struct line *l, int32_t count)
+/* Sums up steps [base, base + count) of the line from place `start`; pixels lie at steps [from, to). */
+static void gather(const struct part *m, int32_t start, int32_t base, int32_t count, int32_t from, int32_t to)
 {
-    lanes sum = 0, *out = m->sums.codes, *const zero = out - l->base;
-    const int32_t step = m->step, runs = l->runs, side = l->by * m->side;
-    const uint32_t *place = m->a->color + l->place * m->side;
-    for (int32_t k = 0, first, end; k < runs; k++, place += side) {
-        if (!run_of(m, l, k, &first, &end))
+    const struct smear_streak_area *a = m->a;
+    const bool upright = m->s->upright;
+    struct sums sum = { { 0, 0, 0, 0 } };
+    for (int32_t i = base; i < base + count; i++) {
+        const int32_t place = start + ((passes(m->s, i) + 0x8000) >> 16);
+        m->sums[i - base] = sum;
+        if (i < from || i >= to || place < 0 || place >= (upright ? a->stride : a->rows)
+            || (!upright && (i < a->row_first[place] || i >= a->row_end[place])))
             continue;
-        out = fill(out, zero + first, sum);
-        const uint32_t *in = place + first * step;
-        for (lanes *const stop = zero + end; out < stop; in += step) {
-            *out++ = sum;
-            sum += lanes_of(*in) ^ (lanes)0xff << 48;
-        }
-    }
-    fill(out, m->sums.codes + count, sum);
-}
-
-static void gather_light(const struct smear_streak_part *m, const struct line *l, int32_t count)
-{
-    struct light sum = { 0, 0, 0, 0 }, *out = m->sums.light;
-    int32_t at = 0;
-    for (int32_t k = 0, first, end; k < l->runs; k++) {
-        if (!run_of(m, l, k, &first, &end))
+        const uint32_t pixel = a->color[upright ? i * a->stride + place : place * a->stride + i];
+        if (pixel >> 24 != 0)
             continue;
-        for (; at < first - l->base; at++)
-            out[at] = sum;
-        const uint32_t *in = m->a->color + (l->place + l->by * k) * m->side + first * m->step;
-        for (; at < end - l->base; at++, in += m->step) {
-            out[at] = sum;
-            if (*in >> 24 != 0)
-                continue;
-            struct light p = light_of_pixel(*in);
-            sum = (struct light){ sum.r + p.r, sum.g + p.g, sum.b + p.b, sum.a + p.a };
-        }
+        const struct sums one = sums_of_pixel(pixel, a->linear);
+        sums_add(&sum, &one, 1);
     }
-    for (; at < count; at++)
-        out[at] = sum;
-}
-
-/* ------------------------------------------------------------------ means */
-
-/* Returns the mean around a node. *left is the sum of all before its first whole pixel, *right the sum up to its last
- * whole pixel. */
-static inline lanes mean_around(const lanes *left, const lanes *right, uint32_t inner, uint32_t rest,
-                                lanes half, uint32_t over)
-{
-    return lanes_mean(lanes_times(right[0] - left[0], inner) + lanes_times(right[1] - left[-1], rest) + half,
-                      over);
 }
 
 /* Takes the line's means at steps first, first + n ... and shares them out to the places above and below it. */
-static void means_codes(const struct smear_streak_part *m, const struct line *l, int32_t first, int32_t end)
+static void means(const struct part *m, int32_t start, int32_t base, int32_t first, int32_t end)
 {
     const struct smear_streak *s = m->s;
-    const uint32_t inner = s->inner, rest = s->rest, over = s->over;
-    const lanes half = (s->length >> 1) * 0x0001000100010001u;
-    const int32_t n = 1 << s->node, to_right = 2 * s->half + 1, along = m->along, across = m->across;
-    const int32_t last = (m->high - m->low - 1) * 65536, climb = s->slope * n;
-    const lanes *left = m->sums.codes + (first - s->half - l->base), *const stop = left + (end - first);
-    lanes *out = m->node.codes + ((first - m->first) >> s->node) * along;
-    int32_t place = (l->start - m->low) * 65536 + passes(s, first);
-    if (climb == 0) {           /* the line is a row */
-        for (out += l->start * across - m->low * across; left < stop; left += n, out += along)
-            *out += mean_around(left, left + to_right, inner, rest, half, over) << 8;
-        return;
-    }
-    for (; left < stop; left += n, out += along, place += climb) {
-        lanes mean = mean_around(left, left + to_right, inner, rest, half, over);
-        if (mean >> 48 == 0)
-            continue;
-        lanes *to = out + (place >> 16) * across;
-        uint32_t part = (uint32_t)place >> 8 & 255u;
+    for (int32_t i = first; i < end; i += 1 << s->node) {
+        const struct sums *p = m->sums + (i - s->half - base), *q = p + 2 * s->half + 1;
+        struct sums mean;
+        for (int k = 0; k < CHANNELS; k++)
+            mean.c[k] = mean_of(s, (q[0].c[k] - p[0].c[k]) * s->inner + (q[1].c[k] - p[-1].c[k]) * s->rest, m->a->linear);
+        const int32_t place = (start - m->low) * 65536 + passes(s, i);
+        struct sums *out = m->node + (place >> 16) * m->across + ((i - m->first) >> s->node) * m->along;
+        const uint32_t beyond = (uint32_t)place >> 8 & 255u;
         if (place >= 0)
-            to[0] += lanes_times(mean, 256u - part);
-        if (place < last)
-            to[across] += lanes_times(mean, part);
+            sums_add(out, &mean, 256u - beyond);
+        if (beyond != 0 && place >> 16 < m->high - m->low - 1)
+            sums_add(out + m->across, &mean, beyond);
     }
 }
-
-static inline uint32_t mean_light(const struct smear_streak *s, uint32_t a, uint32_t b, uint32_t a1,
-                                  uint32_t b1)
-{
-    return mulh_u32((b - a) * s->inner + (b1 - a1) * s->rest, s->over << 10);
-}
-
-static void means_light(const struct smear_streak_part *m, const struct line *l, int32_t first, int32_t end)
-{
-    const struct smear_streak *s = m->s;
-    const int32_t n = 1 << s->node;
-    for (int32_t i = first; i < end; i += n) {
-        const struct light *p = m->sums.light + (i - s->half - l->base), *q = p + 2 * s->half + 1;
-        struct light mean = { mean_light(s, p[0].r, q[0].r, p[-1].r, q[1].r),
-                              mean_light(s, p[0].g, q[0].g, p[-1].g, q[1].g),
-                              mean_light(s, p[0].b, q[0].b, p[-1].b, q[1].b),
-                              mean_light(s, p[0].a, q[0].a, p[-1].a, q[1].a) };
-        int32_t place = (l->start - m->low) * 65536 + passes(s, i);
-        struct light *out = m->node.light + (place >> 16) * m->across
-                          + ((i - m->first) >> s->node) * m->along;
-        uint32_t part = (uint32_t)place >> 8 & 255u;
-        if (place >= 0)
-            light_add(out, &mean, 256u - part);
-        if (part != 0 && place >> 16 < m->high - m->low - 1)
-            light_add(out + m->across, &mean, part);
-    }
-}
-
-/* ------------------------------------------------------------------ all lines of a part */
 
 /* Adds the means of the line that starts at place `start` to the part's nodes. */
-static void add_line(const struct smear_streak_part *m, int32_t start)
+static void add_line(const struct part *m, int32_t start)
 {
     const struct smear_streak *s = m->s;
     const int32_t n = 1 << s->node;
@@ -270,45 +194,231 @@ static void add_line(const struct smear_streak_part *m, int32_t start)
     int32_t first = m->first, end = m->first + ((m->nodes - 1) << s->node) + 1;
     steps_within(s, start, m->low - 1, m->high, 0, &first, &end);
     first = (first + n - 1) & -n;
-    if (first >= end)
+    const int32_t from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->x0);
+    const int32_t to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->x1);
+    if (first >= end || from >= to)
         return;
-    struct line l = { .start = start, .from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->x0),
-                      .to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->x1) };
-    if (l.from >= l.to)
+    const int32_t base = first - s->half - 1;
+    gather(m, start, base, end - first + 2 * s->half + 3, from, to);
+    means(m, start, base, first, end);
+}
+
+/* ------------------------------------------------------------------ a mean over the background */
+
+/* Returns a pixel of light, coverage left out. */
+static uint32_t light_pixel(uint32_t r, uint32_t g, uint32_t b)
+{
+    return pixel_make(0, smear_srgb_encode[min_u32(r >> 4, 4095u)], smear_srgb_encode[min_u32(g >> 4, 4095u)],
+                      smear_srgb_encode[min_u32(b >> 4, 4095u)]);
+}
+
+/* Returns a mean as a pixel, its colours times its coverage, which lies on top. */
+static uint32_t pixel_of_mean(const struct sums *m, bool linear)
+{
+    if (linear)
+        return min_u32(m->c[COVER] >> 8, 255u) << 24 | light_pixel(m->c[RED], m->c[GREEN], m->c[BLUE]);
+    return pixel_make(m->c[COVER], m->c[RED], m->c[GREEN], m->c[BLUE]);
+}
+
+/* Returns a pixel of colours times coverage over another one, of which coverage is kept, too. */
+static uint32_t codes_over(uint32_t front, uint32_t back)
+{
+    uint32_t rest = 255u - (front >> 24), out = 0;
+    rest += rest >> 7;
+    for (int shift = 0; shift < 32; shift += 8)
+        out |= min_u32((front >> shift & 255u) + (((back >> shift & 255u) * rest + 128u) >> 8), 255u) << shift;
+    return out;
+}
+
+/* Returns a mean over a pixel of the background, by its coverage. */
+static uint32_t mean_over(const struct sums *m, uint32_t background, bool linear)
+{
+    if (!linear)
+        return codes_over(pixel_of_mean(m, false), background & 0xffffffu) & 0xffffffu;
+    const uint32_t rest = (65536u - m->c[COVER]) >> 1;          /* q15 */
+    return light_pixel(m->c[RED] + (smear_srgb_decode[pixel_red(background)] * rest >> 15),
+                       m->c[GREEN] + (smear_srgb_decode[pixel_green(background)] * rest >> 15),
+                       m->c[BLUE] + (smear_srgb_decode[pixel_blue(background)] * rest >> 15));
+}
+
+/* Takes the mean of those pixels of the group alone that lie in front of the background, which is within the group's
+ * depths. x and y count in the group's planes. */
+static void mean_before(struct sums *out, const struct part *m, int32_t x, int32_t y, uint32_t background_depth)
+{
+    const struct smear_streak *s = m->s;
+    struct sums sum = { { 0, 0, 0, 0 } };
+    for (int32_t t = -s->half - 1; t <= s->half + 1; t++) {
+        const int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
+        if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+            continue;
+        const int32_t at = py * m->a->stride + px;
+        if (m->a->depth[at] <= background_depth)
+            continue;
+        const struct sums one = sums_of_pixel(m->a->color[at], m->a->linear);
+        sums_add(&sum, &one, abs_i32(t) > s->half ? s->rest : s->inner + s->rest);
+    }
+    for (int i = 0; i < CHANNELS; i++)
+        out->c[i] = mean_of(s, sum.c[i], m->a->linear);
+    out->c[COVER] = min_u32(out->c[COVER], 65536u);
+}
+
+/* Returns about the depth code of what the mean at a pixel is made of: that of the drawn pixel next to the middle, of
+ * the five that find_near() gives. */
+static uint32_t depth_near(const struct part *m, int32_t x, int32_t y)
+{
+    const struct smear_streak_area *a = m->a;
+    const uint32_t width = (uint32_t)(a->x1 - a->x0), rows = (uint32_t)a->rows;
+    for (int k = 0; k < NEAR; k++) {
+        int32_t px = x + m->near_x[k], py = y + m->near_y[k];
+        if ((uint32_t)(px - a->x0) >= width || (uint32_t)py >= rows)
+            continue;
+        uint32_t depth = a->depth[py * a->stride + px];
+        if (depth != 0)
+            return depth;
+    }
+    return (a->nearest + a->farthest) >> 1;     /* not those of find_range(), which may be called later */
+}
+
+/* Finds the places where depth_near() looks: the middle, and half and all of the streak's length to either side. */
+static void find_near(struct part *m)
+{
+    const struct smear_streak *s = m->s;
+    const int32_t n = (s->half + 1) >> 1;
+    for (int k = 0; k < NEAR; k++) {
+        int32_t t = k & 1 ? n * ((k + 1) >> 1) : -n * (k >> 1), side = (s->slope * t + 0x8000) >> 16;
+        m->near_x[k] = (int16_t)(s->upright ? side : t);
+        m->near_y[k] = (int16_t)(s->upright ? t : side);
+    }
+}
+
+/* Returns `back`, of coverage b, between the background and `front`, of coverage a, which have been merged:
+ * (1 - b) merged + (1 - a) back + b front. */
+static uint32_t between_two(uint32_t front, const struct sums *back, uint32_t merged, bool linear)
+{
+    uint32_t out[3];
+    for (int i = 0; i < 3; i++) {
+        const int shift = 16 - 8 * i;
+        const uint32_t behind = merged >> shift & 255u, before = front >> shift & 255u;
+        if (linear) {
+            const uint32_t a = (front >> 24) * 257u >> 1, b = back->c[COVER] >> 1;      /* q15 */
+            const uint32_t sum = (smear_srgb_decode[behind] * (32768u - b) >> 15) + (back->c[i] * (32768u - a) >> 15)
+                               + (smear_srgb_decode[before] * b >> 15);
+            out[i] = smear_srgb_encode[min_u32(sum >> 4, 4095u)];
+        } else {
+            const uint32_t a = front >> 24, b = back->c[COVER];
+            const uint32_t sum = behind * (255u - b) + back->c[i] * (255u - a) + before * b;
+            out[i] = (sum + 128u) * ((1u << 22) / 255u + 1u) >> 22;
+        }
+    }
+    return pixel_make(0, out[0], out[1], out[2]);
+}
+
+/* Merges a mean over or behind those that were merged before; `depth` is about its depth code. */
+static void merge_mixed(const struct part *m, const struct sums *mean, uint32_t depth, int32_t at)
+{
+    const struct smear_streak_area *a = m->a;
+    const uint32_t before = a->over[at], codes = pixel_of_mean(mean, a->linear);
+    const bool behind = before != 0 && depth < a->over_depth[at];
+    a->background[at] = behind ? between_two(before, mean, a->background[at], a->linear) : mean_over(mean, a->background[at], a->linear);
+    if (!a->marks)
         return;
-    find_runs(m, &l);
-    /* Something is drawn from the first of its runs to the last. */
-    int32_t from, to, none, k = 0;
-    while (k < l.runs && !run_of(m, &l, k, &from, &none))
-        k++;
-    if (k >= l.runs)
+    a->over_depth[at] = (uint16_t)(before != 0 ? max_u32(depth, a->over_depth[at]) : depth);
+    a->over[at] = before == 0 ? codes : behind ? codes_over(before, codes) : codes_over(codes, before);
+}
+
+/* Narrows the group's depth codes to those of the pixels that are drawn. */
+static void find_range(struct part *m)
+{
+    const struct smear_streak_area *a = m->a;
+    uint32_t low = UINT16_MAX, high = 0;
+    for (int32_t y = 0; y < a->rows; y++) {
+        const uint16_t *depth = a->depth + y * a->stride;
+        for (int32_t x = a->row_first[y]; x < a->row_end[y]; x++) {
+            uint32_t d = depth[x];
+            high = max_u32(high, d);
+            low = min_u32(low, d - 1u);         /* 0 is nothing */
+        }
+    }
+    m->has_range = true;
+    m->nearest = min_u32(m->nearest, high);
+    m->farthest = max_u32(m->farthest, low + 1u);
+}
+
+/* Merges the mean at a pixel: (x, y) in the group's planes, `at` in the frame's. Pixels of a whole node, which begins at column
+ * `node_x`, ask together whether groups pass through each other there, and how far away the mean is; -1: it asks alone. */
+static void finish_pixel(struct part *m, struct sums *mean, int32_t x, int32_t y, int32_t at, int32_t node_x)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t n = 1 << m->s->node;
+    const uint32_t depth = a->background_depth[at];
+    if (depth >= m->farthest && !m->has_range)
+        find_range(m);
+    if (mean->c[COVER] == 0 || depth >= m->nearest)
         return;
-    while (!run_of(m, &l, l.runs - 1, &none, &to))
-        l.runs--;
-    l.place += l.by * k;
-    l.edge += k;
-    l.runs -= k;
-    l.from = from;
-    l.to = to;
-    first = max_i32(first, (from - s->half - 1 + n - 1) & -n);
-    end = min_i32(end, to + s->half + 1);
-    if (first >= end)
-        return;
-    l.base = first - s->half - 1;
-    int32_t count = end - first + 2 * s->half + 3;
-    if (m->a->linear) {
-        gather_light(m, &l, count);
-        means_light(m, &l, first, end);
-    } else {
-        gather_codes(m, &l, count);
-        means_codes(m, &l, first, end);
+    if (depth >= m->farthest) {
+        mean_before(mean, m, x, y, depth);
+        node_x = -1;
+        if (mean->c[COVER] == 0)
+            return;
+    }
+    if (node_x >= 0 ? node_x < a->mixed1 && node_x + n > a->mixed0 : x >= a->mixed0 && x < a->mixed1)
+        merge_mixed(m, mean, depth_near(m, node_x >= 0 ? node_x + (n >> 1) : x, y), at);
+    else
+        a->background[at] = mean_over(mean, a->background[at], a->linear);
+}
+
+/* Returns the mean `step` steps behind node p and before node q. */
+static struct sums mean_between(const struct part *m, const struct sums *p, const struct sums *q, uint32_t step)
+{
+    const int node = m->s->node;
+    const uint32_t n = 1u << node;
+    struct sums mean;
+    for (int i = 0; i < CHANNELS; i++) {
+        if (m->a->linear)
+            mean.c[i] = (p->c[i] * (n - step) + q->c[i] * step) >> (8 + node);
+        else
+            mean.c[i] = (((p->c[i] + 128u) >> 8) * (n - step) + ((q->c[i] + 128u) >> 8) * step + (n >> 1)) >> node;
+    }
+    mean.c[COVER] = min_u32(mean.c[COVER], 65536u);     /* weights are rounded up */
+    return mean;
+}
+
+/* Finishes rows whose nodes lie along them. A node may lie before the frame's first pixel or after its last. */
+static void finish_along(struct part *m)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t node = m->s->node, n = 1 << node;
+    for (int32_t y = m->low; y < m->high; y++) {
+        const int32_t row = (y - a->top) * a->background_stride - a->margin;
+        const int32_t left = max_i32(a->left + a->margin, m->first_of[y - m->low]), end = min_i32(m->end, m->end_of[y - m->low]);
+        const struct sums *p = m->node + (y - m->low) * m->nodes;
+        for (int32_t x = max_i32(m->first, left); x < end; x++) {
+            const int32_t k = (x - m->first) >> node, from = m->first + (k << node);
+            struct sums mean = mean_between(m, &p[k], &p[min_i32(k + 1, m->nodes - 1)], (uint32_t)(x - from));
+            finish_pixel(m, &mean, x, y, row + x, !a->linear && from >= left && from + n <= end ? from : -1);
+        }
+    }
+}
+
+/* Finishes rows across the lines. */
+static void finish_across(struct part *m)
+{
+    const struct smear_streak_area *a = m->a;
+    const int32_t node = m->s->node;
+    for (int32_t y = a->top; y < a->top + a->height; y++) {
+        const int32_t row = (y - a->top) * a->background_stride - a->margin, k = (y - m->first) >> node;
+        const struct sums *p = m->node + k * m->along, *q = m->node + min_i32(k + 1, m->nodes - 1) * m->along;
+        for (int32_t x = m->low; x < m->high; x++, p++, q++) {
+            struct sums mean = mean_between(m, p, q, (uint32_t)((y - m->first) & ((1 << node) - 1)));
+            finish_pixel(m, &mean, x, y, row + x, -1);
+        }
     }
 }
 
 /* ------------------------------------------------------------------ the area */
 
 /* Merges steps [first, end) by places [low, high) across. */
-static void merge_part(struct smear_streak_part *m, int32_t first, int32_t end, int32_t low, int32_t high)
+static void merge_part(struct part *m, int32_t first, int32_t end, int32_t low, int32_t high)
 {
     const struct smear_streak *s = m->s;
     m->first = first & -(1 << s->node);
@@ -329,46 +439,41 @@ static void merge_part(struct smear_streak_part *m, int32_t first, int32_t end, 
     }
     m->along = s->upright ? high - low : 1;
     m->across = s->upright ? 1 : m->nodes;
-    fill(m->node.codes, m->node.codes + (m->a->linear ? 2 : 1) * m->nodes * (high - low), 0);
+    __builtin_memset(m->node, 0, (size_t)(m->nodes * (high - low)) * sizeof *m->node);
     int32_t last = m->first + ((m->nodes - 1) << s->node);
     int32_t place0 = passes(s, m->first) >> 16, place1 = passes(s, last) >> 16;
     for (int32_t start = low - (s->slope != 0) - max_i32(place0, place1);
          start < high - min_i32(place0, place1); start++)
         add_line(m, start);
-    smear_streak_finish(m);
+    if (s->upright)
+        finish_across(m);
+    else
+        finish_along(m);
 }
 
 uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *all)
 {
     struct smear_streak_area area = *all, *a = &area;
-    int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x);
-    int32_t right = min_i32(a->right + a->margin, a->x1 + s->reach_x), top = a->top,
-            bottom = a->top + a->height;
-    struct smear_streak_part m = { .s = s, .a = a, .nearest = a->nearest, .farthest = a->farthest,
-                       .step = s->upright ? a->stride : 1, .side = s->upright ? 1 : a->stride };
-    const int32_t nodes_max = NODES * a->tile, room = a->linear ? nodes_max / 2 : nodes_max;
-    m.node.codes = (lanes *)a->work;
-    m.sums.codes = m.node.codes + nodes_max;
-    if (a->linear) {
-        m.node.light = (struct light *)a->work;
-        m.sums.light = m.node.light + nodes_max / 2;
-    }
+    const int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x), right = min_i32(a->right + a->margin, a->x1 + s->reach_x);
+    const int32_t top = a->top, bottom = a->top + a->height, room = NODES * a->tile;
+    struct part m = { .s = s, .a = a, .nearest = a->nearest, .farthest = a->farthest, .node = (struct sums *)a->work };
+    m.sums = m.node + room;
     if (left >= right)
         return 0;
-    if (a->mixed0 < a->mixed1) {
-        smear_streak_find_depths(&m);
+    if (a->mixed0 < a->mixed1) {        /* what is mixed must not depend on the pixels before */
+        find_near(&m);
+        find_range(&m);
     }
     a->marks = a->marks && m.nearest > a->marked_from;
     if (s->upright) {
-        int32_t nodes = ((bottom - top) >> s->node) + 2, part = room / nodes;
-        for (int32_t x = left; x < right; x += part)
-            merge_part(&m, top, bottom, x, min_i32(x + part, right));
+        const int32_t width = room / (((bottom - top) >> s->node) + 2);
+        for (int32_t x = left; x < right; x += width)
+            merge_part(&m, top, bottom, x, min_i32(x + width, right));
     } else {
-        int32_t steps = (a->linear ? STEPS_MAX / 2 : STEPS_MAX) - 2 * s->half - 8;
-        int32_t part = min_i32(((room / (bottom - top)) - 2) << s->node, steps) & -(1 << s->node);
-        SMEAR_ASSERT(part > 0);
-        for (int32_t x = left & -(1 << s->node); x < right; x += part)
-            merge_part(&m, max_i32(x, left), min_i32(x + part, right), top, bottom);
+        const int32_t steps = min_i32(((room / (bottom - top)) - 2) << s->node, STEPS_MAX - 2 * s->half - 8) & -(1 << s->node);
+        SMEAR_ASSERT(steps > 0);
+        for (int32_t x = left & -(1 << s->node); x < right; x += steps)
+            merge_part(&m, max_i32(x, left), min_i32(x + steps, right), top, bottom);
     }
     return (uint32_t)((right - left) * (bottom - top));
 }

@@ -52,17 +52,12 @@ struct smear_streak_area {
     uint32_t marked_from;       /* the groups after this one have no depth codes below this */
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     uint32_t nearest, farthest; /* depth codes that the group keeps to; beyond all codes where it lies over all */
-    const int16_t *edge;        /* smear_streak_edges() */
     void *work;                 /* smear_streak_work() */
     bool linear;
 };
 
 /* Returns the bytes of work memory per worker for tiles of this edge. */
 size_t smear_streak_work(int32_t tile);
-
-/* Lists the steps at which a line from place 0 comes to another place across; `edge` has room for `steps` and one
- * more. */
-void smear_streak_edges(const struct smear_streak *s, int16_t *edge, int32_t steps);
 
 /* Merges the area; returns how many pixels it went over. */
 uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *a);
