@@ -112,7 +112,7 @@ static struct smear_tile_run tiles_of(const struct finish *f, int first, int end
         .moving = self->moving.moving, .moving_count = self->moving.count,
         .column = first, .last_column = end - 1, .blend = rows->blend,
         .out = rows->scratch + worker * pitch * rows->window.tile, .pitch = pitch, .tile = rows->window.tile,
-        .work = self->work + (uint32_t)worker * self->work_bytes, .work_bytes = self->work_bytes
+        .work = self->work + (uint32_t)worker * self->work_bytes
     };
     t.x0 = t.background.x0 = tile_left(rows, first);
     t.x1 = t.background.x1 = tile_right(rows, end - 1);

@@ -35,7 +35,6 @@ struct smear_tile_run {
     const void *fill_of;
     int32_t fill_x0, fill_x1;
     void *work;                                 /* memory of the worker's own */
-    uint32_t work_bytes;                        /* read by the time mask: 0 is what it asks for */
 };
 
 static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_tile_run *t)

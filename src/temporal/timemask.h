@@ -5,8 +5,7 @@
 
 #include "temporal/moving.h"
 
-/* Bytes of work memory per worker: 7.6 kB, whatever the tile. Half or a quarter of it does, too, at the cost
- * of more set-up: tell by smear_tile_run.work_bytes. */
+/* Bytes of work memory per worker: 7.6 kB, whatever the tile. */
 size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {

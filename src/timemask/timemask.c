@@ -60,18 +60,15 @@ static void moving_take(struct moving *m, const struct job *j, uint32_t i)
 
 /* ------------------------------------------------------------------ order */
 
-/* Shell sort, greatest first. */
+/* Sorts, the greatest first. */
 static void sort_down(uint32_t *a, uint32_t n)
 {
-    static const uint8_t gaps[] = { 57, 23, 10, 4, 1 };
-    for (uint32_t k = 0; k < sizeof gaps; k++) {
-        uint32_t gap = gaps[k];
-        for (uint32_t i = gap; i < n; i++) {
-            uint32_t key = a[i], at = i;
-            for (; at >= gap && a[at - gap] < key; at -= gap)
-                a[at] = a[at - gap];
-            a[at] = key;
-        }
+    for (uint32_t i = 1; i < n; i++) {
+        const uint32_t key = a[i];
+        uint32_t at = i;
+        for (; at > 0 && a[at - 1] < key; at--)
+            a[at] = a[at - 1];
+        a[at] = key;
     }
 }
 
@@ -161,7 +158,7 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
 
 /* Returns the samples of a run in which a fragment is nearer than the background, where both meet: `begin` is how much
  * nearer it is in sample `from`, in 1/32, and 2 `slope` how that changes per sample. */
-static SMEAR_NOINLINE uint32_t samples_before_background(int32_t begin, int32_t slope, int32_t from, int32_t count)
+static uint32_t samples_before_background(int32_t begin, int32_t slope, int32_t from, int32_t count)
 {
     int32_t end = begin + 2 * slope * (count - 1);
     if (begin > 0 && end > 0)
@@ -172,13 +169,6 @@ static SMEAR_NOINLINE uint32_t samples_before_background(int32_t begin, int32_t 
     return begin > 0 ? UINT32_MAX >> (32 - before) << from
                      : UINT32_MAX >> (32 - (count - before)) << (from + before);
 }
-
-/* The samples [0, i). */
-static const uint32_t below[33] = {
-    0, 0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff, 0x1ff, 0x3ff, 0x7ff, 0xfff, 0x1fff, 0x3fff, 0x7fff, 0xffff,
-    0x1ffff, 0x3ffff, 0x7ffff, 0xfffff, 0x1fffff, 0x3fffff, 0x7fffff, 0xffffff, 0x1ffffff, 0x3ffffff,
-    0x7ffffff, 0xfffffff, 0x1fffffff, 0x3fffffff, 0x7fffffff, 0xffffffff
-};
 
 /* How depth codes follow from units q4, below and from code 32768. */
 struct code_slope {
@@ -193,61 +183,36 @@ struct painter {
     struct code_slope code[2];
     int32_t first;              /* sample */
     int32_t last_sample;        /* of the exposure, less 2 `first` */
-    int32_t time_shift;         /* from twice a sample to time */
 };
 
-/* Returns the depth in pixel x of a row at a time. `turns`: how it changes differs from pixel to pixel or with time. */
-SMEAR_INLINE int32_t depth_at(const struct timemask_timed *depth, const struct timemask_here *row, int32_t x,
-                              int32_t time, bool turns)
+/* Adds the fragments of a block to its samples. */
+static void paint(struct job *j, const struct timemask_cover *c, const struct painter *p)
 {
-    int32_t change = row->change;
-    if (turns)
-        change = add_wrap(change, add_wrap(mul_wrap(depth->change_dx, x), timemask_part(depth->curve, time)));
-    return add_wrap(add_wrap(row->at, mul_wrap(depth->dx, x)), timemask_part(change, time));
-}
-
-/* Adds the fragments of a block to its samples; returns how many. */
-SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const struct painter *p,
-                            bool has_one_color, bool turns)
-{
-    /* Own copies: what is written might be anything. */
     const struct timemask_shade *s = p->shade;
     const struct smear_raster_target *target = &j->tile->background;
-    const struct timemask_timed depth = s->depth;
-    const int32_t low = s->depth_low, high = s->depth_high, first = p->first, last_sample = p->last_sample + 1;
-    const int32_t time_shift = p->time_shift;
-    const uint32_t flat = s->color;
-    struct timemask_samples own = j->samples;
-    uint32_t fragments = 0, run[TIMEMASK_RUNS];
+    uint32_t run[TIMEMASK_RUNS];
     for (int32_t y = c->y0; y < c->y1; y++) {
-        const int32_t n = smear_timemask_row(c, y, run);
-        if (n == 0)
-            continue;
-        const struct timemask_here row = timemask_here(&depth, 0, y);
-        const uint32_t pixel = (uint32_t)(y * j->stride);
         const uint16_t *background = target->depth + target_row(&target->window_rows, target, j->y + y) + j->x;
+        const int32_t n = smear_timemask_row(c, y, run);
         for (int32_t i = 0; i < n; i++) {
-            int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]),
-                    to = timemask_run_to(run[i]);
-            int32_t time = ((from + to) << time_shift) - (1 << (TIMEMASK_TIME_LOG2 - 1));
-            int32_t units = clamp_i32(depth_at(&depth, &row, x, time, turns), low, high);
+            const int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
+            const int32_t units = clamp_i32(timemask_value(&s->depth, x, y, timemask_middle(s, run[i])), s->depth_low, s->depth_high);
             const struct code_slope *k = &p->code[units >= 32768 << 4];
-            int32_t code = (units + k->add) >> k->shift, slope = k->slope,
-                    reach = k->size * (to - from - 1) >> 5;
-            int32_t behind = background[x];
+            const int32_t code = (units + k->add) >> k->shift, slope = k->slope, reach = k->size * (to - from - 1) >> 5;
+            const int32_t behind = background[x];
             if (code + reach <= behind)
                 continue;
             struct timemask_fragment f;
             f.low = max_i32(code - reach, 0);
-            f.mask = below[first + to] ^ below[first + from];
+            f.mask = timemask_below(p->first + to) ^ timemask_below(p->first + from);
             if (code - reach <= behind) {
-                f.mask = samples_before_background((code - behind) * 32 - slope * (to - from - 1), slope, first + from,
+                f.mask = samples_before_background((code - behind) * 32 - slope * (to - from - 1), slope, p->first + from,
                                                    to - from);
                 if (f.mask == 0)
                     continue;
             }
             /* From the run's middle to that of the exposure. A depth that would leave its range there stays as it is. */
-            f.depth = code + (slope * (last_sample - (from + to)) >> 5);
+            f.depth = code + (slope * (p->last_sample + 1 - (from + to)) >> 5);
             f.slope = slope;
             f.color = k->kept;
             if ((uint32_t)f.depth > 65535u) {
@@ -255,12 +220,11 @@ SMEAR_INLINE uint32_t paint(struct job *j, const struct timemask_cover *c, const
                 f.slope = 0;
                 f.color = 0;
             }
-            f.color |= has_one_color ? flat : smear_timemask_color(s, y, run[i]);
-            timemask_samples_add(&own, pixel + (uint32_t)x, f, code + reach);
-            fragments++;
+            f.color |= smear_timemask_color(s, y, run[i]);
+            smear_timemask_samples_add(&j->samples, (uint32_t)(y * j->stride + x), f, code + reach);
+            j->fragments++;
         }
     }
-    return fragments;
 }
 
 /* Draws a triangle in a segment of 2^samples_log2 samples with poses at its start, middle and end; `first` is its first
@@ -274,8 +238,7 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
                          (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
-    struct painter p = { .shade = &s, .first = first, .last_sample = (1 << j->samples.samples_log2) - 1 - 2 * first,
-                         .time_shift = TIMEMASK_TIME_LOG2 - 1 - samples_log2 };
+    struct painter p = { .shade = &s, .first = first, .last_sample = (1 << j->samples.samples_log2) - 1 - 2 * first };
     for (int i = 0; i < 2; i++) {
         struct code_slope *k = &p.code[i];
         k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
@@ -284,12 +247,7 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
         k->slope = timemask_slope_of(k->kept);
         k->size = abs_i32(k->slope);
     }
-    if (s.gouraud || s.sampler != NULL || s.in_fog)
-        j->fragments += paint(j, &c, &p, false, true);
-    else if ((s.depth.change_dx | s.depth.change_dy | s.depth.curve) != 0)
-        j->fragments += paint(j, &c, &p, true, true);
-    else
-        j->fragments += paint(j, &c, &p, true, false);
+    paint(j, &c, &p);
 }
 
 /* Draws a triangle as it is in the middle of each sample. */
@@ -402,16 +360,6 @@ static void draw_block(struct job *j)
     finish_block(j);
 }
 
-/* Log2 of the entries that the memory is enough for. */
-static int pixels_log2(uint32_t work_bytes)
-{
-    int log2 = PIXELS_LOG2;
-    while (work_bytes != 0 && log2 > 4
-           && timemask_samples_bytes(1u << log2) + LISTED * sizeof(uint32_t) > work_bytes)
-        log2--;
-    return log2;
-}
-
 size_t smear_timemask_work(int32_t tile)
 {
     (void)tile;
@@ -420,10 +368,9 @@ size_t smear_timemask_work(int32_t tile)
 
 uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings)
 {
-    const int log2 = pixels_log2(t->work_bytes);
     const struct smear_raster_target *background = &t->background;
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
-    smear_timemask_samples_place(&j.samples, j.list + LISTED, log2,
+    smear_timemask_samples_place(&j.samples, j.list + LISTED, PIXELS_LOG2,
                                31 - count_leading_zeros((uint32_t)settings->samples),
                                  frame_is_linear(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
@@ -433,7 +380,7 @@ uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_
     int32_t height = t->tile;
     for (j.stride = t->tile; j.stride > TIMEMASK_WIDTH;)
         j.stride >>= 1;
-    while (height > TIMEMASK_HEIGHT || height * j.stride > 1 << log2)
+    while (height > TIMEMASK_HEIGHT || height * j.stride > 1 << PIXELS_LOG2)
         height >>= 1;
     for (j.y = background->y0; j.y < background->y1; j.y += height)
         for (j.x = background->x0; j.x < background->x1; j.x += j.stride) {

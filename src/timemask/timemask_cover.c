@@ -7,43 +7,6 @@ enum {
     CURVED_Q = 12               /* after a multiplication with curvatures */
 };
 
-/* ------------------------------------------------------------------ bounds */
-
-/* Only where the plane is >= 0 can pixels be covered: a bound of rows'
- * pixels, or of rows where it is nearly level. */
-static void bound_add(struct timemask_cover *c, const struct timemask_plane *p)
-{
-    uint32_t ax = (uint32_t)abs_i32(p->dx), ay = (uint32_t)abs_i32(p->dy);
-    bool steep = ax >= ay >> 2;
-    uint32_t size = steep ? ax : ay;
-    if (size == 0)
-        return;
-    int zeros = count_leading_zeros(size);
-    int32_t r = (int32_t)recip_norm(size << zeros);             /* 1 / size = r 2^(zeros - 61) */
-    const int64_t most = 1 << 28;
-    if (!steep) {
-        int64_t best = (int64_t)p->at + max_i32(p->dx * c->x0, p->dx * (c->x1 - 1));
-        int64_t rows = best * r >> (61 - zeros);
-        rows = rows > most ? most : rows < -most ? -most : rows;
-        if (p->dy > 0)
-            c->y0 = max_i32(c->y0, (int32_t)-rows - 1);
-        else
-            c->y1 = min_i32(c->y1, (int32_t)rows + 2);
-        return;
-    }
-    int64_t at = (int64_t)p->at * r >> (45 - zeros);
-    int32_t step = (int32_t)((int64_t)p->dy * r >> (45 - zeros)), place;
-    at = at > most ? most : at < -most ? -most : at;
-    place = (int32_t)at;
-    if (p->dx > 0) {
-        c->left[c->lefts].at = -place - 0x1000;
-        c->left[c->lefts++].step = -step;
-    } else {
-        c->right[c->rights].at = place + 0x1000;
-        c->right[c->rights++].step = step;
-    }
-}
-
 /* ------------------------------------------------------------------ edges */
 
 /* An edge function at one time, q8 px^2 rounded down: exact in its sign. */
@@ -167,12 +130,6 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
         int32_t bow = w->bow.at + w->bow.dx * c->middle_x + w->bow.dy * c->middle_y;
         x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
     }
-    x->slack = (part << c->samples_log2 >> 1) + (abs_i32(x->bow) << c->samples_log2 >> 2);
-    /* Covered only where it is left after the start, entered before the end. */
-    struct timemask_plane seen = leaves ? x->mean
-                                        : (struct timemask_plane){ -x->mean.at, -x->mean.dx, -x->mean.dy };
-    seen.at += (1 << (SAMPLE_Q - 1 + c->samples_log2)) + x->slack;
-    bound_add(c, &seen);
     return true;
 }
 
@@ -208,29 +165,14 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
     int32_t moves = abs_i32(w.d) + w.h + w.bows;
     if (moves > w.length >> 7 && crossing_add(c, &w, edge))
         return true;
-    struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
-    if (w.reversed)
-        p = other_side(&p);
-    if (moves <= w.length >> 7) {       /* by less than 1/128 px */
-        c->stay[c->stays++] = p;
-    } else {
+    if (moves > w.length >> 7) {
         c->turn[c->turns++] = (struct timemask_turning){ w.start, w.end, w.bow, w.reversed };
-        p.at = add_wrap(p.at, (moves >> 1) + 1);
+        return true;
     }
-    bound_add(c, &p);
+    /* It moves by less than 1/128 px. */
+    const struct timemask_plane p = { (w.start.at + w.end.at) >> 1, mx >> 1, my >> 1 };
+    c->stay[c->stays++] = w.reversed ? other_side(&p) : p;
     return true;
-}
-
-/* Pixels that are left before they are entered. */
-static void bound_pairs(struct timemask_cover *c)
-{
-    for (int i = 0; i < c->leaves; i++)
-        for (int k = 0; k < c->enters; k++) {
-            const struct timemask_plane *l = &c->leave[i].mean, *e = &c->enter[k].mean;
-            struct timemask_plane p = { l->at - e->at + c->leave[i].slack + c->enter[k].slack, l->dx - e->dx,
-                                        l->dy - e->dy };
-            bound_add(c, &p);
-        }
 }
 
 static int64_t area_of(const struct timemask_pose *p)
@@ -260,21 +202,12 @@ bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *
     c->samples_log2 = samples_log2;
     c->middle_x = (width + 1) >> 1;
     c->middle_y = (height + 1) >> 1;
-    c->enters = c->leaves = c->stays = c->turns = c->lefts = c->rights = 0;
+    c->enters = c->leaves = c->stays = c->turns = 0;
     c->form = COVER_EVEN;
-    if (!edge_add(c, pose, 0, 1, edge) || !edge_add(c, pose, 1, 2, edge) || !edge_add(c, pose, 2, 0, edge))
-        return false;
-    bound_pairs(c);
-    return c->y0 < c->y1;
+    return edge_add(c, pose, 0, 1, edge) && edge_add(c, pose, 1, 2, edge) && edge_add(c, pose, 2, 0, edge);
 }
 
 /* ------------------------------------------------------------------ edges that may do anything */
-
-/* Slots [0, n). */
-static inline uint32_t below(int32_t n)
-{
-    return n >= 32 ? UINT32_MAX : (1u << n) - 1u;
-}
 
 /* e(u) = start + (end - start) u + 2 bow u (1 - u), brought to 18 bits and times 4 n^2, which fits. */
 struct parabola {
@@ -312,7 +245,7 @@ static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t sampl
     struct parabola p = { (shl_wrap(start, up) >> down) * 2 * samples, (shl_wrap(end, up) >> down) * 2 * samples,
                           (shl_wrap(bow, up) >> down) * 2, samples };
     if ((start ^ end) < 0) {    /* it crosses once */
-        uint32_t before = below(sign_change(&p, -1, samples));
+        uint32_t before = timemask_below(sign_change(&p, -1, samples));
         return start >= 0 ? before : ~before;
     }
     /* Not at all, or twice: around u = 1/2 + (end - start) / (4 bow), where it is farthest off. */
@@ -321,7 +254,7 @@ static uint32_t turn_mask(int32_t start, int32_t end, int32_t bow, int32_t sampl
     int32_t top = clamp_i32((samples >> 1) + (p.end - p.start) / (4 * p.bow), 0, samples - 1);
     if ((parabola_at(&p, top) ^ start) >= 0)
         return start >= 0 ? UINT32_MAX : 0;
-    uint32_t away = below(sign_change(&p, top, samples)) & ~below(sign_change(&p, -1, top));
+    uint32_t away = timemask_below(sign_change(&p, top, samples)) & ~timemask_below(sign_change(&p, -1, top));
     return start >= 0 ? ~away : away;
 }
 
@@ -334,143 +267,62 @@ static int32_t put_runs(uint32_t *out, int32_t x, uint32_t mask)
         int32_t from = 31 - count_leading_zeros(low);
         int32_t to = rest == 0 ? 32 : 31 - count_leading_zeros(rest & (0u - rest));
         out[count++] = timemask_run(x, from, to);
-        mask &= ~below(to);
+        mask &= ~timemask_below(to);
     }
     return count;
 }
 
-/* What edges that stay or turn leave of runs. */
-static int32_t row_cut(const struct timemask_cover *c, int32_t y, uint32_t *out, int32_t count)
+/* Returns the slots of pixel (x, y) that edges which may do anything leave. */
+static uint32_t turns_leave(const struct timemask_cover *c, int32_t x, int32_t y)
 {
-    uint32_t run[TIMEMASK_WIDTH];
-    int32_t n = count;
-    for (int32_t i = 0; i < n; i++)
-        run[i] = out[i];
-    count = 0;
-    for (int32_t k = 0; k < n; k++) {
-        int32_t x = timemask_run_x(run[k]), outside = 0;
-        for (int i = 0; i < c->stays; i++)
-            outside |= timemask_plane_at(&c->stay[i], x, y);
-        if (outside < 0)
-            continue;
-        uint32_t mask = UINT32_MAX, all = 0;
-        for (int i = 0; i < c->turns && mask != 0; i++) {
-            const struct timemask_turning *t = &c->turn[i];
-            int32_t start = timemask_plane_at(&t->start, x, y), end = timemask_plane_at(&t->end, x, y);
-            int32_t bow = timemask_plane_at(&t->bow, x, y);
-            int32_t low = min_i32(start, end), high = max_i32(start, end);
-            low += bow < 0 ? (bow - 1) >> 1 : 0;
-            high += bow > 0 ? (bow + 1) >> 1 : 0;
-            if (low >= 0 || high < 0) {
-                mask &= (low >= 0) != t->reversed ? UINT32_MAX : 0;
-                continue;
-            }
-            uint32_t inside = turn_mask(start, end, bow, c->samples_log2);
-            mask &= t->reversed ? ~inside : inside;
-            all = 1;
-        }
-        if (mask == UINT32_MAX || (mask != 0 && all == 0))
-            out[count++] = run[k];
-        else
-            count += put_runs(out + count, x,
-                              mask & below(timemask_run_to(run[k])) & ~below(timemask_run_from(run[k])));
+    uint32_t mask = UINT32_MAX;
+    for (int i = 0; i < c->turns; i++) {
+        const struct timemask_turning *t = &c->turn[i];
+        const int32_t start = timemask_plane_at(&t->start, x, y), end = timemask_plane_at(&t->end, x, y);
+        const int32_t bow = timemask_plane_at(&t->bow, x, y);
+        const int32_t low = min_i32(start, end) + (bow < 0 ? (bow - 1) >> 1 : 0);
+        const int32_t high = max_i32(start, end) + (bow > 0 ? (bow + 1) >> 1 : 0);
+        const uint32_t inside = low >= 0 ? UINT32_MAX : high < 0 ? 0 : turn_mask(start, end, bow, c->samples_log2);
+        mask &= t->reversed ? ~inside : inside;
     }
-    return count;
+    return mask;
 }
 
 /* ------------------------------------------------------------------ rows */
 
-/* A crossing on its way along a row. */
-struct walk {
-    int32_t mean, step, curvature, curvature_step;
-};
-
-SMEAR_INLINE struct walk walk_start(const struct timemask_crossing *p, int32_t x, int32_t y)
+/* Returns the sample in which pixel (x, y) is crossed, rounded: q14 where crossings are even, else q12. */
+static int32_t crossed_at(const struct timemask_cover *c, const struct timemask_crossing *p, int32_t x, int32_t y)
 {
-    return (struct walk){ timemask_plane_at(&p->mean, x, y), p->mean.dx, timemask_plane_at(&p->curvature, x, y),
-                          p->curvature.dx };
-}
-
-/* The sample in which it crosses, rounded: q14 where crossings are even, else q12; and on to the next pixel. */
-SMEAR_INLINE int32_t walk_on(struct walk *w, const struct timemask_crossing *p, int32_t samples_log2,
-                             enum timemask_form form)
-{
-    int32_t sample;
-    if (form == COVER_EVEN) {
-        sample = w->mean;
-    } else {
-        sample = mulh_i32(w->mean, w->curvature);
-        w->curvature = add_wrap(w->curvature, w->curvature_step);
-    }
-    w->mean = add_wrap(w->mean, w->step);
-    if (form == COVER_BOWED) {
-        const int32_t most = 1 << (CURVED_Q + samples_log2);
+    int32_t sample = timemask_plane_at(&p->mean, x, y);
+    if (c->form != COVER_EVEN)
+        sample = mulh_i32(sample, timemask_plane_at(&p->curvature, x, y));
+    if (c->form == COVER_BOWED) {
+        const int32_t most = 1 << (CURVED_Q + c->samples_log2);
         sample = clamp_i32(sample + (most >> 1), 0, most);
-        sample += ((sample >> 3) * ((most - sample) >> 3) >> (6 + samples_log2)) * p->bow >> 14;
+        sample += ((sample >> 3) * ((most - sample) >> 3) >> (6 + c->samples_log2)) * p->bow >> 14;
     }
     return sample;
 }
 
-SMEAR_INLINE int32_t row_form(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
-                              uint32_t *out, int enters, int leaves, enum timemask_form form)
-{
-    const int q = form == COVER_EVEN ? SAMPLE_Q : CURVED_Q;
-    const int32_t samples = 1 << c->samples_log2;
-    /* Slots count from the segment's middle, but for bows. */
-    const int32_t half = (form == COVER_BOWED ? 0 : samples << q >> 1) + (1 << (q - 1));
-    struct walk enter[3], leave[3];
-    int32_t count = 0;
-    for (int i = 0; i < enters; i++)
-        enter[i] = walk_start(&c->enter[i], x0, y);
-    for (int i = 0; i < leaves; i++)
-        leave[i] = walk_start(&c->leave[i], x0, y);
-    for (int32_t x = x0; x < x1; x++) {
-        int32_t from = -half, to = (samples << q) - half;
-        for (int i = 0; i < leaves; i++)
-            to = min_i32(to, walk_on(&leave[i], &c->leave[i], c->samples_log2, form));
-        for (int i = 0; i < enters; i++)
-            from = max_i32(from, walk_on(&enter[i], &c->enter[i], c->samples_log2, form));
-        to = (to + half) >> q;
-        from = (from + half) >> q;
-        if (from < to)
-            out[count++] = timemask_run(x, from, to);
-    }
-    return count;
-}
-
-SMEAR_INLINE int32_t row_kind(const struct timemask_cover *c, int32_t x0, int32_t x1, int32_t y,
-                              uint32_t *out, enum timemask_form form)
-{
-    switch (c->enters << 2 | c->leaves) {
-    case 0x1: return row_form(c, x0, x1, y, out, 0, 1, form);
-    case 0x4: return row_form(c, x0, x1, y, out, 1, 0, form);
-    case 0x5: return row_form(c, x0, x1, y, out, 1, 1, form);
-    case 0x6: return row_form(c, x0, x1, y, out, 1, 2, form);
-    case 0x9: return row_form(c, x0, x1, y, out, 2, 1, form);
-    default:  return row_form(c, x0, x1, y, out, c->enters, c->leaves, form);
-    }
-}
-
 int32_t smear_timemask_row(const struct timemask_cover *c, int32_t y, uint32_t *out)
 {
-    int32_t x0 = c->x0, x1 = c->x1, count;
-    for (int i = 0; i < c->lefts; i++)
-        x0 = max_i32(x0, (c->left[i].at + c->left[i].step * y) >> 16);
-    for (int i = 0; i < c->rights; i++)
-        x1 = min_i32(x1, ((c->right[i].at + c->right[i].step * y) >> 16) + 1);
-    if (x0 >= x1)
-        return 0;
-    if ((c->enters | c->leaves) == 0) {
-        const uint32_t run = timemask_run(0, 0, 1 << c->samples_log2);
-        for (int32_t x = x0; x < x1; x++)
-            out[x - x0] = run + (uint32_t)x;
-        count = x1 - x0;
-    } else if (c->form == COVER_EVEN) {
-        count = row_kind(c, x0, x1, y, out, COVER_EVEN);
-    } else if (c->form == COVER_CURVED) {
-        count = row_kind(c, x0, x1, y, out, COVER_CURVED);
-    } else {
-        count = row_kind(c, x0, x1, y, out, COVER_BOWED);
+    const int q = c->form == COVER_EVEN ? SAMPLE_Q : CURVED_Q;
+    const int32_t samples = 1 << c->samples_log2;
+    /* Slots count from the segment's middle, but for bows. */
+    const int32_t half = (c->form == COVER_BOWED ? 0 : samples << q >> 1) + (1 << (q - 1));
+    int32_t count = 0;
+    for (int32_t x = c->x0; x < c->x1; x++) {
+        int32_t from = -half, to = (samples << q) - half, outside = 0;
+        for (int i = 0; i < c->leaves; i++)
+            to = min_i32(to, crossed_at(c, &c->leave[i], x, y));
+        for (int i = 0; i < c->enters; i++)
+            from = max_i32(from, crossed_at(c, &c->enter[i], x, y));
+        to = (to + half) >> q;
+        from = (from + half) >> q;
+        for (int i = 0; i < c->stays; i++)
+            outside |= timemask_plane_at(&c->stay[i], x, y);
+        if (from < to && outside >= 0)
+            count += put_runs(out + count, x, turns_leave(c, x, y) & timemask_below(to) & ~timemask_below(from));
     }
-    return (c->stays | c->turns) == 0 || count == 0 ? count : row_cut(c, y, out, count);
+    return count;
 }

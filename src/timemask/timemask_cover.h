@@ -39,7 +39,6 @@ struct timemask_crossing {
     struct timemask_plane curvature;     /* q30: what that is to be multiplied with where
                                      * the difference is another one */
     int32_t bow;                    /* q14: how far the parabola leaves the chord */
-    int32_t slack;                  /* q14 samples: what curvature and bow may make of it */
 };
 
 /* An edge that may do anything. */
@@ -58,13 +57,16 @@ struct timemask_cover {
     int32_t samples_log2;       /* of the segment */
     enum timemask_form form;    /* what crossings need: none bends or bows, some curvature, some bow */
     uint8_t enters, leaves, stays, turns;       /* edges of each kind; those inside everywhere are in none */
-    uint8_t lefts, rights;
     struct timemask_crossing enter[3], leave[3];
     struct timemask_plane stay[3];              /* inside is >= 0 */
     struct timemask_turning turn[3];
-    /* What is covered in row y lies right of left.at + y left.step and left of the right ones, q16 px. */
-    struct { int32_t at, step; } left[8], right[8];
 };
+
+/* Returns the samples [0, n). */
+static inline uint32_t timemask_below(int32_t n)
+{
+    return n >= 32 ? UINT32_MAX : (1u << n) - 1u;
+}
 
 /* Runs of a row: samples [from, to) of pixel x, each in 8 bits. */
 static inline uint32_t timemask_run(int32_t x, int32_t from, int32_t to)

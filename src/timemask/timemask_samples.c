@@ -61,30 +61,19 @@ static SMEAR_NOINLINE uint32_t nearer_samples(int32_t depth, int32_t slope, uint
 
 /* ------------------------------------------------------------------ merging */
 
-/* 2^22 / n, rounded up. */
-static const uint32_t over[33] = {
-    0, 4194304, 2097152, 1398102, 1048576, 838861, 699051, 599187, 524288, 466034, 419431, 381301,
-    349526, 322639, 299594, 279621, 262144, 246724, 233017, 220753, 209716, 199729, 190651, 182362,
-    174763, 167773, 161320, 155345, 149797, 144632, 139811, 135301, 131072
-};
-
 /* (a wa + b wb) / n with n = wa + wb samples: equal codes keep their mean. */
 static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
 {
-    uint32_t n = wa + wb, by = over[n];
-    if (linear) {       /* sums are below 2^21 */
-        uint32_t red = smear_srgb_decode[pixel_red(a)] * wa + smear_srgb_decode[pixel_red(b)] * wb;
-        uint32_t green = smear_srgb_decode[pixel_green(a)] * wa + smear_srgb_decode[pixel_green(b)] * wb;
-        uint32_t blue = smear_srgb_decode[pixel_blue(a)] * wa + smear_srgb_decode[pixel_blue(b)] * wb;
-        return pixel_make(0, smear_srgb_encode[mulh_u32(red << 11, by) >> 5],
-                          smear_srgb_encode[mulh_u32(green << 11, by) >> 5],
-                          smear_srgb_encode[mulh_u32(blue << 11, by) >> 5]);
+    const uint32_t n = wa + wb, over = ((1u << 22) + n - 1u) / n;
+    uint32_t out = 0;
+    for (int shift = 0; shift < 24; shift += 8) {
+        const uint32_t x = a >> shift & 255u, y = b >> shift & 255u;
+        if (linear)         /* sums are below 2^21 */
+            out |= (uint32_t)smear_srgb_encode[mulh_u32((smear_srgb_decode[x] * wa + smear_srgb_decode[y] * wb) << 11, over) >> 5] << shift;
+        else                /* below 2^13: products with over / 2^4 fit */
+            out |= ((x * wa + y * wb + (n >> 1)) * ((over + 15u) >> 4) >> 18) << shift;
     }
-    /* Below 2^13: products with by / 2^4 fit. */
-    uint32_t red_blue = (a & 0xff00ffu) * wa + (b & 0xff00ffu) * wb + (n >> 1) * 0x10001u;
-    uint32_t green = pixel_green(a) * wa + pixel_green(b) * wb + (n >> 1);
-    by = (by + 15u) >> 4;
-    return ((red_blue >> 16) * by >> 18) << 16 | (green * by >> 18) << 8 | (red_blue & 0xffffu) * by >> 18;
+    return out;
 }
 
 static inline uint32_t distance(uint32_t a, uint32_t b)
@@ -169,7 +158,15 @@ static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, con
 
 /* ------------------------------------------------------------------ fragments */
 
-void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, const struct timemask_fragment *f)
+/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
+static bool is_same(const struct timemask_samples *b, uint32_t at, uint32_t color,
+                    int32_t depth)
+{
+    return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
+}
+
+/* Adds a fragment where others have a say or entries run out. */
+static void contest(struct timemask_samples *b, uint32_t pixel, const struct timemask_fragment *f)
 {
     const int32_t last_sample = (1 << b->samples_log2) - 1;
     uint32_t mask = f->mask, n = b->count[pixel];
@@ -199,7 +196,7 @@ void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, 
         b->farthest[pixel] = (uint16_t)f->low;
     for (uint32_t i = n; i-- > 0;) {
         uint32_t at = (i << b->pixels_log2) + pixel;
-        if (timemask_is_same(b, at, f->color, f->depth)) {
+        if (is_same(b, at, f->color, f->depth)) {
             b->held[at] |= mask;
             return;
         }
@@ -210,6 +207,33 @@ void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel, 
         return;
     }
     entry_put(b, pixel, n, &fresh);
+    b->count[pixel] = (uint8_t)(n + 1);
+}
+
+void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
+{
+    uint32_t any = b->any[pixel], n = b->count[pixel];
+    int32_t farthest = b->farthest[pixel];
+    if ((any & f.mask) != 0 && high <= farthest) {
+        f.mask &= ~any;
+        if (f.mask == 0)
+            return;
+    }
+    if ((any & f.mask) != 0 || n == TIMEMASK_ENTRIES) {
+        contest(b, pixel, &f);
+        return;
+    }
+    uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
+    b->any[pixel] = any | f.mask;
+    if (f.low < farthest)
+        b->farthest[pixel] = (uint16_t)f.low;
+    if (n != 0 && is_same(b, before, f.color, f.depth)) {
+        b->held[before] |= f.mask;
+        return;
+    }
+    b->held[at] = f.mask;
+    b->color[at] = f.color;
+    b->depth[at] = (uint16_t)f.depth;
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
@@ -229,38 +253,17 @@ int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t 
 
 /* ------------------------------------------------------------------ means */
 
-/* Linear light. */
-static uint32_t mean_linear(const struct timemask_samples *b, uint32_t pixel, uint32_t background)
-{
-    uint32_t rest = 1u << b->samples_log2, half = rest >> 1, red = half, green = half, blue = half;
-    for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
-        bool own = i < b->count[pixel];
-        uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : background;
-        rest -= n;
-        red += n * smear_srgb_decode[pixel_red(color)];
-        green += n * smear_srgb_decode[pixel_green(color)];
-        blue += n * smear_srgb_decode[pixel_blue(color)];
-    }
-    const int down = b->samples_log2 + 4;
-    return pixel_make(0, smear_srgb_encode[red >> down], smear_srgb_encode[green >> down],
-                      smear_srgb_encode[blue >> down]);
-}
-
 uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t background)
 {
-    const uint32_t all = UINT32_MAX >> (32 - (1 << b->samples_log2)), count = b->count[pixel];
-    if (count == 1 && b->held[pixel] == all)
-        return b->color[pixel] & 0xffffffu;
-    if (b->linear)
-        return mean_linear(b, pixel, background);
-    uint32_t rest = 1u << b->samples_log2, half = rest >> 1, red_blue = half * 0x10001u, green = half;
-    for (uint32_t i = 0, at = pixel; i < count; i++, at += 1u << b->pixels_log2) {
-        uint32_t n = count_bits(b->held[at]), color = b->color[at];
+    uint32_t rest = 1u << b->samples_log2, sum[3] = { rest >> 1, rest >> 1, rest >> 1 }, out = 0;
+    for (uint32_t i = 0, at = pixel; i <= b->count[pixel]; i++, at += 1u << b->pixels_log2) {
+        const bool own = i < b->count[pixel];
+        const uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : background;
         rest -= n;
-        red_blue += (color & 0xff00ffu) * n;
-        green += (color >> 8 & 0xffu) * n;
+        for (int k = 0; k < 3; k++)
+            sum[k] += n * (b->linear ? smear_srgb_decode[color >> 8 * k & 255u] : color >> 8 * k & 255u);
     }
-    red_blue += (background & 0xff00ffu) * rest;
-    green += (background >> 8 & 0xffu) * rest;
-    return (red_blue >> b->samples_log2 & 0xff00ffu) | (green >> b->samples_log2 & 0xffu) << 8;
+    for (int k = 0; k < 3; k++)
+        out |= (b->linear ? smear_srgb_encode[sum[k] >> (b->samples_log2 + 4)] : sum[k] >> b->samples_log2) << 8 * k;
+    return out;
 }

@@ -59,46 +59,8 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* Whether an entry is of the same colour and, as far as that matters, the same surface. */
-static inline bool timemask_is_same(const struct timemask_samples *b, uint32_t at, uint32_t color,
-                                    int32_t depth)
-{
-    return (b->color[at] ^ color) << 8 == 0 && abs_i32((int32_t)b->depth[at] - depth) <= depth >> 6;
-}
-
-/* timemask_samples_add, where others have a say or entries run out. */
-void smear_timemask_samples_contest(struct timemask_samples *b, uint32_t pixel,
-                                    const struct timemask_fragment *f);
-
-/* `high`: code that is not exceeded. */
-SMEAR_INLINE void timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f,
-                                       int32_t high)
-{
-    uint32_t any = b->any[pixel], n = b->count[pixel];
-    int32_t farthest = b->farthest[pixel];
-    if ((any & f.mask) != 0 && high <= farthest) {
-        f.mask &= ~any;
-        if (f.mask == 0)
-            return;
-    }
-    if ((any & f.mask) != 0 || n == TIMEMASK_ENTRIES) {
-        const struct timemask_fragment contested = f;
-        smear_timemask_samples_contest(b, pixel, &contested);
-        return;
-    }
-    uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
-    b->any[pixel] = any | f.mask;
-    if (f.low < farthest)
-        b->farthest[pixel] = (uint16_t)f.low;
-    if (n != 0 && timemask_is_same(b, before, f.color, f.depth)) {
-        b->held[before] |= f.mask;
-        return;
-    }
-    b->held[at] = f.mask;
-    b->color[at] = f.color;
-    b->depth[at] = (uint16_t)f.depth;
-    b->count[pixel] = (uint8_t)(n + 1);
-}
+/* Adds what is seen; `high`: code that is not exceeded. */
+void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f, int32_t high);
 
 /* Depth code at or beyond which nothing new is seen in rows of `width`
  * pixels, `stride` apart: 0 while samples are free. */

@@ -378,12 +378,6 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 
 /* ------------------------------------------------------------------ colours */
 
-static inline int32_t value_at(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
-{
-    struct timemask_here here = timemask_here(p, x, y);
-    return timemask_value(p, &here, time);
-}
-
 /* w at a time: 1/q = recip 2^(zeros - 61). */
 struct quotient {
     int zeros;
@@ -392,7 +386,7 @@ struct quotient {
 
 static struct quotient quotient_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time)
 {
-    uint32_t q = (uint32_t)max_i32(value_at(&s->q, x, y, time), 1 << 11);
+    uint32_t q = (uint32_t)max_i32(timemask_value(&s->q, x, y, time), 1 << 11);
     int zeros = count_leading_zeros(q);
     return (struct quotient){ zeros, (int32_t)recip_norm(q << zeros) };
 }
@@ -406,7 +400,7 @@ static int32_t quotient_of(const struct quotient *w, int32_t a)
 static void channels_at(const struct timemask_shade *s, int32_t x, int32_t y, int32_t time, int32_t out[3])
 {
     for (int c = 0; c < 3; c++)
-        out[c] = value_at(&s->channel[c], x, y, time);
+        out[c] = timemask_value(&s->channel[c], x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         for (int c = 0; c < 3; c++)
@@ -421,8 +415,8 @@ static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32
                      int32_t *v)
 {
     const struct smear_sampler *m = s->sampler;
-    *u = value_at(&s->u, x, y, time);
-    *v = value_at(&s->v, x, y, time);
+    *u = timemask_value(&s->u, x, y, time);
+    *v = timemask_value(&s->v, x, y, time);
     if (s->over_w) {
         struct quotient w = quotient_at(s, x, y, time);
         *u = quotient_of(&w, *u);
@@ -505,7 +499,7 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
     const uint32_t color = color_of(s, y, run);
     if (!SMEAR_WITH_FOG || !s->in_fog)
         return color;
-    const int32_t units = value_at(&s->depth, timemask_run_x(run), y, timemask_middle(s, run));
+    const int32_t units = timemask_value(&s->depth, timemask_run_x(run), y, timemask_middle(s, run));
     const int32_t part = smear_fog_part(frame_fog(s->frame), clamp_i32(units, s->depth_low, s->depth_high) << 7);
     return fog_pixel(s->frame, color, part);
 }

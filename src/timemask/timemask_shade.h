@@ -51,18 +51,6 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 /* Returns the colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
 
-/* The two planes at a pixel. */
-struct timemask_here {
-    int32_t at, change;
-};
-
-static inline struct timemask_here timemask_here(const struct timemask_timed *p, int32_t x, int32_t y)
-{
-    return (struct timemask_here){ add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y))),
-                                   add_wrap(p->change,
-                                            add_wrap(mul_wrap(p->change_dx, x), mul_wrap(p->change_dy, y))) };
-}
-
 /* floor(a time / 64) for any a. */
 static inline int32_t timemask_part(int32_t a, int32_t time)
 {
@@ -74,11 +62,12 @@ static inline int32_t timemask_part(int32_t a, int32_t time)
 #endif
 }
 
-/* Value at a time. */
-static inline int32_t timemask_value(const struct timemask_timed *p, const struct timemask_here *here,
-                                     int32_t time)
+/* Returns the value at pixel (x, y) of the block at a time. */
+static inline int32_t timemask_value(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
 {
-    return add_wrap(here->at, timemask_part(add_wrap(here->change, timemask_part(p->curve, time)), time));
+    const struct timemask_plane at = { p->at, p->dx, p->dy }, change = { p->change, p->change_dx, p->change_dy };
+    return add_wrap(timemask_plane_at(&at, x, y),
+                    timemask_part(add_wrap(timemask_plane_at(&change, x, y), timemask_part(p->curve, time)), time));
 }
 
 static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t run)
