@@ -20,7 +20,7 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
 {
     int32_t displacement[2], stored[2];
     smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
-    smear_velocity_store(displacement, store->velocity_scale, true, store->reach_q3, stored);
+    smear_velocity_store(displacement, store->velocity_scale, store->reach_q3, stored);
     struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
     if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
         k.wide_x = narrow_sat((int64_t)displacement[0] * store->inspect_scale >> 16);

@@ -86,26 +86,6 @@ static void reduce_row(struct smear_filtered *f, struct smear_rows *rows, int ro
 
 /* ------------------------------------------------------------------ tiles */
 
-/* Whether a tile goes to the display as it lies in the window, which other rows read, too. */
-static bool is_bare(const struct filter_job *r, int column)
-{
-    const struct smear_rows *rows = r->row.rows;
-    return is_static(r->filtered->window, r->row.row, column) && rows->blend == SMEAR_NO_TRIANGLE
-        && !rows_list_has_points(rows, tile_left(rows, column), tile_right(rows, column));
-}
-
-/* Such tiles are converted a run of them at once: the job of the run's first tile. */
-static void convert_static(const struct filter_job *r, int column)
-{
-    const struct smear_window *w = r->filtered->window;
-    if (column > 0 && is_bare(r, column - 1))
-        return;
-    int end = column + 1;
-    while (end < w->columns && is_bare(r, end))
-        end++;
-    smear_band_convert_window(&r->row, tile_left(r->row.rows, column), tile_right(r->row.rows, end - 1));
-}
-
 /* Returns what a pass reads: what the one before it left, or the picture. */
 static const uint32_t *pass_input(const struct smear_filtered *f, int pass)
 {
@@ -163,10 +143,6 @@ static void tile_job(void *argument, int column, int worker)
 {
     const struct filter_job *r = (const struct filter_job *)argument;
     struct smear_rows *rows = r->row.rows;
-    if (is_bare(r, column)) {
-        convert_static(r, column);
-        return;
-    }
     uint32_t *tile = rows->scratch + worker * rows->window.tile * rows->desc->band_rows;
     rows->samples[worker] += filter_any(r, tile, column, worker);
     if (rows->blend != SMEAR_NO_TRIANGLE)

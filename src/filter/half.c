@@ -7,18 +7,13 @@
 /* Returns the mean of four pixels; that of equal ones is exact. */
 static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool linear)
 {
-    if (((a ^ b) | (a ^ c) | (a ^ d)) == 0)
-        return a;
-    if (!linear) {
-        uint32_t red_blue = (a & 0xff00ffu) + (b & 0xff00ffu) + (c & 0xff00ffu) + (d & 0xff00ffu) + 0x20002u;
-        uint32_t green = (a & 0xff00u) + (b & 0xff00u) + (c & 0xff00u) + (d & 0xff00u) + 0x200u;
-        return (red_blue >> 2 & 0xff00ffu) | (green >> 2 & 0xff00u);
-    }
+    const uint32_t pixel[4] = { a, b, c, d };
     uint32_t out = 0;
     for (int shift = 0; shift < 24; shift += 8) {
-        uint32_t sum = (uint32_t)smear_srgb_decode[a >> shift & 255u] + smear_srgb_decode[b >> shift & 255u]
-                     + smear_srgb_decode[c >> shift & 255u] + smear_srgb_decode[d >> shift & 255u];
-        out |= (uint32_t)smear_srgb_encode[sum >> 6] << shift;
+        uint32_t sum = 0;
+        for (int i = 0; i < 4; i++)
+            sum += linear ? smear_srgb_decode[pixel[i] >> shift & 255u] : pixel[i] >> shift & 255u;
+        out |= (linear ? smear_srgb_encode[sum >> 6] : (sum + 2u) >> 2) << shift;
     }
     return out;
 }

@@ -101,10 +101,6 @@ void smear_setup_velocity(struct setup *s)
     /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
     s->velocity_affine = in_front
                       && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
-    /* Half the exposure's displacement in 1/8 px against the reach: |dx| + |dy| bounds the length. Where
-     * depths change, pixels may go further than their vertices. */
-    s->clamp_velocity = !s->velocity_affine || (uint64_t)longest * (uint32_t)s->frame->velocity_scale >> 21
-                                               >= (uint32_t)s->frame->reach_q3;
     if (!s->velocity_affine) {
         setup_poses(s, max_u32(magnitude_i32(low), magnitude_i32(high)));
         return;
@@ -165,21 +161,10 @@ static void displacement_between(const struct setup *s, int32_t x, int32_t y, in
     shorten(out, 22);
 }
 
-void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3,
-                          int32_t out[2])
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
 {
-    /* Up to 128 px and shutters of 360 degrees, products have 32 bits. */
-    if (((magnitude_i32(displacement[0]) | magnitude_i32(displacement[1])) >> 15 | (uint32_t)scale >> 16)
-        == 0) {
-        out[0] = displacement[0] * scale >> 8;
-        out[1] = displacement[1] * scale >> 8;
-    } else {
-        int64_t k = scale;
-        out[0] = narrow_sat((displacement[0] * k) >> 8);
-        out[1] = narrow_sat((displacement[1] * k) >> 8);
-    }
-    if (!clamp)
-        return;
+    for (int i = 0; i < 2; i++)
+        out[i] = narrow_sat((int64_t)displacement[i] * scale >> 8);
     /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
     shorten(out, 27);
     int32_t sx = out[0] >> 12, sy = out[1] >> 12;
@@ -198,7 +183,7 @@ void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool cla
 
 static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
 {
-    smear_velocity_store(displacement, s->frame->velocity_scale, s->clamp_velocity, s->frame->reach_q3, out);
+    smear_velocity_store(displacement, s->frame->velocity_scale, s->frame->reach_q3, out);
 }
 
 static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)

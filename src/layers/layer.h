@@ -3,8 +3,7 @@
  *
  * Draws of a blurred layer that move alike form a group. A group is drawn as it is in the middle of the
  * exposure into rows of its own: those of the tile row and as many above and below as the blur reads, and
- * columns beyond the frame's sides, so that what enters the frame is there before it does. A tile row's last
- * group keeps there what the next tile row needs of it, too. */
+ * columns beyond the frame's sides, so that what enters the frame is there before it does. */
 #ifndef SMEAR_LAYER_H
 #define SMEAR_LAYER_H
 
@@ -38,12 +37,6 @@ struct smear_group {
     uint32_t marked_from;       /* none of them with depth codes below this */
 };
 
-/* What the rows hold: the store's rows [y0, y1) and columns [x0, x1) of a group. */
-struct smear_held_rows {
-    const struct smear_group *group;    /* null: nothing */
-    int32_t y0, y1, x0, x1;
-};
-
 /* Rows of a group. Pixel (x, y) of the frame lies there `margin` columns to the right and a tile row further down; so
  * do the triangles of layers in the store. */
 struct smear_layer_rows {
@@ -52,7 +45,6 @@ struct smear_layer_rows {
     int8_t *velocity8;                  /* SMEAR_LAYERED has one of the two, as in window.h */
     int16_t *velocity16;
     struct smear_layer_cell *cell;      /* layer_gather.h */
-    struct smear_held_rows held;
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
     uint32_t *over;                     /* of the tile row, where groups pass through each other (streak.h) */

@@ -95,7 +95,7 @@ struct taps {
     uint32_t weight;            /* of a tap that meets it */
 };
 
-static SMEAR_NOINLINE void taps_start(struct taps *t, struct smear_pixel_velocity d, uint32_t word, int32_t width)
+static void taps_start(struct taps *t, struct smear_pixel_velocity d, uint32_t word, int32_t width)
 {
     const int32_t n = t->count;
     t->d = d;
@@ -113,7 +113,7 @@ static SMEAR_NOINLINE void taps_start(struct taps *t, struct smear_pixel_velocit
     t->weight = (uint32_t)((WHOLE + n - 1) / n);
 }
 
-static SMEAR_NOINLINE void taps_meet(struct taps *t, struct smear_pixel_velocity v, uint32_t word)
+static void taps_meet(struct taps *t, struct smear_pixel_velocity v, uint32_t word)
 {
     int32_t dot = v.x * t->d.x + v.y * t->d.y, cross = abs_i32(v.x * t->d.y - v.y * t->d.x);
     int32_t speed = (int32_t)sqrt_q3((uint32_t)square_of(v));
@@ -145,7 +145,7 @@ struct gathering {
     } probe[PROBES];
 };
 
-static SMEAR_NOINLINE void probes_start(struct gathering *g, struct smear_pixel_velocity top)
+static void probes_start(struct gathering *g, struct smear_pixel_velocity top)
 {
     g->top = top;
     for (int32_t i = 0; i < PROBES; i++) {
@@ -181,15 +181,14 @@ struct seen {
     uint32_t passed_depth;      /* of those groups; 0: there are none */
 };
 
-static inline struct weighed_sum *sum_of(struct seen *s, uint32_t depth, bool mixed)
+static struct weighed_sum *sum_of(struct seen *s, uint32_t depth)
 {
-    return mixed && depth < s->passed_depth ? &s->behind : &s->sum;
+    return depth < s->passed_depth ? &s->behind : &s->sum;
 }
 
 /* Sums up the taps of a pixel. Where its own surface moves (`own`) and a tap meets one that does not come here, that
  * one either is hidden by a nearer surface or has left a farther one uncovered. */
-SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t background_depth,
-                         bool linear, bool mixed)
+static void gather(struct gathering *g, struct seen *seen, int32_t here, bool own, uint32_t background_depth)
 {
     struct taps *t = &g->taps;
     const struct smear_layer_rows *l = g->a->layer;
@@ -202,17 +201,16 @@ SMEAR_INLINE void gather(struct gathering *g, struct seen *seen, int32_t here, b
         if (word != t->word)
             taps_meet(t, velocity_at(l, at), word);
         if (t->tap[k].distance <= t->carries)
-            sum_add(sum_of(seen, g->depth[at], mixed), g->color[at], t->weight, linear);
+            sum_add(sum_of(seen, g->depth[at]), g->color[at], t->weight, g->a->linear);
         else if (own) {
             int32_t of = g->depth[at] > g->depth[here] ? here : at;
-            sum_add(sum_of(seen, g->depth[of], mixed), g->color[of], even, linear);
+            sum_add(sum_of(seen, g->depth[of]), g->color[of], even, g->a->linear);
         }
     }
 }
 
 /* Sums up what a pixel sees, `here` in the layer's rows. Returns the index there of the surface it sees, or -1. */
-SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t background_depth,
-                          uint32_t *taken, bool linear, bool mixed)
+static int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32_t background_depth, uint32_t *taken)
 {
     int32_t of = -1;
     const bool drawn = g->depth[here] > background_depth;
@@ -230,22 +228,13 @@ SMEAR_INLINE int32_t look(struct gathering *g, struct seen *seen, int32_t here, 
         d = velocity_at(g->a->layer, of);
         if (d.x != g->taps.d.x || d.y != g->taps.d.y)
             taps_start(&g->taps, d, word, g->width);
-        gather(g, seen, here, of == here, background_depth, linear, mixed);
+        gather(g, seen, here, of == here, background_depth);
         *taken += (uint32_t)g->taps.count;
     }
-    const uint32_t weight = seen->sum.weight + (mixed ? seen->behind.weight : 0);
+    const uint32_t weight = seen->sum.weight + seen->behind.weight;
     if (stays && weight < WHOLE)
-        sum_add(sum_of(seen, g->depth[here], mixed), g->color[here], WHOLE - weight, linear);
+        sum_add(sum_of(seen, g->depth[here]), g->color[here], WHOLE - weight, g->a->linear);
     return drawn ? here : of;
-}
-
-SMEAR_INLINE void merge_pixel(struct gathering *g, int32_t here, uint32_t background_depth, uint32_t *out,
-                              uint32_t *taken, bool linear)
-{
-    struct seen seen = { .passed_depth = 0 };
-    look(g, &seen, here, background_depth, taken, linear, false);
-    if (seen.sum.weight != 0)
-        *out = sum_pixel(&seen.sum, *out, linear);
 }
 
 /* ------------------------------------------------------------------ between other groups */
@@ -290,15 +279,14 @@ static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool
     return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
 }
 
-/* Merges a pixel where other groups were merged before this one: what lies behind them goes between them and what they
+/* Merges a pixel; `mixed`: where other groups were merged before this one, what lies behind them goes between them and what they
  * were merged over. */
-static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32_t background_depth, int32_t at,
-                                       uint32_t *taken)
+static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_depth, int32_t at, bool mixed, uint32_t *taken)
 {
     const struct smear_gather_area *a = g->a;
-    uint32_t passed = a->passed[at];
+    uint32_t passed = mixed ? a->passed[at] : 0;
     struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->passed_depth[at] : 0u };
-    const int32_t of = look(g, &seen, here, background_depth, taken, a->linear, true);
+    const int32_t of = look(g, &seen, here, background_depth, taken);
     const uint32_t front = min_u32(seen.sum.weight, WHOLE);
     if (seen.behind.weight != 0 && front < WHOLE) {
         /* The share of the time in which nothing of the layer is in front. */
@@ -315,7 +303,7 @@ static SMEAR_NOINLINE void merge_mixed(struct gathering *g, int32_t here, uint32
         passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
         a->background[at] = sum_pixel(&seen.sum, a->background[at], a->linear);
     }
-    if (!a->marks || (seen.sum.weight | seen.behind.weight) == 0)
+    if (!mixed || !a->marks || (seen.sum.weight | seen.behind.weight) == 0)
         return;
     const uint32_t depth = of >= 0 ? g->depth[of] : 0;
     a->passed_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
@@ -346,7 +334,6 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
     g.taps.over = 16384 / a->samples;
     uint32_t taken = 0;
     for (int32_t y = 0; y < a->height; y++) {
-        uint32_t *background = a->background + y * a->background_stride;
         const uint16_t *depth = a->background_depth + y * a->background_stride;
         int32_t left, right;
         reached(a, y + a->top, &left, &right);
@@ -357,12 +344,8 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
             if (top.x != g.top.x || top.y != g.top.y)
                 probes_start(&g, top);
             int32_t here = (y + a->top) * l->width + x + l->margin;
-            if (x + l->margin >= a->mixed0 && x + l->margin < a->mixed1)
-                merge_mixed(&g, here, background_depth, y * a->background_stride + x, &taken);
-            else if (a->linear)
-                merge_pixel(&g, here, background_depth, &background[x], &taken, true);
-            else
-                merge_pixel(&g, here, background_depth, &background[x], &taken, false);
+            merge_pixel(&g, here, background_depth, y * a->background_stride + x,
+                        x + l->margin >= a->mixed0 && x + l->margin < a->mixed1, &taken);
         }
     }
     return taken;

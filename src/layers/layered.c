@@ -32,8 +32,7 @@ struct layers_row {
     struct smear_streak_area area;
     struct smear_gather_area gather;
     int32_t vx, vy;             /* of taps: no farther than there are pixels */
-    struct smear_raster_target target;      /* rows that are drawn: */
-    int32_t kept, down;         /* as many before them are there, so many rows further down */
+    struct smear_raster_target target;      /* rows that are drawn */
     struct smear_raster_frame frame;
 };
 
@@ -76,33 +75,6 @@ static void clear_columns(const struct smear_raster_target *t, int32_t row, int3
         __builtin_memset(t->velocity16 + 2 * at, 0, (size_t)n * 4);
 }
 
-/* Copies the target's columns of a row from `down` rows further down, where the planes have columns [had0, had1) drawn;
- * clears the others. */
-static void copy_columns(const struct smear_raster_target *t, int32_t row, int32_t down, int32_t had0, int32_t had1)
-{
-    const int32_t x0 = clamp_i32(had0, t->x0, t->x1), x1 = clamp_i32(had1, x0, t->x1),
-                  stride = t->window_rows.stride;
-    const size_t n = (size_t)(x1 - x0), to = (size_t)(row * stride + x0), from = to + (size_t)(down * stride);
-    clear_columns(t, row, t->x0, x0);
-    clear_columns(t, row, x1, t->x1);
-    __builtin_memcpy(t->color + to, t->color + from, n * 4);
-    __builtin_memcpy(t->depth + to, t->depth + from, n * 2);
-    if (t->velocity8 != NULL)
-        __builtin_memcpy(t->velocity8 + 2 * to, t->velocity8 + 2 * from, n * 2);
-    if (t->velocity16 != NULL)
-        __builtin_memcpy(t->velocity16 + 2 * to, t->velocity16 + 2 * from, n * 4);
-}
-
-/* Takes over the rows that are there, and clears the others. */
-static void clear_rows(const struct layers_row *r, const struct smear_raster_target *t)
-{
-    const struct smear_layer_rows *rows = &r->layers->rows;
-    for (int32_t row = 0; row < r->kept; row++)
-        copy_columns(t, row, r->down, rows->held.x0, rows->held.x1);
-    for (int32_t row = r->kept; row < r->area.rows; row++)
-        clear_columns(t, row, t->x0, t->x1);
-}
-
 /* Draws the group's rows, in as many cuts of columns as there are workers. */
 static void draw_job(void *argument, int job, int worker)
 {
@@ -115,51 +87,30 @@ static void draw_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     if (r->row.steps & ROW_CLEAR)
-        clear_rows(r, &t);
+        for (int32_t row = 0; row < r->area.rows; row++)
+            clear_columns(&t, row, t.x0, t.x1);
     t.over = r->row.rows->refill != NULL;
     if (r->row.steps & ROW_DRAW)
         smear_raster_list(&r->frame, &t, r->group->head);
 }
 
-/* Makes pixels of rows [y0, y1) say whether they are covered by what is on top: texels have written something else
- * there. */
-static void clear_tops(const struct smear_layer_rows *rows, int32_t y0, int32_t y1)
-{
-    for (int32_t y = y0; y < y1; y++)
-        for (int32_t x = rows->row_first[y], at = y * rows->width + x; x < rows->row_end[y]; x++, at++)
-            rows->color[at] = rows->depth[at] != 0 ? rows->color[at] & 0xffffffu : SMEAR_UNCOVERED;
-}
-
-/* Finds what is drawn in row y, within columns [x0, x1). */
-static void find_drawn(const struct smear_layer_rows *rows, int32_t y, int32_t x0, int32_t x1)
-{
-    const uint16_t *depth = rows->depth + y * rows->width;
-    int32_t first = x0, end = x1;
-    uint64_t four = 0;
-    while (end - first >= 4 && (__builtin_memcpy(&four, depth + first, 8), four == 0))
-        first += 4;
-    while (end - first >= 4 && (__builtin_memcpy(&four, depth + end - 4, 8), four == 0))
-        end -= 4;
-    while (first < end && depth[first] == 0)
-        first++;
-    while (end > first && depth[end - 1] == 0)
-        end--;
-    rows->row_first[y] = (int16_t)first;
-    rows->row_end[y] = (int16_t)end;
-}
-
+/* Finds what is drawn in each row. Pixels of texels, which have written something else on top, get to say whether they are covered. */
 static void find_extents(const struct layers_row *r)
 {
     const struct smear_layer_rows *rows = &r->layers->rows;
-    for (int32_t y = 0; y < r->kept; y++) {
-        bool any = rows->row_first[y + r->down] < rows->row_end[y + r->down];
-        rows->row_first[y] = any ? rows->row_first[y + r->down] : (int16_t)r->target.x1;
-        rows->row_end[y] = any ? rows->row_end[y + r->down] : (int16_t)r->target.x1;
+    for (int32_t y = 0; y < r->area.rows; y++) {
+        const uint16_t *depth = rows->depth + y * rows->width;
+        uint32_t *color = rows->color + y * rows->width;
+        int32_t first = r->target.x0, end = r->target.x1;
+        while (first < end && depth[first] == 0)
+            first++;
+        while (end > first && depth[end - 1] == 0)
+            end--;
+        rows->row_first[y] = (int16_t)first;
+        rows->row_end[y] = (int16_t)end;
+        for (int32_t x = first; r->group->textured && x < end; x++)
+            color[x] = depth[x] != 0 ? color[x] & 0xffffffu : SMEAR_UNCOVERED;
     }
-    for (int32_t y = r->kept; y < r->area.rows; y++)
-        find_drawn(rows, y, r->target.x0, r->target.x1);
-    if (r->group->textured)
-        clear_tops(rows, r->kept, r->area.rows);
 }
 
 /* Begins or goes on with the triangles of a group in a row that is refilled; false when there are none left. A tile row
@@ -290,23 +241,20 @@ static void set_area(struct layers_row *r)
     };
 }
 
-/* What of the group's rows is drawn: without those that the tile row above has left, if the group was the last that was
- * merged there. Lines that go down, and taps, look beyond the group's columns. */
+/* What of the group's rows is drawn. Lines that go down, and taps, look beyond the group's columns. */
 static void set_target(struct layers_row *r, int32_t y0, int32_t y1)
 {
     const struct smear_rows *frame = r->row.rows;
     const struct smear_layer_rows *rows = &r->layers->rows;
     const struct smear_group *group = r->group;
     const int32_t beside = r->streak.upright || gathers(r) ? (2 * r->streak.reach_x + 15) & ~15 : 0;
-    r->kept = rows->held.group == group ? clamp_i32(rows->held.y1 - y0, 0, y1 - y0) : 0;
-    r->down = y0 - rows->held.y0;
     r->target = (struct smear_raster_target){
-        .x0 = max_i32(group->x0 - beside, 0), .y0 = y0 + r->kept,
+        .x0 = max_i32(group->x0 - beside, 0), .y0 = y0,
         .x1 = min_i32(group->x1 + beside, rows->width), .y1 = y1,
         .color = rows->color, .depth = rows->depth,
         .tile_shift = (uint8_t)frame->window.tile_shift
     };
-    r->target.color_rows = r->target.window_rows = (struct smear_plane_rows){ rows->width, r->kept, rows->rows, 0 };
+    r->target.color_rows = r->target.window_rows = (struct smear_plane_rows){ rows->width, 0, rows->rows, 0 };
     r->frame = frame->raster;
     r->frame.width = rows->width;
     r->frame.height = rows->height;
@@ -337,7 +285,6 @@ static void set_gather(struct layers_row *r)
 static void merge_group(struct layers_row *r, struct smear_group *group)
 {
     struct smear_rows *frame = r->row.rows;
-    struct smear_layer_rows *rows = &r->layers->rows;
     r->group = group;
     set_streak(r);
     set_area(r);
@@ -345,7 +292,6 @@ static void merge_group(struct layers_row *r, struct smear_group *group)
     set_target(r, y0, y1);
     set_gather(r);
     draw_group(r);
-    rows->held = (struct smear_held_rows){ group, y0, y1, r->target.x0, r->target.x1 };
     if (group->method == SMEAR_LAYERED)
         smear_gather_cells(&r->gather);
     smear_jobs_run(&frame->jobs, merge_job, r, frame->jobs.workers);
@@ -451,7 +397,6 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
 
 int smear_layered_rows(struct smear_layers *l, struct smear_rows *rows, int32_t samples, int first, int end)
 {
-    l->rows.held.group = NULL;
     for (int row = first; row < end; row++) {
         int result = finish_row(l, rows, samples, row, row == first);
         if (result != SMEAR_OK)

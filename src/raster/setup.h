@@ -116,7 +116,6 @@ struct setup {
     uint8_t poses;                  /* velocity: 0 writes zero or nothing, 1 or 2 poses */
     bool has_velocity;              /* its planes are made */
     bool velocity_affine;
-    bool clamp_velocity;
 
     smear_rows_fn *rows;            /* what draws its rows at once, or null: smear_cover_choose */
     struct texture_setup texture;

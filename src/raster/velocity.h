@@ -10,9 +10,8 @@
 #define SMEAR_VELOCITY_UNKNOWN8 ((int8_t)-128)
 #define SMEAR_VELOCITY_UNKNOWN16 ((int16_t)-32640)     /* the same byte twice */
 
-/* A displacement between two poses, q8 px, times `scale` (q16) is half the exposure's, q16 px. With `clamp`
- * it is brought within the reach: the direction is kept. */
-void smear_velocity_store(const int32_t displacement[2], int32_t scale, bool clamp, int32_t reach_q3,
-                          int32_t out[2]);
+/* A displacement between two poses, q8 px, times `scale` (q16) is half the exposure's, q16 px. It is brought within the
+ * reach: the direction is kept. */
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2]);
 
 #endif
