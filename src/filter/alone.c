@@ -7,8 +7,6 @@
 #include "frame.h"
 #include "validate.h"
 
-#if SMEAR_WITH_RECONSTRUCT
-
 /* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
 static uint16_t depth_code(uint32_t distance, int32_t near_plane)
 {
@@ -85,7 +83,7 @@ static int filter_row(struct smear_context *c, const uint32_t *color, const uint
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
-    if (c == NULL || frame == NULL)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || frame == NULL)
         return SMEAR_ERR_ARG;
     if (c->state == STATE_DRAWING)
         return SMEAR_ERR_ORDER;
@@ -120,7 +118,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
 
 int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth, const int16_t *velocity)
 {
-    if (c == NULL || color == NULL || depth == NULL || velocity == NULL)
+    if (!SMEAR_WITH_RECONSTRUCT || c == NULL || color == NULL || depth == NULL || velocity == NULL)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_FILTER)
         return SMEAR_ERR_ORDER;
@@ -129,23 +127,3 @@ int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *de
     c->state = result != SMEAR_OK || c->filtered->row == c->rows.window.height ? STATE_IDLE : STATE_FILTER;
     return result;
 }
-
-#else
-
-int smear_filter_begin(smear_context *c, const smear_frame *frame)
-{
-    (void)c;
-    (void)frame;
-    return SMEAR_ERR_ARG;
-}
-
-int smear_filter_row(smear_context *c, const uint32_t *color, const uint32_t *depth, const int16_t *velocity)
-{
-    (void)c;
-    (void)color;
-    (void)depth;
-    (void)velocity;
-    return SMEAR_ERR_ARG;
-}
-
-#endif

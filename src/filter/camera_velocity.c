@@ -39,21 +39,6 @@ static inline void keep(const struct smear_window *w, const struct smear_camera_
     }
 }
 
-/* Fills in each pixel by itself: neighbours of one depth in one row differ by little, but they differ. */
-static void fill_row(const struct smear_window *w, const struct smear_reprojection *r,
-                     const struct smear_camera_store *store, int32_t x0, int32_t x1, int32_t y)
-{
-    int32_t at = window_ring_row(w, y) * w->width + x0;
-    for (int32_t x = x0; x < x1; x++, at++) {
-        if (!is_unknown(w, at))
-            continue;
-        struct kept k = velocity_of(r, store, 2 * x + 1, 2 * y + 1, w->depth[at]);
-        keep(w, store, at, k);
-        if ((k.x | k.y) != 0)
-            w->moving[x >> w->tile_shift] = 1;
-    }
-}
-
 /* Fills in the pixels of a block; at[j] is where row j of it begins in the window. */
 static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
                        const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
@@ -90,10 +75,6 @@ void smear_camera_velocity(const struct smear_window *w, const struct smear_repr
 {
     for (int32_t y = y0; y < y1; y += step) {
         int32_t at[4], rows = min_i32(step, y1 - y);
-        if (step == 1) {
-            fill_row(w, r, store, x0, x1, y);
-            continue;
-        }
         for (int32_t j = 0; j < rows; j++)
             at[j] = window_ring_row(w, y + j) * w->width;
         for (int32_t x = x0; x < x1; x += step)

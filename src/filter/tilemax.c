@@ -27,27 +27,20 @@ void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
         uint32_t at = (uint32_t)(window_ring_row(w, y) * w->width + x0), end = at + (uint32_t)n;
         uint32_t above = (uint32_t)(window_ring_row(w, max_i32(y - 1, 0)) * w->width + x0);
         struct smear_pixel_velocity last = window_velocity(w, x0 > 0 ? at - 1 : at);
-        uint32_t last_word = ~window_velocity_word(w, at);      /* the first of a row always counts */
         for (; at < end; at++, above++) {
-            uint32_t word = window_velocity_word(w, at);
-            if (word != last_word) {
-                struct smear_pixel_velocity v = window_velocity(w, at);
-                int32_t square = v.x * v.x + v.y * v.y;
-                if (square > longest) {
-                    longest = square;
-                    m.x = (int16_t)v.x;
-                    m.y = (int16_t)v.y;
-                }
-                m.min_x = (int16_t)min_i32(m.min_x, v.x);
-                m.max_x = (int16_t)max_i32(m.max_x, v.x);
-                m.min_y = (int16_t)min_i32(m.min_y, v.y);
-                m.max_y = (int16_t)max_i32(m.max_y, v.y);
-                rough = max_i32(rough, change(v, last));
-                last = v;
-                last_word = word;
+            const struct smear_pixel_velocity v = window_velocity(w, at);
+            const int32_t square = v.x * v.x + v.y * v.y;
+            if (square > longest) {
+                longest = square;
+                m.x = (int16_t)v.x;
+                m.y = (int16_t)v.y;
             }
-            if (window_velocity_word(w, above) != word)
-                rough = max_i32(rough, change(last, window_velocity(w, above)));
+            m.min_x = (int16_t)min_i32(m.min_x, v.x);
+            m.max_x = (int16_t)max_i32(m.max_x, v.x);
+            m.min_y = (int16_t)min_i32(m.min_y, v.y);
+            m.max_y = (int16_t)max_i32(m.max_y, v.y);
+            rough = max_i32(rough, max_i32(change(v, last), change(v, window_velocity(w, above))));
+            last = v;
         }
     }
     window_motion(w, row)[column] = m;

@@ -47,7 +47,9 @@ struct smear_layer_rows {
     struct smear_layer_cell *cell;      /* layer_gather.h */
     uint32_t *color;                    /* 0xff000000 where nothing is drawn */
     uint16_t *depth;
-    uint32_t *over;                     /* of the tile row, where groups pass through each other (streak.h) */
+    /* Of the frame's tile row, where groups pass through each other: what was merged before (colours times coverage, coverage in
+     * the top byte), and about its depth codes. */
+    uint32_t *over;
     uint16_t *over_depth;
     int16_t *row_first, *row_end;       /* the columns of each row within which something is drawn */
     void *work;                         /* work_bytes per worker: streak.h */
@@ -55,6 +57,20 @@ struct smear_layer_rows {
 };
 
 #define SMEAR_UNCOVERED 0xff000000u
+
+/* A group, drawn into rows of a layer, and where it is merged. */
+struct smear_layer_area {
+    const struct smear_layer_rows *layer;
+    const struct smear_group *group;
+    int32_t rows, top;          /* rows that are drawn, and the first of them to be finished */
+    uint32_t *background;       /* first pixel of the frame's row to be finished */
+    uint16_t *background_depth;
+    int32_t background_stride;
+    int32_t left, right, height;            /* columns and rows of the frame to be finished */
+    int32_t tile_shift, samples;
+    void *work;                 /* smear_streak_work() */
+    bool linear;
+};
 
 /* What reaches a tile of the tile row being finished, in smear_window.moving. */
 enum { TILE_OBJECT = 1, TILE_LAYERED = 2 };

@@ -18,7 +18,7 @@ static inline int32_t square_of(struct smear_pixel_velocity v)
     return v.x * v.x + v.y * v.y;
 }
 
-void smear_gather_cells(const struct smear_gather_area *a)
+void smear_gather_cells(const struct smear_layer_area *a)
 {
     const struct smear_layer_rows *l = a->layer;
     const int32_t count = (l->width >> a->tile_shift) + 1;
@@ -26,7 +26,7 @@ void smear_gather_cells(const struct smear_gather_area *a)
     for (int32_t i = 0; i < count; i++) {
         struct smear_pixel_velocity longest = { 0, 0 };
         bool any = false;
-        int32_t x0 = max_i32(i << a->tile_shift, a->x0), x1 = min_i32((i + 1) << a->tile_shift, a->x1);
+        int32_t x0 = max_i32(i << a->tile_shift, a->group->x0), x1 = min_i32((i + 1) << a->tile_shift, a->group->x1);
         for (int32_t y = 0; x0 < x1 && y < a->rows; y++) {
             int32_t x = max_i32(x0, l->row_first[y]), end = min_i32(x1, l->row_end[y]);
             any = any || x < end;
@@ -131,7 +131,7 @@ enum { PROBES = 8 };
 
 /* What the pixels of an area share. */
 struct gathering {
-    const struct smear_gather_area *a;
+    const struct smear_layer_area *a;
     const uint32_t *color;
     const uint16_t *depth;
     int32_t width;
@@ -283,9 +283,9 @@ static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool
  * were merged over. */
 static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_depth, int32_t at, bool mixed, uint32_t *taken)
 {
-    const struct smear_gather_area *a = g->a;
-    uint32_t passed = mixed ? a->passed[at] : 0;
-    struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->passed_depth[at] : 0u };
+    const struct smear_layer_area *a = g->a;
+    uint32_t passed = mixed ? a->layer->over[at] : 0;
+    struct seen seen = { .passed_depth = passed != 0 ? (uint32_t)a->layer->over_depth[at] : 0u };
     const int32_t of = look(g, &seen, here, background_depth, taken);
     const uint32_t front = min_u32(seen.sum.weight, WHOLE);
     if (seen.behind.weight != 0 && front < WHOLE) {
@@ -303,15 +303,15 @@ static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_d
         passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
         a->background[at] = sum_pixel(&seen.sum, a->background[at], a->linear);
     }
-    if (!mixed || !a->marks || (seen.sum.weight | seen.behind.weight) == 0)
+    if (!mixed || !a->group->marks || (seen.sum.weight | seen.behind.weight) == 0)
         return;
     const uint32_t depth = of >= 0 ? g->depth[of] : 0;
-    a->passed_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
-    a->passed[at] = passed;
+    a->layer->over_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
+    a->layer->over[at] = passed;
 }
 
 /* Finds the columns that may be reached by what is drawn in the rows around y. */
-static void reached(const struct smear_gather_area *a, int32_t y, int32_t *left, int32_t *right)
+static void reached(const struct smear_layer_area *a, int32_t y, int32_t *left, int32_t *right)
 {
     const struct smear_layer_rows *l = a->layer;
     int32_t first = l->width, end = 0;
@@ -325,7 +325,7 @@ static void reached(const struct smear_gather_area *a, int32_t y, int32_t *left,
     *right = min_i32(a->right, end - l->margin + a->top);
 }
 
-uint32_t smear_gather_merge(const struct smear_gather_area *a)
+uint32_t smear_gather_merge(const struct smear_layer_area *a)
 {
     const struct smear_layer_rows *l = a->layer;
     const struct smear_layer_cell *around = l->cell + (l->width >> a->tile_shift) + 1;
@@ -340,12 +340,12 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
         for (int32_t x = left; x < right; x++) {
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
             const struct smear_pixel_velocity top = { cell->x, cell->y };
-            uint32_t background_depth = a->over ? 0 : depth[x];
+            uint32_t background_depth = a->group->rank != 0 ? 0 : depth[x];
             if (top.x != g.top.x || top.y != g.top.y)
                 probes_start(&g, top);
             int32_t here = (y + a->top) * l->width + x + l->margin;
             merge_pixel(&g, here, background_depth, y * a->background_stride + x,
-                        x + l->margin >= a->mixed0 && x + l->margin < a->mixed1, &taken);
+                        x + l->margin >= a->group->mixed0 && x + l->margin < a->group->mixed1, &taken);
         }
     }
     return taken;
@@ -353,7 +353,7 @@ uint32_t smear_gather_merge(const struct smear_gather_area *a)
 
 /* ------------------------------------------------------------------ one velocity, few taps */
 
-uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, int32_t vy)
+uint32_t smear_two_camera_merge(const struct smear_layer_area *a, int32_t vx, int32_t vy)
 {
     const struct smear_layer_rows *l = a->layer;
     const int32_t n = a->samples;
@@ -363,7 +363,7 @@ uint32_t smear_two_camera_merge(const struct smear_gather_area *a, int32_t vx, i
         reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
             uint32_t *background = a->background + y * a->background_stride + x;
-            uint32_t background_depth = a->over ? 0 : a->background_depth[y * a->background_stride + x];
+            uint32_t background_depth = a->group->rank != 0 ? 0 : a->background_depth[y * a->background_stride + x];
             struct weighed_sum sum = { 0, 0, 0, 0 };
             for (int32_t k = 0; k < n; k++) {
                 int32_t part = (2 * k + 1 - n) * 128 / n;           /* q8, -1/2 .. 1/2 */

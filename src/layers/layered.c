@@ -29,8 +29,7 @@ struct layers_row {
     /* the group that is being merged */
     struct smear_group *group;
     struct smear_streak streak;
-    struct smear_streak_area area;
-    struct smear_gather_area gather;
+    struct smear_layer_area area;
     int32_t vx, vy;             /* of taps: no farther than there are pixels */
     struct smear_raster_target target;      /* rows that are drawn */
     struct smear_raster_frame frame;
@@ -167,17 +166,12 @@ static void merge_job(void *argument, int job, int worker)
 {
     const struct layers_row *r = (const struct layers_row *)argument;
     struct smear_rows *rows = r->row.rows;
-    uint32_t samples;
-    if (gathers(r)) {
-        struct smear_gather_area area = r->gather;
-        smear_job_columns(rows, job, &area.left, &area.right);
-        samples = is_two_camera(r) ? smear_two_camera_merge(&area, r->vx, r->vy) : smear_gather_merge(&area);
-    } else {
-        struct smear_streak_area area = r->area;
-        smear_job_columns(rows, job, &area.left, &area.right);
-        area.work = (uint8_t *)area.work + (uint32_t)worker * r->layers->rows.work_bytes;
-        samples = smear_streak_merge(&r->streak, &area);
-    }
+    struct smear_layer_area area = r->area;
+    smear_job_columns(rows, job, &area.left, &area.right);
+    area.work = (uint8_t *)area.work + (uint32_t)worker * r->layers->rows.work_bytes;
+    const uint32_t samples = is_two_camera(r) ? smear_two_camera_merge(&area, r->vx, r->vy)
+                           : gathers(r)       ? smear_gather_merge(&area)
+                                              : smear_streak_merge(&r->streak, &area);
     rows->samples[worker] += samples;
 }
 
@@ -198,8 +192,8 @@ static void keep_depths(const struct layers_row *r)
 static void mark_tiles(const struct layers_row *r)
 {
     const struct smear_window *w = &r->row.rows->window;
-    int32_t x0 = r->group->x0 - r->streak.reach_x - r->area.margin,
-            x1 = r->group->x1 + r->streak.reach_x - r->area.margin;
+    int32_t x0 = r->group->x0 - r->streak.reach_x - r->layers->rows.margin,
+            x1 = r->group->x1 + r->streak.reach_x - r->layers->rows.margin;
     for (int32_t i = max_i32(x0, 0) >> w->tile_shift; i <= (min_i32(x1, w->width) - 1) >> w->tile_shift; i++)
         w->moving[i] |= r->group->method == SMEAR_LAYERED ? TILE_LAYERED : TILE_OBJECT;
 }
@@ -224,20 +218,12 @@ static void set_area(struct layers_row *r)
 {
     const struct smear_rows *frame = r->row.rows;
     const struct smear_layer_rows *rows = &r->layers->rows;
-    const struct smear_group *group = r->group;
-    const struct smear_streak *s = &r->streak;
     const int32_t height = r->background.y1 - r->background.y0;
-    r->area = (struct smear_streak_area){
-        .color = rows->color, .depth = rows->depth, .stride = rows->width, .x0 = group->x0, .x1 = group->x1,
-        .rows = height + 2 * s->reach_y, .tile = frame->window.tile,
-        .row_first = rows->row_first, .row_end = rows->row_end, .top = s->reach_y, .margin = rows->margin,
-        .background = r->background.color, .background_depth = r->background.depth,
-        .background_stride = frame->window.width,
-        .over = rows->over, .over_depth = rows->over_depth, .mixed0 = group->mixed0, .mixed1 = group->mixed1,
-        .marks = group->marks, .marked_from = group->marked_from, .height = height,
-        .nearest = group->rank != 0 ? 65536u : group->nearest,
-        .farthest = group->rank != 0 ? 65536u : group->farthest,
-        .work = rows->work, .linear = frame->raster.linear
+    r->area = (struct smear_layer_area){
+        .layer = rows, .group = r->group, .rows = height + 2 * r->streak.reach_y, .top = r->streak.reach_y, .height = height,
+        .background = r->background.color, .background_depth = r->background.depth, .background_stride = frame->window.width,
+        .tile_shift = frame->window.tile_shift, .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .work = rows->work,
+        .linear = frame->raster.linear
     };
 }
 
@@ -265,23 +251,6 @@ static void set_target(struct layers_row *r, int32_t y0, int32_t y1)
     r->frame.velocity_scale = (int32_t)((int64_t)r->frame.velocity_scale * r->layers->setting[group->layer].shutter >> 16);
 }
 
-static void set_gather(struct layers_row *r)
-{
-    const struct smear_rows *frame = r->row.rows;
-    const struct smear_layer_rows *rows = &r->layers->rows;
-    const struct smear_group *group = r->group;
-    r->gather = (struct smear_gather_area){
-        .layer = rows, .x0 = r->target.x0, .x1 = r->target.x1, .rows = r->area.rows, .top = r->area.top,
-        .background = r->background.color, .background_depth = r->background.depth,
-        .background_stride = frame->window.width,
-        .passed = rows->over, .passed_depth = rows->over_depth,
-        .mixed0 = group->mixed0, .mixed1 = group->mixed1, .marks = group->marks,
-        .height = r->area.height, .tile_shift = frame->window.tile_shift,
-        .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .linear = frame->raster.linear,
-        .over = group->rank != 0
-    };
-}
-
 static void merge_group(struct layers_row *r, struct smear_group *group)
 {
     struct smear_rows *frame = r->row.rows;
@@ -290,10 +259,9 @@ static void merge_group(struct layers_row *r, struct smear_group *group)
     set_area(r);
     const int32_t y0 = row_top(frame, r->row.row) + frame->window.tile - r->streak.reach_y, y1 = y0 + r->area.rows;
     set_target(r, y0, y1);
-    set_gather(r);
     draw_group(r);
     if (group->method == SMEAR_LAYERED)
-        smear_gather_cells(&r->gather);
+        smear_gather_cells(&r->area);
     smear_jobs_run(&frame->jobs, merge_job, r, frame->jobs.workers);
     if (frame->blends || rows_have_points(frame))
         keep_depths(r);

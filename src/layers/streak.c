@@ -31,12 +31,13 @@ struct sums {
 /* The part of an area that is in work: steps [first, end) along the lines by places [low, high) across them. */
 struct part {
     const struct smear_streak *s;
-    const struct smear_streak_area *a;
+    const struct smear_layer_area *a;
     int32_t low, high;          /* places across */
     int32_t first, end;         /* steps; the first is a node */
     int32_t nodes;              /* along */
     int32_t along, across;      /* from a node to the next along, and to the next place across */
     uint32_t nearest, farthest; /* depth codes that are drawn */
+    bool marks;                 /* groups are merged after this one: it leaves what they need to know */
     bool has_range;             /* they were found; else they are those that the group keeps to */
     struct sums *node;
     struct sums *sums;          /* of all pixels before a step */
@@ -149,16 +150,16 @@ static uint32_t mean_of(const struct smear_streak *s, uint32_t weighed, bool lin
 /* Sums up steps [base, base + count) of the line from place `start`; pixels lie at steps [from, to). */
 static void gather(const struct part *m, int32_t start, int32_t base, int32_t count, int32_t from, int32_t to)
 {
-    const struct smear_streak_area *a = m->a;
+    const struct smear_layer_area *a = m->a;
     const bool upright = m->s->upright;
     struct sums sum = { { 0, 0, 0, 0 } };
     for (int32_t i = base; i < base + count; i++) {
         const int32_t place = start + ((passes(m->s, i) + 0x8000) >> 16);
         m->sums[i - base] = sum;
-        if (i < from || i >= to || place < 0 || place >= (upright ? a->stride : a->rows)
-            || (!upright && (i < a->row_first[place] || i >= a->row_end[place])))
+        if (i < from || i >= to || place < 0 || place >= (upright ? a->layer->width : a->rows)
+            || (!upright && (i < a->layer->row_first[place] || i >= a->layer->row_end[place])))
             continue;
-        const uint32_t pixel = a->color[upright ? i * a->stride + place : place * a->stride + i];
+        const uint32_t pixel = a->layer->color[upright ? i * a->layer->width + place : place * a->layer->width + i];
         if (pixel >> 24 != 0)
             continue;
         const struct sums one = sums_of_pixel(pixel, a->linear);
@@ -194,8 +195,8 @@ static void add_line(const struct part *m, int32_t start)
     int32_t first = m->first, end = m->first + ((m->nodes - 1) << s->node) + 1;
     steps_within(s, start, m->low - 1, m->high, 0, &first, &end);
     first = (first + n - 1) & -n;
-    const int32_t from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->x0);
-    const int32_t to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->x1);
+    const int32_t from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->group->x0);
+    const int32_t to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->group->x1);
     if (first >= end || from >= to)
         return;
     const int32_t base = first - s->half - 1;
@@ -249,12 +250,12 @@ static void mean_before(struct sums *out, const struct part *m, int32_t x, int32
     struct sums sum = { { 0, 0, 0, 0 } };
     for (int32_t t = -s->half - 1; t <= s->half + 1; t++) {
         const int32_t side = (s->slope * t + 0x8000) >> 16, px = x + (s->upright ? side : t), py = y + (s->upright ? t : side);
-        if (px < m->a->x0 || px >= m->a->x1 || py < 0 || py >= m->a->rows)
+        if (px < m->a->group->x0 || px >= m->a->group->x1 || py < 0 || py >= m->a->rows)
             continue;
-        const int32_t at = py * m->a->stride + px;
-        if (m->a->depth[at] <= background_depth)
+        const int32_t at = py * m->a->layer->width + px;
+        if (m->a->layer->depth[at] <= background_depth)
             continue;
-        const struct sums one = sums_of_pixel(m->a->color[at], m->a->linear);
+        const struct sums one = sums_of_pixel(m->a->layer->color[at], m->a->linear);
         sums_add(&sum, &one, abs_i32(t) > s->half ? s->rest : s->inner + s->rest);
     }
     for (int i = 0; i < CHANNELS; i++)
@@ -266,17 +267,17 @@ static void mean_before(struct sums *out, const struct part *m, int32_t x, int32
  * the five that find_near() gives. */
 static uint32_t depth_near(const struct part *m, int32_t x, int32_t y)
 {
-    const struct smear_streak_area *a = m->a;
-    const uint32_t width = (uint32_t)(a->x1 - a->x0), rows = (uint32_t)a->rows;
+    const struct smear_layer_area *a = m->a;
+    const uint32_t width = (uint32_t)(a->group->x1 - a->group->x0), rows = (uint32_t)a->rows;
     for (int k = 0; k < NEAR; k++) {
         int32_t px = x + m->near_x[k], py = y + m->near_y[k];
-        if ((uint32_t)(px - a->x0) >= width || (uint32_t)py >= rows)
+        if ((uint32_t)(px - a->group->x0) >= width || (uint32_t)py >= rows)
             continue;
-        uint32_t depth = a->depth[py * a->stride + px];
+        uint32_t depth = a->layer->depth[py * a->layer->width + px];
         if (depth != 0)
             return depth;
     }
-    return (a->nearest + a->farthest) >> 1;     /* not those of find_range(), which may be called later */
+    return a->group->rank != 0 ? 65536u : (uint32_t)(a->group->nearest + a->group->farthest) >> 1;
 }
 
 /* Finds the places where depth_near() looks: the middle, and half and all of the streak's length to either side. */
@@ -316,24 +317,24 @@ static uint32_t between_two(uint32_t front, const struct sums *back, uint32_t me
 /* Merges a mean over or behind those that were merged before; `depth` is about its depth code. */
 static void merge_mixed(const struct part *m, const struct sums *mean, uint32_t depth, int32_t at)
 {
-    const struct smear_streak_area *a = m->a;
-    const uint32_t before = a->over[at], codes = pixel_of_mean(mean, a->linear);
-    const bool behind = before != 0 && depth < a->over_depth[at];
+    const struct smear_layer_area *a = m->a;
+    const uint32_t before = a->layer->over[at], codes = pixel_of_mean(mean, a->linear);
+    const bool behind = before != 0 && depth < a->layer->over_depth[at];
     a->background[at] = behind ? between_two(before, mean, a->background[at], a->linear) : mean_over(mean, a->background[at], a->linear);
-    if (!a->marks)
+    if (!m->marks)
         return;
-    a->over_depth[at] = (uint16_t)(before != 0 ? max_u32(depth, a->over_depth[at]) : depth);
-    a->over[at] = before == 0 ? codes : behind ? codes_over(before, codes) : codes_over(codes, before);
+    a->layer->over_depth[at] = (uint16_t)(before != 0 ? max_u32(depth, a->layer->over_depth[at]) : depth);
+    a->layer->over[at] = before == 0 ? codes : behind ? codes_over(before, codes) : codes_over(codes, before);
 }
 
 /* Narrows the group's depth codes to those of the pixels that are drawn. */
 static void find_range(struct part *m)
 {
-    const struct smear_streak_area *a = m->a;
+    const struct smear_layer_area *a = m->a;
     uint32_t low = UINT16_MAX, high = 0;
     for (int32_t y = 0; y < a->rows; y++) {
-        const uint16_t *depth = a->depth + y * a->stride;
-        for (int32_t x = a->row_first[y]; x < a->row_end[y]; x++) {
+        const uint16_t *depth = a->layer->depth + y * a->layer->width;
+        for (int32_t x = a->layer->row_first[y]; x < a->layer->row_end[y]; x++) {
             uint32_t d = depth[x];
             high = max_u32(high, d);
             low = min_u32(low, d - 1u);         /* 0 is nothing */
@@ -348,7 +349,7 @@ static void find_range(struct part *m)
  * `node_x`, ask together whether groups pass through each other there, and how far away the mean is; -1: it asks alone. */
 static void finish_pixel(struct part *m, struct sums *mean, int32_t x, int32_t y, int32_t at, int32_t node_x)
 {
-    const struct smear_streak_area *a = m->a;
+    const struct smear_layer_area *a = m->a;
     const int32_t n = 1 << m->s->node;
     const uint32_t depth = a->background_depth[at];
     if (depth >= m->farthest && !m->has_range)
@@ -361,7 +362,7 @@ static void finish_pixel(struct part *m, struct sums *mean, int32_t x, int32_t y
         if (mean->c[COVER] == 0)
             return;
     }
-    if (node_x >= 0 ? node_x < a->mixed1 && node_x + n > a->mixed0 : x >= a->mixed0 && x < a->mixed1)
+    if (node_x >= 0 ? node_x < a->group->mixed1 && node_x + n > a->group->mixed0 : x >= a->group->mixed0 && x < a->group->mixed1)
         merge_mixed(m, mean, depth_near(m, node_x >= 0 ? node_x + (n >> 1) : x, y), at);
     else
         a->background[at] = mean_over(mean, a->background[at], a->linear);
@@ -386,11 +387,11 @@ static struct sums mean_between(const struct part *m, const struct sums *p, cons
 /* Finishes rows whose nodes lie along them. A node may lie before the frame's first pixel or after its last. */
 static void finish_along(struct part *m)
 {
-    const struct smear_streak_area *a = m->a;
+    const struct smear_layer_area *a = m->a;
     const int32_t node = m->s->node, n = 1 << node;
     for (int32_t y = m->low; y < m->high; y++) {
-        const int32_t row = (y - a->top) * a->background_stride - a->margin;
-        const int32_t left = max_i32(a->left + a->margin, m->first_of[y - m->low]), end = min_i32(m->end, m->end_of[y - m->low]);
+        const int32_t row = (y - a->top) * a->background_stride - a->layer->margin;
+        const int32_t left = max_i32(a->left + a->layer->margin, m->first_of[y - m->low]), end = min_i32(m->end, m->end_of[y - m->low]);
         const struct sums *p = m->node + (y - m->low) * m->nodes;
         for (int32_t x = max_i32(m->first, left); x < end; x++) {
             const int32_t k = (x - m->first) >> node, from = m->first + (k << node);
@@ -403,10 +404,10 @@ static void finish_along(struct part *m)
 /* Finishes rows across the lines. */
 static void finish_across(struct part *m)
 {
-    const struct smear_streak_area *a = m->a;
+    const struct smear_layer_area *a = m->a;
     const int32_t node = m->s->node;
     for (int32_t y = a->top; y < a->top + a->height; y++) {
-        const int32_t row = (y - a->top) * a->background_stride - a->margin, k = (y - m->first) >> node;
+        const int32_t row = (y - a->top) * a->background_stride - a->layer->margin, k = (y - m->first) >> node;
         const struct sums *p = m->node + k * m->along, *q = m->node + min_i32(k + 1, m->nodes - 1) * m->along;
         for (int32_t x = m->low; x < m->high; x++, p++, q++) {
             struct sums mean = mean_between(m, p, q, (uint32_t)((y - m->first) & ((1 << node) - 1)));
@@ -428,11 +429,11 @@ static void merge_part(struct part *m, int32_t first, int32_t end, int32_t low, 
     m->nodes = ((end - m->first + (1 << s->node) - 1) >> s->node) + (s->node != 0);
     for (int32_t i = 0; i < high - low && !s->upright; i++) {
         const int32_t more = s->half + (s->rest != 0);
-        int32_t from = m->a->stride, to = 0;
+        int32_t from = m->a->layer->width, to = 0;
         for (int32_t row = max_i32(low + i - s->reach_y, 0);
              row <= min_i32(low + i + s->reach_y, m->a->rows - 1); row++) {
-            from = min_i32(from, m->a->row_first[row]);
-            to = max_i32(to, m->a->row_first[row] < m->a->row_end[row] ? m->a->row_end[row] : 0);
+            from = min_i32(from, m->a->layer->row_first[row]);
+            to = max_i32(to, m->a->layer->row_first[row] < m->a->layer->row_end[row] ? m->a->layer->row_end[row] : 0);
         }
         m->first_of[i] = (int16_t)(from - more);
         m->end_of[i] = (int16_t)(to + more);
@@ -451,20 +452,23 @@ static void merge_part(struct part *m, int32_t first, int32_t end, int32_t low, 
         finish_along(m);
 }
 
-uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_streak_area *all)
+uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_layer_area *a)
 {
-    struct smear_streak_area area = *all, *a = &area;
-    const int32_t left = max_i32(a->left + a->margin, a->x0 - s->reach_x), right = min_i32(a->right + a->margin, a->x1 + s->reach_x);
-    const int32_t top = a->top, bottom = a->top + a->height, room = NODES * a->tile;
-    struct part m = { .s = s, .a = a, .nearest = a->nearest, .farthest = a->farthest, .node = (struct sums *)a->work };
+    const struct smear_group *group = a->group;
+    const int32_t left = max_i32(a->left + a->layer->margin, group->x0 - s->reach_x);
+    const int32_t right = min_i32(a->right + a->layer->margin, group->x1 + s->reach_x);
+    const int32_t top = a->top, bottom = a->top + a->height, room = NODES << a->tile_shift;
+    const bool over = group->rank != 0;         /* beyond all codes where it lies over all */
+    struct part m = { .s = s, .a = a, .nearest = over ? 65536u : group->nearest, .farthest = over ? 65536u : group->farthest,
+                      .node = (struct sums *)a->work };
     m.sums = m.node + room;
     if (left >= right)
         return 0;
-    if (a->mixed0 < a->mixed1) {        /* what is mixed must not depend on the pixels before */
+    if (a->group->mixed0 < a->group->mixed1) {        /* what is mixed must not depend on the pixels before */
         find_near(&m);
         find_range(&m);
     }
-    a->marks = a->marks && m.nearest > a->marked_from;
+    m.marks = group->marks && m.nearest > group->marked_from;
     if (s->upright) {
         const int32_t width = room / (((bottom - top) >> s->node) + 2);
         for (int32_t x = left; x < right; x += width)
