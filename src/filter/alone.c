@@ -7,6 +7,7 @@
 #include "frame.h"
 #include "validate.h"
 
+#if SMEAR_WITH_RECONSTRUCT
 /* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */
 static uint16_t depth_code(uint32_t distance, int32_t near_plane)
 {
@@ -80,6 +81,9 @@ static int filter_row(struct smear_context *c, const uint32_t *color, const uint
         smear_frame_sum_up(c);
     return result;
 }
+#else
+#define filter_row(c, color, depth, velocity) SMEAR_ERR_ARG
+#endif
 
 int smear_filter_begin(smear_context *c, const smear_frame *frame)
 {
