@@ -420,7 +420,7 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
         .nearest = code_above(min_i32(e.depth + (e.depth >> 4), SMEAR_DEPTH_MAX)),
         .flags = (uint8_t)(path_flags(batch->d) | PATH_SPACE),
         .space = (uint8_t)((v0->outcodes & IN_SPACE) / IN_SPACE | (v1->outcodes & IN_SPACE) / (IN_SPACE / 2)
-                           | (v2->outcodes & IN_SPACE) / (IN_SPACE / 4))
+                           | (v2->outcodes & IN_SPACE) / (IN_SPACE / 4) | (v1 != batch->vertex[1] ? PATH_REVERSED : 0))
     };
     return true;
 }

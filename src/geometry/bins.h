@@ -39,7 +39,7 @@ struct smear_path_bounds {
     uint16_t curvature;     /* the largest path_curvature of a vertex, 1/16 px, saturated */
     uint16_t nearest;       /* depth code that is not exceeded */
     uint8_t flags;          /* PATH_TEXTURED ... */
-    uint8_t space;          /* bit k: vertex k moves along a path in space (space.h) */
+    uint8_t space;          /* bit k: vertex k moves along a path in space (space.h); PATH_REVERSED */
 };
 
 enum {
@@ -51,6 +51,7 @@ enum {
 };
 
 enum { PATH_LARGE_PX = 24 };        /* smaller ones lie in few tiles */
+enum { PATH_REVERSED = 8 };         /* in smear_path_bounds.space: the vertices are not in the mesh's order */
 
 enum smear_shade_mode {
     SHADE_NONE,             /* texel alone */

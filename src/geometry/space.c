@@ -54,18 +54,19 @@ void smear_space_store(uint32_t *record, const struct smear_segment *s, const st
     store(record + s->motion + PATH_POSE_WORDS, s, close);
 }
 
-/* Returns floor(a p / 2^15) for |p| <= 2^15. */
+/* Returns a p / 2^16 to nearest for |p| <= 2^15. */
 static inline int32_t times_phase(int32_t a, int32_t p)
 {
-    return add_wrap(mul_wrap(a >> 15, p), (a & 0x7fff) * p >> 15);
+    const int32_t high = mul_wrap(a >> 15, p);
+    return add_wrap(high >> 1, (((high & 1) << 15) + (a & 0x7fff) * p + 0x8000) >> 16);
 }
 
-/* Returns a coordinate at a phase, q15, of the path from open over middle to close. Projections leave room for what lies between
- * (smear_projection_make); wilder numbers wrap. */
+/* Returns a coordinate at a phase, q15, of the path from open over middle to close, to nearest: a floor would move all edges.
+ * Projections leave room for what lies between (smear_projection_make); wilder numbers wrap. */
 static inline int32_t along(int32_t open, int32_t middle, int32_t close, int32_t p)
 {
-    const int32_t bend = add_wrap(add_wrap(open, close), mul_wrap(middle, -2));
-    return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(bend, p)), p) >> 1);
+    const int32_t twice_bend = mul_wrap(add_wrap(add_wrap(open, close), mul_wrap(middle, -2)), 2);
+    return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(twice_bend, p)), p));
 }
 
 void smear_space_at(struct smear_homogeneous *h, const struct smear_space *space, const int32_t *record, int32_t phase)
@@ -93,24 +94,27 @@ static void take_screen(struct path_record *out, const struct smear_screen *scre
     out->word[VERTEX_DEPTH] = screen->depth;
 }
 
-/* Cuts the triangle. */
+/* Cuts the triangle as the sharp frame does, in the mesh's order: then the fan has the same triangles. */
 static SMEAR_NOINLINE int cut(struct path_record out[SMEAR_CLIP_MAX], const struct smear_screen corner[3],
                               const struct smear_homogeneous place[3], const struct smear_space *space, const int32_t *const record[3],
-                              int codes)
+                              int codes, bool reversed)
 {
-    const struct smear_screen *const own[3] = { &corner[0], &corner[1], &corner[2] };
+    const struct smear_screen *own[3];
     struct smear_clip_polygon p;
     struct smear_screen screen[SMEAR_CLIP_MAX];
     for (int i = 0; i < 3; i++) {
-        p.vertex[i].now = place[i];
-        smear_vertex_take_clipped(&p.vertex[i], space->segment, record[i]);
+        const int k = reversed && i != 0 ? 3 - i : i;
+        p.vertex[i].now = place[k];
+        own[i] = &corner[k];
+        smear_vertex_take_clipped(&p.vertex[i], space->segment, record[k]);
     }
     smear_clip_start(&p, 0, segment_colored(space->segment));
     smear_clip_polygon(&p, &space->depths, codes);
     clip_project(screen, &p, own, &space->depths, &space->viewport);
     for (int i = 0; i < p.count; i++) {
-        take_screen(&out[i], &screen[i]);
-        smear_vertex_store_clipped((uint32_t *)(void *)out[i].word, space->segment, clip_corner(&p, i));
+        struct path_record *const to = &out[reversed && i != 0 ? p.count - i : i];
+        take_screen(to, &screen[i]);
+        smear_vertex_store_clipped((uint32_t *)(void *)to->word, space->segment, clip_corner(&p, i));
     }
     return p.count;
 }
@@ -149,7 +153,7 @@ int smear_space_pose(struct path_record out[SMEAR_CLIP_MAX], const struct smear_
     if (shared != 0)
         return 0;
     if ((codes & OUT_CLIP) != 0)
-        return cut(out, corner, place, space, record, codes);
+        return cut(out, corner, place, space, record, codes, (in_space & PATH_REVERSED) != 0);
     for (int i = 0; i < 3; i++) {
         take_screen(&out[i], &corner[i]);
         for (int k = VERTEX_BASE_WORDS; k < space->segment->motion; k++)

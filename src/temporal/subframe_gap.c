@@ -30,6 +30,9 @@ struct gap {
     uint32_t weight[GAP_PAIRS_MAX + 1];         /* of all taps at all instants, by pairs that count */
     union gap_mean mean[GAP_PAIRS_MAX + 1];     /* made where they are needed: */
     uint32_t made;                              /* a bit for each that is */
+    uint32_t full;                              /* what instants that show what moves add up to beside green */
+    uint32_t recip;                             /* floor(2^16 / instants) */
+    int down;                                   /* bits of light that were rounded away */
 };
 
 /* ------------------------------------------------------------------ gap */
@@ -144,6 +147,53 @@ static inline void part_make(struct gap_part *part, struct gap *gap, const struc
     part->taps.mean = &mean->packed;
 }
 
+/* Returns a modulo the number of instants, for a < 2^16. */
+static inline uint32_t rest_of(const struct gap *gap, uint32_t instants, uint32_t a)
+{
+    const uint32_t rest = a - (a * gap->recip >> 16) * instants;        /* a quotient that lacks one at most */
+    return rest >= instants ? rest - instants : rest;
+}
+
+/* Whether a pixel shows the same at all instants, as its sums tell: they are whole multiples of what one adds; nearly, of light of
+ * which some bits were rounded away. */
+static bool is_steady(const struct subframes *f, const struct gap *gap, struct packed_sum sum)
+{
+    const uint32_t n = f->instants, part[3] = { sum.rb & 0xffffu, sum.rb >> 16, sum.gn & 0xffffu }, times = sum.gn >> 16;
+    bool steady = times == 0 || times == gap->full;
+    for (int i = 0; i < 3 && steady; i++) {
+        const uint32_t rest = rest_of(gap, n, rest_of(gap, n, part[i]) << gap->down);
+        steady = min_u32(rest, n - rest) <= 3u * (uint32_t)gap->down;
+    }
+    return steady;
+}
+
+/* Whether the sums of the taps at both ends are those of a pixel: then no edge is looked for between them. */
+static inline bool shows_the_same(const struct subframes *f, int32_t at, int32_t offset, struct packed_sum here)
+{
+    const struct packed_sum a = packed_sum_at(&f->sums, at - offset), b = packed_sum_at(&f->sums, at + offset);
+    return ((a.rb ^ here.rb) | (a.gn ^ here.gn) | (b.rb ^ here.rb) | (b.gn ^ here.gn)) == 0;
+}
+
+/* Returns the pairs of taps up to an edge that stands still between them and a pixel, as one along the motion does. */
+static int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
+{
+    const struct packed_sum here = packed_sum_at(&f->sums, at);
+    bool steady = false;
+    if (shows_the_same(f, at, gap->offset[pairs - 1], here))
+        return pairs;
+    for (int32_t i = 0; i < 2 * pairs; i++) {
+        const struct packed_sum there = packed_sum_at(&f->sums, at + ((i & 1) != 0 ? gap->offset[i >> 1] : -gap->offset[i >> 1]));
+        if (there.rb == here.rb && there.gn == here.gn)
+            continue;
+        if (!steady && !is_steady(f, gap, here))
+            return pairs;
+        steady = true;
+        if (is_steady(f, gap, there))
+            return i >> 1;
+    }
+    return pairs;
+}
+
 /* Averages a box that has one gap: rows, cut where fewer pairs count. */
 static void average_tile(const struct subframes *f, const struct subframe_box *b, struct gap *gap)
 {
@@ -155,7 +205,7 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     struct gap_rows r = { .pitch = f->t->pitch };
     for (int32_t y = b->y0; y < b->y1; y += r.rows) {
         const int32_t row_pairs = pairs_of_row(gap, s, y), reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
-        for (r.rows = 1; GAP_ROWS && y + r.rows < b->y1 && pairs_of_row(gap, s, y + r.rows) == row_pairs;)
+        for (r.rows = 1; GAP_ROWS && !f->passing.in_space && y + r.rows < b->y1 && pairs_of_row(gap, s, y + r.rows) == row_pairs;)
             r.rows++;
         r.at = work_row(f, b, y);
         for (int32_t x = b->x0; x < b->x1; x += r.n, r.at += r.n) {
@@ -165,6 +215,12 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
             if (near < reach) {
                 r.n = 1;
                 pairs = pairs_within(row_pairs, gap->x, near);
+            }
+            if (f->passing.in_space && pairs != 0) {
+                const int32_t most = r.n, all = pairs;
+                pairs = pairs_before_edge(f, gap, r.at, all);
+                for (r.n = 1; r.n < most && pairs_before_edge(f, gap, r.at + r.n, all) == pairs;)
+                    r.n++;
             }
             if (pairs != part.taps.at.pairs)
                 part_make(&part, gap, f, pairs);
@@ -217,6 +273,9 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     struct divided divided = { 0, 0, { 0, 0 } };
     struct gap gap;
     gap_make(&gap, f, &last);
+    gap.full = sums_light(f) ? smear_light_full(f->instants) : f->instants;
+    gap.recip = 65536u / f->instants;
+    gap.down = sums_light(f) ? smear_light_instant(0, f->instants, false).down : 0;
     for (int32_t y = s->y0; y < s->y1; y += high) {
         struct smear_step step = step_at(f, plan, &divided, t->x0, y);
         for (int32_t x = t->x0, end; x < t->x1; x = end) {

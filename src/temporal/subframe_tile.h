@@ -34,6 +34,7 @@ struct subframe_passing {
     uint32_t covered;           /* of the tiles, in the mean over the exposure; by larger ones, too */
     uint32_t opaque;            /* the same by what is not blended */
     bool sparks;                /* some are blended and go far */
+    bool in_space;              /* there are triangles with paths in space, of any size */
 };
 
 struct subframes {

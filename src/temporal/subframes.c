@@ -75,7 +75,7 @@ static void begin_list(struct subframes *f, const struct subframe_box *whole)
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;
     f->area = no_box;
-    f->passing = (struct subframe_passing){ 0, 0, 0, 0, false };
+    f->passing = (struct subframe_passing){ 0, 0, 0, 0, false, false };
 }
 
 static void end_list(struct subframes *f, const struct subframe_box *whole)

@@ -240,6 +240,7 @@ void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
     /* More would say no more. It is told from opaque triangles alone: where the store is filled several times, blended ones
      * come between them. */
     const bool is_full = p->opaque >= area_of(f) && !blended;
+    p->in_space = p->in_space || b->space != 0;
     if (b->travel < FAR || b->space != 0 || is_full)
         return;
     const struct extent x = extent_of(g, of, VERTEX_X, t->frame->width, t->x0, t->x1),
