@@ -27,7 +27,7 @@ struct displacements {
 enum {
     ALIKE = 8 * 16,                 /* displacements need not be told apart */
     WEIGHT_BITS = 14,
-    MEAN_MAX = 1000 * 16             /* longer displacements count as this one in a mean */
+    MEAN_MAX = 2000 * 16             /* longer displacements count as this one in a mean */
 };
 
 /* Returns a / b, two depths, in q8 within 1/16 .. 16. */

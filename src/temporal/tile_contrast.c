@@ -12,6 +12,7 @@ struct look {
     int32_t first; /* row: every other one is looked at from there on */
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
+    bool close; /* the next pixel lies 1 px on: what passes the eye shows its textures in all sizes, also finer than 2 px */
     bool at_border; /* the tiles end above or below */
     bool spreads; /* displacements go apart by more than a pixel or two */
     uint32_t shortness; /* of what goes FAR: shortness_of() */
@@ -93,11 +94,11 @@ static struct look_sums sums_of_look(const struct subframes *f, const struct loo
     return d;
 }
 
-/* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`: 2.5 way / longest to
- * nearest, at most 2. */
-static int32_t next_on_path(int32_t way, int32_t longest)
+/* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`: 2.5 way / longest to nearest, at most
+ * 2; `close`: way / longest. */
+static int32_t next_on_path(int32_t way, int32_t longest, bool close)
 {
-    const int32_t length = 5 * abs_i32(way), next = (length >= longest) + (length >= 3 * longest);
+    const int32_t length = (close ? 2 : 5) * abs_i32(way), next = (length >= longest) + (!close && length >= 3 * longest);
     return way < 0 ? -next : next;
 }
 
@@ -123,7 +124,8 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
            FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
     const uint32_t shortness = longer >= FAR ? l->shortness : 16;
-    const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4, plain = min_u32(whole, MOST);
+    const uint32_t whole = min_u32((d->along >> (l->close ? 5 : 6)) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4;
+    const uint32_t plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
     const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
@@ -171,8 +173,8 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     if (!drawn)
         return;
     const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
-    l->dx = next_on_path(l->way_x, longest);
-    l->dy = next_on_path(l->way_y, longest);
+    l->dx = next_on_path(l->way_x, longest, l->close);
+    l->dy = next_on_path(l->way_y, longest, l->close);
     l->spreads = closing.last != 0 && closing.unlike >= 32;
     const struct look_sums d = sums_of_look(f, l);
     c->moving += d.moving;
@@ -297,7 +299,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
-    struct look look = { .shortness = shortness_of(f, plan->chooser->linear) };
+    struct look look = { .close = f->passing.in_space, .shortness = shortness_of(f, plan->chooser->linear) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
     for (look.y = y0; look.y < y1; look.y = look.y1) {

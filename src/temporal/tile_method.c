@@ -160,7 +160,9 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *c, int tiles,
                                  uint32_t cost)
 {
-    enum { COMMON = 300 }; /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
+    enum { COMMON = 300, /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
+           TEXTURED_SPACE = PATH_TEXTURED | PATH_SPACE,
+           SEEN = 64 * 16 }; /* and so of a texture that passes the eye, but for the way that is seen in the middle, 1/16 px */
     const struct smear_chooser *chooser = plan->chooser;
     int32_t instants = 1, reach = 0;
     uint32_t left = 0, unseen = c->unseen;
@@ -170,8 +172,8 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         instants = max_i32(instants, least_instants(chooser, tile));
         reach = max_i32(reach, reach_of(tile));
         passes = passes || (tile->flags & PATH_SPACE) != 0;
-        if (c->moving == 0)
-            unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
+        const int32_t seen = c->moving == 0 ? 0 : (tile->flags & TEXTURED_SPACE) == TEXTURED_SPACE ? SEEN : INT32_MAX;
+        unseen += ((uint32_t)max_i32(travel_of(tile) - seen, 0) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
     for (int k = 0; k < CLOSING_CLASSES; k++)
         left += min_u32(c->plain[k], UINT32_MAX - left);
