@@ -30,9 +30,7 @@ struct gap {
     uint32_t weight[GAP_PAIRS_MAX + 1];         /* of all taps at all instants, by pairs that count */
     union gap_mean mean[GAP_PAIRS_MAX + 1];     /* made where they are needed: */
     uint32_t made;                              /* a bit for each that is */
-    uint32_t full;                              /* what instants that show what moves add up to beside green */
-    uint32_t recip;                             /* floor(2^16 / instants) */
-    int down;                                   /* bits of light that were rounded away */
+    uint32_t full, down;                        /* what instants that show what moves add up to beside green; bits that light lost */
 };
 
 /* ------------------------------------------------------------------ gap */
@@ -147,24 +145,18 @@ static inline void part_make(struct gap_part *part, struct gap *gap, const struc
     part->taps.mean = &mean->packed;
 }
 
-/* Returns a modulo the number of instants, for a < 2^16. */
-static inline uint32_t rest_of(const struct gap *gap, uint32_t instants, uint32_t a)
+/* Whether a sum is a whole multiple of the instants; nearly, of light of which some bits were rounded away. */
+static inline bool is_multiple(const struct subframes *f, const struct gap *gap, uint32_t sum)
 {
-    const uint32_t rest = a - (a * gap->recip >> 16) * instants;        /* a quotient that lacks one at most */
-    return rest >= instants ? rest - instants : rest;
+    const uint32_t rest = (sum << gap->down) % f->instants;
+    return min_u32(rest, f->instants - rest) <= 3u * gap->down;
 }
 
-/* Whether a pixel shows the same at all instants, as its sums tell: they are whole multiples of what one adds; nearly, of light of
- * which some bits were rounded away. */
-static bool is_steady(const struct subframes *f, const struct gap *gap, struct packed_sum sum)
+/* Whether a pixel shows the same at all instants, as its sums tell: they are multiples of what one adds. */
+static inline bool is_steady(const struct subframes *f, const struct gap *gap, struct packed_sum sum)
 {
-    const uint32_t n = f->instants, part[3] = { sum.rb & 0xffffu, sum.rb >> 16, sum.gn & 0xffffu }, times = sum.gn >> 16;
-    bool steady = times == 0 || times == gap->full;
-    for (int i = 0; i < 3 && steady; i++) {
-        const uint32_t rest = rest_of(gap, n, rest_of(gap, n, part[i]) << gap->down);
-        steady = min_u32(rest, n - rest) <= 3u * (uint32_t)gap->down;
-    }
-    return steady;
+    return is_multiple(f, gap, sum.gn & 0xffffu) && is_multiple(f, gap, sum.rb & 0xffffu) && is_multiple(f, gap, sum.rb >> 16)
+        && (sum.gn >> 16) % gap->full == 0;
 }
 
 /* Whether the sums of the taps at both ends are those of a pixel: then no edge is looked for between them. */
@@ -175,21 +167,21 @@ static inline bool shows_the_same(const struct subframes *f, int32_t at, int32_t
 }
 
 /* Returns the pairs of taps up to an edge that stands still between them and a pixel, as one along the motion does. */
-static int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
+static inline int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
 {
     const struct packed_sum here = packed_sum_at(&f->sums, at);
     bool steady = false;
-    if (shows_the_same(f, at, gap->offset[pairs - 1], here))
-        return pairs;
-    for (int32_t i = 0; i < 2 * pairs; i++) {
-        const struct packed_sum there = packed_sum_at(&f->sums, at + ((i & 1) != 0 ? gap->offset[i >> 1] : -gap->offset[i >> 1]));
-        if (there.rb == here.rb && there.gn == here.gn)
+    for (int32_t i = 0; i < pairs; i++) {
+        const struct packed_sum a = packed_sum_at(&f->sums, at - gap->offset[i]), b = packed_sum_at(&f->sums, at + gap->offset[i]);
+        if (((a.rb ^ here.rb) | (a.gn ^ here.gn) | (b.rb ^ here.rb) | (b.gn ^ here.gn)) == 0)
             continue;
         if (!steady && !is_steady(f, gap, here))
             return pairs;
         steady = true;
-        if (is_steady(f, gap, there))
-            return i >> 1;
+        if (((a.rb ^ here.rb) | (a.gn ^ here.gn)) != 0 && is_steady(f, gap, a))
+            return i;
+        if (((b.rb ^ here.rb) | (b.gn ^ here.gn)) != 0 && is_steady(f, gap, b))
+            return i;
     }
     return pairs;
 }
@@ -218,9 +210,12 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
             }
             if (f->passing.in_space && pairs != 0) {
                 const int32_t most = r.n, all = pairs;
-                pairs = pairs_before_edge(f, gap, r.at, all);
-                for (r.n = 1; r.n < most && pairs_before_edge(f, gap, r.at + r.n, all) == pairs;)
-                    r.n++;
+                for (r.n = 0; r.n < most; r.n++) {
+                    const int32_t own = pairs_before_edge(f, gap, r.at + r.n, all);
+                    if (own != pairs && r.n != 0)
+                        break;
+                    pairs = own;
+                }
             }
             if (pairs != part.taps.at.pairs)
                 part_make(&part, gap, f, pairs);
@@ -274,8 +269,7 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     struct gap gap;
     gap_make(&gap, f, &last);
     gap.full = sums_light(f) ? smear_light_full(f->instants) : f->instants;
-    gap.recip = 65536u / f->instants;
-    gap.down = sums_light(f) ? smear_light_instant(0, f->instants, false).down : 0;
+    gap.down = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).down : 0;
     for (int32_t y = s->y0; y < s->y1; y += high) {
         struct smear_step step = step_at(f, plan, &divided, t->x0, y);
         for (int32_t x = t->x0, end; x < t->x1; x = end) {

@@ -27,14 +27,22 @@ static inline bool subframe_box_is_empty(const struct subframe_box *b)
     return b->x0 >= b->x1 || b->y0 >= b->y1;
 }
 
-/* Small triangles that move, q8 pixels. */
+static inline int32_t pixels_in(const struct subframe_box *b)
+{
+    return subframe_box_is_empty(b) ? 0 : (b->x1 - b->x0) * (b->y1 - b->y0);
+}
+
+/* What may pass by unseen in the middle of the exposure. First small triangles that move, q8 pixels. */
 struct subframe_passing {
     uint32_t ways;              /* what their edges pass of the tiles */
     uint32_t seen;              /* what those pass of the frame that lie in the tiles in the middle of the exposure */
     uint32_t covered;           /* of the tiles, in the mean over the exposure; by larger ones, too */
     uint32_t opaque;            /* the same by what is not blended */
     bool sparks;                /* some are blended and go far */
-    bool in_space;              /* there are triangles with paths in space, of any size */
+    bool in_space;              /* there are triangles with paths in space, of any size, that are not blended: */
+    uint16_t draw;              /* that of the last one, and in which box its triangles are seen from open to close */
+    struct subframe_box box[4];
+    int32_t passed;             /* the pixels that those boxes pass of the draws before */
 };
 
 struct subframes {

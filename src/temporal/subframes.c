@@ -75,7 +75,7 @@ static void begin_list(struct subframes *f, const struct subframe_box *whole)
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;
     f->area = no_box;
-    f->passing = (struct subframe_passing){ 0, 0, 0, 0, false, false };
+    f->passing = (struct subframe_passing){ 0 };
 }
 
 static void end_list(struct subframes *f, const struct subframe_box *whole)
@@ -290,15 +290,14 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
     smear_subframe_sums_add(f, box, (uint32_t)k, sets);
     smear_subframe_restore_depth(f, box);
     box_add(all, box);
-    return (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
+    return (uint32_t)pixels_in(box);
 }
 
 /* Returns what an instant costs, about, in instructions. */
 static uint32_t cost_of(const struct subframes *f, const struct subframe_box *box)
 {
     enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000 };
-    const uint32_t pixels = subframe_box_is_empty(box) ? 0 : (uint32_t)((box->x1 - box->x0) * (box->y1 - box->y0));
-    return min_u32(f->moving_seen, LISTED) * TRIANGLE + pixels * PIXEL + RUN;
+    return min_u32(f->moving_seen, LISTED) * TRIANGLE + (uint32_t)pixels_in(box) * PIXEL + RUN;
 }
 
 /* Takes the middle of the exposure, which has been drawn, by which the plan says how many instants there are; where they are odd

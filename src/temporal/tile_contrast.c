@@ -2,7 +2,9 @@
 /* tile_contrast.c - see tile_contrast.h. */
 #include "temporal/tile_contrast.h"
 
+#include "geometry/path.h"
 #include "kernels/differences.h"
+#include "temporal/subframe_pose.h"
 #include "temporal/tile_method.h"
 
 /* A block [x, x1) x [y, y1) of pixels of a tile, its displacement, and the same to the next pixels that are looked at: 2 px. */
@@ -229,6 +231,36 @@ static void add_covered(struct subframe_passing *p, uint32_t part, bool blended)
         p->opaque = add_saturated(p->opaque, part);
 }
 
+/* Returns the pixels that lie in one box alone of two. */
+static int32_t pixels_apart(const struct subframe_box *a, const struct subframe_box *b)
+{
+    const struct subframe_box both = { max_i32(a->x0, b->x0), max_i32(a->y0, b->y0), min_i32(a->x1, b->x1), min_i32(a->y1, b->y1) };
+    return pixels_in(a) + pixels_in(b) - 2 * pixels_in(&both);
+}
+
+/* Returns the pixels that the draw noted last passes, and those before it. */
+static int32_t pixels_passed(const struct subframe_passing *p)
+{
+    return p->passed + pixels_apart(&p->box[0], &p->box[1]) + pixels_apart(&p->box[1], &p->box[2]) + pixels_apart(&p->box[2], &p->box[3]);
+}
+
+/* Adds a triangle in space to its draw's boxes. That of a ground is where it was, however many triangles go by. */
+static SMEAR_NOINLINE void note_in_space(struct subframes *f, uint32_t triangle, uint16_t draw)
+{
+    struct subframe_passing *p = &f->passing;
+    if (!p->in_space || p->draw != draw) {
+        p->passed = pixels_passed(p);
+        p->box[0] = p->box[1] = p->box[2] = p->box[3] = no_box;
+    }
+    p->in_space = true;
+    p->draw = draw;
+    for (int k = 0; k < 4; k++) {
+        struct posed at;
+        for (bool seen = smear_subframe_pose(&at, f, triangle, SHUTTER_CLOSE * k / 3); seen; seen = smear_subframe_pose_next(&at, f))
+            box_add(&p->box[k], &at.box);
+    }
+}
+
 void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
 {
     enum { SMALL = 32,      /* px */
@@ -242,7 +274,8 @@ void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
     /* More would say no more. It is told from opaque triangles alone: where the store is filled several times, blended ones
      * come between them. */
     const bool is_full = p->opaque >= area_of(f) && !blended;
-    p->in_space = p->in_space || b->space != 0;
+    if (b->space != 0 && !blended)
+        note_in_space(f, triangle, g->segment[of->segment].draw);
     if (b->travel < FAR || b->space != 0 || is_full)
         return;
     const struct extent x = extent_of(g, of, VERTEX_X, t->frame->width, t->x0, t->x1),
@@ -283,13 +316,24 @@ static uint32_t shortness_of(const struct subframes *f, bool linear)
     return few * (linear ? max_u32(min_u32(parts + (parts >> 1), most / n), 1) : 1);
 }
 
+enum { COMMON_CONTRAST = 10000 >> (2 * BLOCK_SHIFT) };      /* to what is behind, codes^2, summed over red, green and blue, of a block */
+
 /* Returns what small things leave that pass at other times than in the middle of the exposure, where there is room between
  * them: one of many looks much like the next. */
 static uint32_t unseen_of(const struct subframe_passing *p, uint32_t area)
 {
-    enum { CONTRAST = 10000 };      /* to what is behind them, codes^2, summed over red, green and blue */
     const bool is_empty = p->covered < area >> 2;
-    return is_empty && p->ways / 2 > p->seen ? min_u32((p->ways - 2 * p->seen) >> 8, 65535) * (CONTRAST >> (2 * BLOCK_SHIFT)) : 0;
+    return is_empty && p->ways / 2 > p->seen ? min_u32((p->ways - 2 * p->seen) >> 8, 65535) * COMMON_CONTRAST : 0;
+}
+
+/* Adds what passes the eye, but for what is seen of it in the middle. */
+static void add_passing(struct smear_contrast *c, const struct subframe_passing *p)
+{
+    uint32_t seen = 0;
+    for (int k = 0; k < CLOSING_CLASSES; k++)
+        seen = add_saturated(seen, c->plain[k]);
+    const uint32_t all = min_u32((uint32_t)pixels_passed(p), 65535) * COMMON_CONTRAST;
+    c->unseen += all > seen ? all - seen : 0;
 }
 
 /* ------------------------------------------------------------------ all */
@@ -315,4 +359,5 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
             look.tile += ((look.x1 - t->x0) & (t->tile - 1)) == 0;
         }
     }
+    add_passing(c, &f->passing);
 }

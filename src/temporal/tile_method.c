@@ -8,7 +8,6 @@
 
 enum {
     INSTANTS_MAX = 255,     /* within SMEAR_PACKED_INSTANTS */
-    PASSING = 16,           /* instants of what comes and goes before the eye */
     STEP_MAX = 256 /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
 };
 
@@ -84,23 +83,14 @@ int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct
     return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
 }
 
-/* Whether things pass the eye that most pixels of a run do not show in the middle of the exposure: they come and go. A floor is
- * there all the time, and another part of it looks much the same. */
-static bool comes_and_goes(const struct smear_contrast *c)
-{
-    enum { LOOKED_AT = BLOCK_PX * BLOCK_PX / 2 }; /* of a block: every other row */
-    return 2 * c->moving < c->blocks * LOOKED_AT;
-}
-
-/* Returns the least instants of a tile: the first may show nothing of what passes later. */
-static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
+/* Returns the least instants of a tile: the first may show nothing of what passes later, or `sees` what nothing is known of. */
+static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile, bool sees)
 {
     const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8); /* 1/16 */
     const int32_t target = max_i32(chooser->target, 1), n = 2 + (int32_t)(3 * root / (4 * (uint32_t)target));
-    const bool is_known = (tile->flags & PATH_SPACE) == 0 || is_displaced(tile);
-    if (target < 64)        /* pictures of slow things jump where the number changes: it does not, up to some px */
-        return max_i32(max_i32(n, 288 / target), is_known ? 1 : PASSING);
-    return is_known ? n : max_i32(n, PASSING / 2);
+    const int32_t usual = target < 64 ? max_i32(n, 288 / target) : n;   /* pictures of slow things jump where the number changes */
+    const bool is_known = !sees || (tile->flags & PATH_SPACE) == 0 || is_displaced(tile);
+    return is_known ? usual : max_i32(usual, target <= SMEAR_BALANCED ? 16 : 8);
 }
 
 /* Return logarithms to base 2 and the way back, q8, with straight lines between powers of two. */
@@ -166,12 +156,10 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const struct smear_chooser *chooser = plan->chooser;
     int32_t instants = 1, reach = 0;
     uint32_t left = 0, unseen = c->unseen;
-    bool passes = false;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
-        instants = max_i32(instants, least_instants(chooser, tile));
+        instants = max_i32(instants, least_instants(chooser, tile, c->moving != 0));
         reach = max_i32(reach, reach_of(tile));
-        passes = passes || (tile->flags & PATH_SPACE) != 0;
         const int32_t seen = c->moving == 0 ? 0 : (tile->flags & TEXTURED_SPACE) == TEXTURED_SPACE ? SEEN : INT32_MAX;
         unseen += ((uint32_t)max_i32(travel_of(tile) - seen, 0) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
@@ -183,8 +171,6 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
     instants = min_i32(instants, INSTANTS_MAX);
-    if (passes && chooser->target <= SMEAR_BALANCED && comes_and_goes(c))
-        instants = max_i32(instants, PASSING + 1);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
