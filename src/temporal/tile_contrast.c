@@ -249,7 +249,7 @@ static SMEAR_NOINLINE void note_in_space(struct subframes *f, uint32_t triangle,
 {
     struct subframe_passing *p = &f->passing;
     if (!p->in_space || p->draw != draw) {
-        p->passed = pixels_passed(p);
+        p->passed = min_i32(pixels_passed(p), 1 << 20);         /* more says no more */
         p->box[0] = p->box[1] = p->box[2] = p->box[3] = no_box;
     }
     p->in_space = true;
