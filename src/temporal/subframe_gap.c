@@ -31,6 +31,7 @@ struct gap {
     union gap_mean mean[GAP_PAIRS_MAX + 1];     /* made where they are needed: */
     uint32_t made;                              /* a bit for each that is */
     uint32_t full, down;                        /* what instants that show what moves add up to beside green; bits that light lost */
+    uint32_t recip;                             /* floor(2^16 / instants) */
 };
 
 /* ------------------------------------------------------------------ gap */
@@ -145,18 +146,26 @@ static inline void part_make(struct gap_part *part, struct gap *gap, const struc
     part->taps.mean = &mean->packed;
 }
 
+/* Returns a modulo the instants, for a < 2^16. */
+static inline uint32_t rest_of(const struct subframes *f, const struct gap *gap, uint32_t a)
+{
+    const uint32_t rest = a - (a * gap->recip >> 16) * f->instants;     /* the quotient lacks one at most */
+    return rest >= f->instants ? rest - f->instants : rest;
+}
+
 /* Whether a sum is a whole multiple of the instants; nearly, of light of which some bits were rounded away. */
 static inline bool is_multiple(const struct subframes *f, const struct gap *gap, uint32_t sum)
 {
-    const uint32_t rest = (sum << gap->down) % f->instants;
+    const uint32_t rest = rest_of(f, gap, rest_of(f, gap, sum) << gap->down);
     return min_u32(rest, f->instants - rest) <= 3u * gap->down;
 }
 
 /* Whether a pixel shows the same at all instants, as its sums tell: they are multiples of what one adds. */
 static inline bool is_steady(const struct subframes *f, const struct gap *gap, struct packed_sum sum)
 {
-    return is_multiple(f, gap, sum.gn & 0xffffu) && is_multiple(f, gap, sum.rb & 0xffffu) && is_multiple(f, gap, sum.rb >> 16)
-        && (sum.gn >> 16) % gap->full == 0;
+    const uint32_t shown = sum.gn >> 16;
+    return (shown == 0 || shown == gap->full) && is_multiple(f, gap, sum.gn & 0xffffu) && is_multiple(f, gap, sum.rb & 0xffffu)
+        && is_multiple(f, gap, sum.rb >> 16);
 }
 
 /* Whether the sums of the taps at both ends are those of a pixel: then no edge is looked for between them. */
@@ -170,17 +179,12 @@ static inline bool shows_the_same(const struct subframes *f, int32_t at, int32_t
 static inline int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
 {
     const struct packed_sum here = packed_sum_at(&f->sums, at);
-    bool steady = false;
+    if (shows_the_same(f, at, gap->offset[pairs - 1], here) || !is_steady(f, gap, here))
+        return pairs;
     for (int32_t i = 0; i < pairs; i++) {
         const struct packed_sum a = packed_sum_at(&f->sums, at - gap->offset[i]), b = packed_sum_at(&f->sums, at + gap->offset[i]);
-        if (((a.rb ^ here.rb) | (a.gn ^ here.gn) | (b.rb ^ here.rb) | (b.gn ^ here.gn)) == 0)
-            continue;
-        if (!steady && !is_steady(f, gap, here))
-            return pairs;
-        steady = true;
-        if (((a.rb ^ here.rb) | (a.gn ^ here.gn)) != 0 && is_steady(f, gap, a))
-            return i;
-        if (((b.rb ^ here.rb) | (b.gn ^ here.gn)) != 0 && is_steady(f, gap, b))
+        if ((((a.rb ^ here.rb) | (a.gn ^ here.gn)) != 0 && is_steady(f, gap, a))
+            || (((b.rb ^ here.rb) | (b.gn ^ here.gn)) != 0 && is_steady(f, gap, b)))
             return i;
     }
     return pairs;
@@ -269,6 +273,7 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     struct gap gap;
     gap_make(&gap, f, &last);
     gap.full = sums_light(f) ? smear_light_full(f->instants) : f->instants;
+    gap.recip = 65536u / f->instants;
     gap.down = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).down : 0;
     for (int32_t y = s->y0; y < s->y1; y += high) {
         struct smear_step step = step_at(f, plan, &divided, t->x0, y);

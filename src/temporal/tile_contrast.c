@@ -248,6 +248,8 @@ static int32_t pixels_passed(const struct subframe_passing *p)
 static SMEAR_NOINLINE void note_in_space(struct subframes *f, uint32_t triangle, uint16_t draw)
 {
     struct subframe_passing *p = &f->passing;
+    const struct smear_raster_target *const t = &f->t->background;
+    const int32_t pixels = (t->x1 - t->x0) * (t->y1 - t->y0);
     if (!p->in_space || p->draw != draw) {
         p->passed = min_i32(pixels_passed(p), 1 << 20);         /* more says no more */
         p->box[0] = p->box[1] = p->box[2] = p->box[3] = no_box;
@@ -256,6 +258,8 @@ static SMEAR_NOINLINE void note_in_space(struct subframes *f, uint32_t triangle,
     p->draw = draw;
     for (int k = 0; k < 4; k++) {
         struct posed at;
+        if (pixels_in(&p->box[k]) == pixels)            /* all that there is */
+            continue;
         for (bool seen = smear_subframe_pose(&at, f, triangle, SHUTTER_CLOSE * k / 3); seen; seen = smear_subframe_pose_next(&at, f))
             box_add(&p->box[k], &at.box);
     }
