@@ -91,38 +91,44 @@ SMEAR_INLINE void flat_run_unrolled(void *pixels, uint16_t *depth, int32_t n, ui
 }
 
 #if SMEAR_VECTORS
-/* Eight pixels; z: depths of the first four, step: how much farther the others are. Codes are compared in the order
- * of signed numbers. */
-SMEAR_INLINE void flat_eight(void *pixels, uint16_t *depth, smear_v4u z, smear_v4u step, uint32_t color, bool narrow)
+/* Eight pixels; z: depths of the first four, and of the others. */
+SMEAR_INLINE void flat_eight(void *pixels, uint16_t *depth, smear_v4u z, smear_v4u next, uint32_t color, bool narrow)
 {
-    const smear_v8i sign = v8i_all(INT16_MIN), old = v8i_load(depth) ^ sign,
-                    code = v8i_upper(z, z + step) ^ sign, nearer = (smear_v8i)(code > old);
-    v8i_store(depth, v8i_max(code, old) ^ sign);
+    const smear_v8u old = (smear_v8u)v8i_load(depth), nearer = v8u_less((smear_v8u)v8i_upper(z, next), old);
+    const smear_v8i hidden = (smear_v8i)(nearer == 0);
+    v8i_store(depth, (smear_v8i)(old + nearer));
     if (narrow) {
-        uint16_t *out = (uint16_t *)pixels;
-        v8i_store(out, v8i_choose(nearer, v8i_all((int16_t)color), v8i_load(out)));
+        v8i_store(pixels, v8i_choose(hidden, v8i_load(pixels), v8i_all((int16_t)color)));
         return;
     }
     uint32_t *out = (uint32_t *)pixels;
-    const smear_v4u all = { color, color, color, color };
-    v4u_store(out, v4u_choose(v4i_twice_low(nearer), all, v4u_load(out)));
-    v4u_store(out + 4, v4u_choose(v4i_twice_high(nearer), all, v4u_load(out + 4)));
+    const smear_v4u all = v4u_all(color);
+    v4u_store(out, v4u_choose(v4i_twice_low(hidden), v4u_load(out), all));
+    v4u_store(out + 4, v4u_choose(v4i_twice_high(hidden), v4u_load(out + 4), all));
 }
 
+/* Eight pixels at once. What is left are the last eight: those drawn before are no nearer than themselves. */
 SMEAR_INLINE void flat_run_vector(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
                                   uint32_t color, bool narrow)
 {
     struct flat_walk w = { pixels, depth, z };
-    flat_odd(&w, n, dz, color, narrow);
-    n >>= 3;
-    if (n == 0)
+    if (n < 8) {
+        flat_odd(&w, n, dz, color, narrow);
         return;
-    smear_v4u z4 = { w.z, w.z + dz, w.z + 2 * dz, w.z + 3 * dz };
-    const smear_v4u step = { 4 * dz, 4 * dz, 4 * dz, 4 * dz };
-    for (; n > 0; n--, z4 += 2 * step) {
-        flat_eight(w.pixels, w.depth, z4, step, color, narrow);
+    }
+    const smear_v4u step = v4u_all(4 * dz);
+    smear_v4u z4 = { z, z + dz, z + 2 * dz, z + 3 * dz };
+    for (int32_t eights = n >> 3; eights > 0; eights--) {
+        const smear_v4u next = z4 + step;
+        flat_eight(w.pixels, w.depth, z4, next, color, narrow);
+        z4 = next + step;
         w.pixels = pixel_after(w.pixels, 8, narrow);
         w.depth += 8;
+    }
+    if ((n & 7) != 0) {
+        const int32_t back = (n & 7) - 8;
+        z4 += v4u_all((uint32_t)back * dz);
+        flat_eight(pixel_after(w.pixels, back, narrow), w.depth + back, z4, z4 + step, color, narrow);
     }
 }
 #endif

@@ -5,6 +5,7 @@
 
 #include "base/pixel.h"
 #include "kernels/kernels.h"
+#include "kernels/vector.h"
 
 /* Whether all depths of `rows` rows of n >= 1 pairs, one `stride` pairs below the other, are 2 half at least; half is 2^15 - 1 at most.
  * Pairs lie on multiples of four bytes. */
@@ -50,9 +51,32 @@ SMEAR_INLINE bool hidden_box_unrolled(const pixel_word *depth, ptrdiff_t stride,
     return true;
 }
 
+#if SMEAR_VECTORS
+/* Four pairs at once, of which the last four of a row may have been seen before. */
+SMEAR_INLINE bool hidden_box_lanes(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
+{
+    const smear_v8u least = (smear_v8u)v8i_all((int16_t)(2 * half));
+    if (n < 4)
+        return hidden_box_unrolled(depth, stride, n, rows, half);
+    for (; rows > 0; rows--, depth += stride) {
+        const uint16_t *const row = (const uint16_t *)(const void *)depth;
+        smear_v8u less = v8u_less(least, (smear_v8u)v8i_load(row + 2 * n - 8));
+        for (int32_t i = 0; i < n - 4; i += 4)
+            less |= v8u_less(least, (smear_v8u)v8i_load(row + 2 * i));
+        if (v4u_any((smear_v4u)less))
+            return false;
+    }
+    return true;
+}
+#endif
+
 SMEAR_INLINE bool hidden_box(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
 {
+#if SMEAR_VECTORS
+    return hidden_box_lanes(depth, stride, n, rows, half);
+#else
     return hidden_box_unrolled(depth, stride, n, rows, half);
+#endif
 }
 
 #endif

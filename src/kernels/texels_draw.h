@@ -5,6 +5,7 @@
 
 #include "kernels/texels_draw_armv6m.h"
 #include "kernels/texels_draw_armv7em.h"
+#include "kernels/texels_lanes.h"
 
 /* Draws n >= 1 pixels of a run. Pixel i has the depth code z >> 16; where it is greater than that in memory,
  * which it then replaces, the pixel becomes the texel at the run's coordinates. Then z changes by dz, u and v by du
@@ -67,61 +68,6 @@ SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log
     run->z = r.z;
 }
 
-#if SMEAR_VECTORS
-/* A pixel that is seen. */
-SMEAR_INLINE void texels_next(struct texel_run *r, int32_t i, int log2_width, int log2_height, enum texel_kind kind)
-{
-    texel_put(r->color, i, r->texels, r->light,
-              (uint32_t)((r->uv & r->bits) * r->fold >> (64 - log2_width - log2_height)), kind);
-    texel_run_step(r);
-}
-
-SMEAR_INLINE void texels_next_four(struct texel_run *r, int32_t i, int log2_width, int log2_height, enum texel_kind kind)
-{
-    texels_next(r, i, log2_width, log2_height, kind);
-    texels_next(r, i + 1, log2_width, log2_height, kind);
-    texels_next(r, i + 2, log2_width, log2_height, kind);
-    texels_next(r, i + 3, log2_width, log2_height, kind);
-}
-
-/* Eight pixels a round, depths first, in the order of signed numbers: mostly all are seen, or none. */
-SMEAR_INLINE void texels_draw_vector(struct texel_run *run, int32_t n, int log2_width, int log2_height,
-                                     enum texel_kind kind)
-{
-    struct texel_run r = *run;          /* in registers */
-    const smear_v8i sign = v8i_all(INT16_MIN);
-    const smear_v4u step = { 4 * r.dz, 4 * r.dz, 4 * r.dz, 4 * r.dz };
-    smear_v4u z = { r.z, r.z + r.dz, r.z + 2 * r.dz, r.z + 3 * r.dz };
-    for (; n >= 8; n -= 8, z += 2 * step) {
-        const smear_v8i code = v8i_upper(z, z + step) ^ sign, old = v8i_load(r.depth) ^ sign,
-                        seen = (smear_v8i)(code > old);
-        SMEAR_KEEP_VALUE(n);            /* as in texels_draw_unrolled */
-        if (!v4u_any(~(smear_v4u)seen)) {
-            v8i_store(r.depth, code ^ sign);
-            texels_next_four(&r, 0, log2_width, log2_height, kind);
-            texels_next_four(&r, 4, log2_width, log2_height, kind);
-        } else if (!v4u_any((smear_v4u)seen)) {
-            texel_run_skip(&r, 8);
-        } else {
-            uint16_t is_seen[8];
-            v8i_store(is_seen, seen);
-            v8i_store(r.depth, v8i_max(code, old) ^ sign);
-            for (int32_t i = 0; i < 8; i++, texel_run_step(&r))
-                if (is_seen[i] != 0)
-                    texel_put(r.color, i, r.texels, r.light, packed_index(r.uv, log2_width, log2_height), kind);
-        }
-        texel_run_advance(&r, 8, texels_are_narrow(kind));
-        r.z += 8 * r.dz;
-    }
-    for (; n > 0; n--) {
-        texels_step(&r, 0, log2_width, log2_height, kind);
-        texel_run_advance(&r, 1, texels_are_narrow(kind));
-    }
-    run->color = r.color;
-    run->depth = r.depth;
-    run->z = r.z;
-}
-#endif
 #else
 /* The twelve values of the loop are as many as ARM has registers for; compilers would rather keep copies of some. */
 #if SMEAR_GNU && defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
@@ -209,9 +155,9 @@ SMEAR_INLINE void texels_draw(struct texel_run *run, int32_t n, int log2_width, 
     texels_draw_armv6m(run, n, log2_width, log2_height, kind);
 #elif SMEAR_ASM_ARMV7EM
     texels_draw_armv7em(run, n, log2_width, log2_height, kind);
-#elif TEXELS_PACKED && SMEAR_VECTORS
-    if (n >= 8 && !texels_are_lit(kind))
-        texels_draw_vector(run, n, log2_width, log2_height, kind);
+#elif TEXELS_LANES
+    if (n >= 8 && !texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height))
+        texels_draw_lanes(run, n, log2_width, log2_height, kind);
     else
         texels_draw_unrolled(run, n, log2_width, log2_height, kind);
 #else

@@ -3,75 +3,9 @@
  * that are polynomials. The same pixels as those of span.c. */
 #include "raster/texture_rows.h"
 
-#include "kernels/texel_run.h"
-#include "raster/texcoord.h"
-
 #if SMEAR_SHADED_ROWS
-
-/* Light of the next pixel, red, green and blue in q16 codes (or linear light >> 8), and its steps. Where it has no colour,
- * blue stands for all. */
-struct shaded_light {
-    uint32_t c[3], d[3];
-};
-
-/* Texels of a draw, and what they become. */
-struct shaded_texels {
-    const void *texels;
-    const uint32_t *palette;
-    int format, log2_width, log2_height;
-    bool narrow;
-};
-
-SMEAR_INLINE uint32_t shaded_pixel(uint32_t t, uint32_t r, uint32_t g, uint32_t b, bool white, bool linear)
-{
-    if (linear) {
-        const uint32_t blue = b >> 8 & 0xffffu;
-        return pixel_make(0, code_times_linear(pixel_red(t), white ? blue : r >> 8 & 0xffffu),
-                          code_times_linear(pixel_green(t), white ? blue : g >> 8 & 0xffffu),
-                          code_times_linear(pixel_blue(t), blue));
-    }
-    const uint32_t blue = b >> 16 & 255u, pair = 0xff00ffu;
-    if (white) {
-        uint32_t rb = (t & pair) * blue + 0x800080u;
-        rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
-        return rb | code_times(pixel_green(t), blue) << 8;
-    }
-    return pixel_make(0, code_times(pixel_red(t), r >> 16 & 255u), code_times(pixel_green(t), g >> 16 & 255u),
-                      code_times(pixel_blue(t), blue));
-}
-
-/* n > 0 pixels, where they are nearer. */
-SMEAR_INLINE void shaded_run(const struct shaded_texels *k, struct texel_run *run, const struct shaded_light *l, int32_t n,
-                             bool white, bool linear)
-{
-    struct texel_run r = *run;
-    uint32_t red = l->c[0], green = l->c[1], blue = l->c[2];
-    const uint32_t red_step = l->d[0], green_step = l->d[1], blue_step = l->d[2];
-    const int log2_width = k->log2_width, log2_height = k->log2_height, format = k->format;
-    const bool narrow = k->narrow;
-    for (; n > 0; n--) {
-        const uint32_t code = r.z >> 16;
-        if (code > *r.depth) {
-            SMEAR_KEEP_BRANCH();
-            const uint32_t t = texel_fetch(k->texels, k->palette, packed_index(texel_run_uv(&r), log2_width, log2_height),
-                                           format);
-            const uint32_t p = shaded_pixel(t, red, green, blue, white, linear);
-            *r.depth = (uint16_t)code;
-            if (narrow)
-                *(uint16_t *)r.color = (uint16_t)rgb565_nearest(p);
-            else
-                *(uint32_t *)r.color = p;
-        }
-        texel_run_advance(&r, 1, narrow);
-        texel_run_step(&r);
-        r.z += r.dz;
-        blue += blue_step;
-        if (!white) {
-            red += red_step;
-            green += green_step;
-        }
-    }
-}
+#include "kernels/texels_shade.h"
+#include "raster/texture_curves.h"
 
 static bool is_white(const struct setup *s)
 {
@@ -80,13 +14,12 @@ static bool is_white(const struct setup *s)
 }
 
 /* Pixels [p->a, p->b) of row y, whose column 0 is at index `at`. */
-SMEAR_INLINE void shaded_row(const struct setup *s, const struct shaded_texels *k, const struct row_run *p, int32_t at,
-                             int32_t y, bool white, bool linear)
+SMEAR_INLINE void shaded_row(const struct setup *s, const struct shaded_texels *k, const struct curves *curves, struct texel_run run,
+                             const struct row_run *p, int32_t at, int32_t y, bool white, bool linear)
 {
     const struct smear_raster_target *t = s->target;
     struct shaded_light l;
-    struct texel_run run;
-    texcoord_run(&run, texcoord_curved(&s->texture, &s->draw->sampler, p->a, y));
+    curves_run(curves, p->a - s->texture.x0, y - s->texture.y0, &run);
     run.depth = t->depth + (at + p->a);
     run.color = k->narrow ? (void *)(t->direct + (at + p->a)) : t->color + (at + p->a);
     run.z = p->z + p->dz * (uint32_t)p->a;
@@ -95,7 +28,7 @@ SMEAR_INLINE void shaded_row(const struct setup *s, const struct shaded_texels *
         l.c[i] = (uint32_t)plane_at(&s->channel[i], p->a, y);
         l.d[i] = (uint32_t)s->channel[i].dx;
     }
-    shaded_run(k, &run, &l, p->b - p->a, white, linear);
+    texels_shade(k, &run, &l, p->b - p->a, white, linear);
 }
 
 SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, bool white, bool linear)
@@ -105,6 +38,9 @@ SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, 
                                      target_is_direct(s->target) };
     const bool whole = rows_are_whole(s, r);
     int32_t at = r->at;
+    struct curves curves;
+    struct texel_run run;
+    curves_start(&curves, &s->texture.curve[0], &s->texture.curve[1], &run);
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
         const int32_t y = r->y + row;
         struct row_run p = { r->side[row].left, r->side[row].right, 0, 0 };
@@ -113,11 +49,11 @@ SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, 
         if (whole) {
             p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
             p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
-            shaded_row(s, &k, &p, at, y, white, linear);
+            shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
             continue;
         }
         while (smear_row_run_next(&p, s, r, row, p.a)) {
-            shaded_row(s, &k, &p, at, y, white, linear);
+            shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
             p.a = p.b;
         }
     }

@@ -273,6 +273,12 @@ SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2
         return;
     }
 #endif
+#if TEXELS_LANES
+    if (!texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
+        texels_row_lanes(k, rest, log2_width, log2_height, kind);
+        return;
+    }
+#endif
     for (int32_t n = block; rest > 0;) {
         if (rest > block) {
             track_block(k);
@@ -380,64 +386,6 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
 }
 
 /* ------------------------------------------------------------------ polynomials */
-
-/* Both coordinates' polynomials, and a row's run from pixel (x, y) of them on. */
-#if TEXELS_PACKED
-struct curves {
-    uint64_t at, dx, dy, dxx, dxy, dyy;
-};
-
-SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
-{
-    k->at = packed_step((uint32_t)u->at, (uint32_t)v->at);
-    k->dx = packed_step((uint32_t)u->dx, (uint32_t)v->dx);
-    k->dy = packed_step((uint32_t)u->dy, (uint32_t)v->dy);
-    k->dxx = packed_step((uint32_t)u->dxx, (uint32_t)v->dxx);
-    k->dxy = packed_step((uint32_t)u->dxy, (uint32_t)v->dxy);
-    k->dyy = packed_step((uint32_t)u->dyy, (uint32_t)v->dyy);
-    r->dduv = 2 * k->dxx;
-}
-
-SMEAR_INLINE void curves_run(const struct curves *k, int32_t column, int32_t row, struct texel_run *r)
-{
-    const uint64_t x = (uint64_t)(int64_t)column, y = (uint64_t)(int64_t)row;
-    const uint64_t dx = k->dx + k->dxy * y + k->dxx * x;
-    r->uv = k->at + (k->dy + k->dyy * y) * y + dx * x;
-    r->duv = dx + k->dxx * (x + 1);
-}
-#else
-/* As they are needed: small cores have few registers. */
-struct curve_words {
-    uint32_t dxy, dx, dyy, dy, at, dxx;
-};
-
-struct curves {
-    struct curve_words u, v;
-};
-
-SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
-{
-    k->u = (struct curve_words){ (uint32_t)u->dxy, (uint32_t)u->dx, (uint32_t)u->dyy, (uint32_t)u->dy, (uint32_t)u->at,
-                                 (uint32_t)u->dxx };
-    k->v = (struct curve_words){ (uint32_t)v->dxy, (uint32_t)v->dx, (uint32_t)v->dyy, (uint32_t)v->dy, (uint32_t)v->at,
-                                 (uint32_t)v->dxx };
-    r->ddu = 2 * k->u.dxx;
-    r->ddv = 2 * k->v.dxx;
-}
-
-SMEAR_INLINE uint32_t curve_value(const struct curve_words *k, uint32_t x, uint32_t y, uint32_t *step)
-{
-    const uint32_t dx = k->dxy * y + k->dx, at = (k->dyy * y + k->dy) * y + k->at, along = k->dxx * x;
-    *step = dx + along + along + k->dxx;
-    return (dx + along) * x + at;
-}
-
-static SMEAR_NOINLINE void curves_run(const struct curves *k, int32_t x, int32_t y, struct texel_run *r)
-{
-    r->u = curve_value(&k->u, (uint32_t)x, (uint32_t)y, &r->du);
-    r->v = curve_value(&k->v, (uint32_t)x, (uint32_t)y, &r->dv);
-}
-#endif
 
 /* A row, in pieces of one light. p: its first run, where that is not all of it; else null. */
 SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, int32_t row, struct texel_run *run,

@@ -28,10 +28,17 @@ static void prepare(struct kernel_call *c)
 
 CALL(reference)
 CALL(unrolled)
+#if SMEAR_VECTORS
+CALL(lanes)
+#endif
 
 extern const struct kernel kernels_hidden_box[];
 const struct kernel kernels_hidden_box[] = {
     { .name = "hidden_box", .least = 1, .most = 70, .size = { 4 }, .prepare = prepare,
-      .form = { { "reference", reference }, { "unrolled", unrolled } } },
+      .form = { { "reference", reference }, { "unrolled", unrolled },
+#if SMEAR_VECTORS
+                { "lanes", lanes }
+#endif
+      } },
     { .name = NULL }
 };

@@ -5,6 +5,7 @@
 #include "kernels/texel_place_rows_armv6m.h"
 #include "kernels/texel_place_rows_armv7em.h"
 #include "kernels/texel_track.h"
+#include "kernels/texels_draw.h"
 
 #include "tests/kernels/kernels.h"
 
@@ -98,7 +99,7 @@ CALL(reference)
 CALL(armv6m)
 #endif
 
-#if SMEAR_ASM_ARMV7EM || TEXEL_PLACES_ASM
+#if SMEAR_ASM_ARMV7EM || TEXEL_PLACES_ASM || TEXELS_LANES
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END };       /* words from Z on */
 #endif
 
@@ -141,6 +142,56 @@ SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, 
 
 static void blocks_reference(struct kernel_call *c) { blocks(c, texel_blocks_reference); }
 static void blocks_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em); }
+#endif
+
+#if TEXELS_LANES
+static void rows_prepare(struct kernel_call *c)
+{
+    prepare(c);
+    c->bytes[0] = c->n * 4;
+    c->bytes[1] = c->n * 2;
+    c->bytes[2] = 4 << (2 * LOG2_WIDTH);
+}
+
+/* What texels_row_lanes does, a part after the other. */
+SMEAR_INLINE void row_reference(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
+{
+    while (rest > 0) {
+        const int32_t n = block_next(1 << k->log2, rest);
+        texel_track_part_reference(k, n);
+        rest -= n;
+        texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, kind);
+    }
+}
+
+/* A row of n pixels. */
+SMEAR_INLINE void row_by(struct kernel_call *c, enum texel_kind kind, int log2_height,
+                         void draw(struct texel_track *, int32_t, int, int, enum texel_kind))
+{
+    struct texel_track k;
+    set_track(c, &k);
+    k.log2 = 2 + k.log2 % 5;
+    k.q = (int32_t)c->word[Q];
+    k.u = (int32_t)c->word[U];
+    k.v = (int32_t)c->word[V];
+    k.place = place_divided(k.q, k.u, k.v, k.slope, k.parabolic);
+    texcoord_run(&k.run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
+    texel_run_start(&k.run, LOG2_WIDTH, log2_height);
+    k.run.color = c->plane[0];
+    k.run.depth = c->plane[1];
+    k.run.texels = c->plane[2];
+    k.run.z = c->word[Z];
+    k.run.dz = c->word[DZ];
+    draw(&k, c->n - 1, LOG2_WIDTH, log2_height, kind);
+    c->word[Q] = (uint32_t)k.q;
+    c->word[U] = (uint32_t)k.place.u;
+    c->word[V] = (uint32_t)k.place.v;
+}
+
+static void row_narrow(struct kernel_call *c) { row_by(c, TEXELS_NARROW, LOG2_HEIGHT, row_reference); }
+static void row_narrow_lanes(struct kernel_call *c) { row_by(c, TEXELS_NARROW, LOG2_HEIGHT, texels_row_lanes); }
+static void row_square(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDTH, row_reference); }
+static void row_square_lanes(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDTH, texels_row_lanes); }
 #endif
 
 #if TEXEL_PLACES_ASM
@@ -194,6 +245,12 @@ const struct kernel kernels_texel_track[] = {
 #if SMEAR_ASM_ARMV7EM
     { .name = "texel_blocks", .least = 3, .most = 140, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
       .form = { { "reference", blocks_reference }, { "armv7em", blocks_armv7em } } },
+#endif
+#if TEXELS_LANES
+    { .name = "texels_row (narrow)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
+      .form = { { "reference", row_narrow }, { "lanes", row_narrow_lanes } } },
+    { .name = "texels_row (square)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
+      .form = { { "reference", row_square }, { "lanes", row_square_lanes } } },
 #endif
 #if TEXEL_PLACES_ASM
     { .name = "texel_place_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 2 }, .prepare = places_prepare,

@@ -114,11 +114,12 @@ static int unknown(int value)
 
 CALLS(reference)
 CALLS(unrolled)
-#if TEXELS_PACKED && SMEAR_VECTORS
-CALLS(vector)
-#define VECTOR(CALL) , { "vector", CALL }
+#if TEXELS_LANES
+#define texels_draw_best texels_draw
+CALLS(best)
+#define BEST(CALL) , { "best", CALL }
 #else
-#define VECTOR(CALL)
+#define BEST(CALL)
 #endif
 #if SMEAR_ASM_ARMV6M
 CALLS(armv6m)
@@ -171,7 +172,7 @@ static void curves_armv7em(struct kernel_call *c) { curves_by(c, texel_curve_row
 
 #define KERNEL(NAME, KIND, SIZE) \
     { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
-      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } VECTOR(KIND##_vector) ARMV6M(KIND##_armv6m) \
+      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } BEST(KIND##_best) ARMV6M(KIND##_armv6m) \
               ARMV7EM(KIND##_armv7em) } }
 
 extern const struct kernel kernels_texels_draw[];
