@@ -24,35 +24,7 @@ static inline struct depth_range depth_range_reference(const uint16_t *depth, in
     return r;
 }
 
-#if SMEAR_VECTORS
-/* Eight codes at once, in the order of signed numbers: SSE2 has no unsigned minimum of 16 bits. */
-static inline struct depth_range depth_range_vector(const uint16_t *depth, int32_t pitch, int32_t width,
-                                                    int32_t height)
-{
-    const smear_v8i sign = v8i_all(INT16_MIN);
-    smear_v8i least = v8i_all(INT16_MAX), most = sign;
-    struct depth_range r = { UINT16_MAX, 0 };
-    for (int32_t y = 0; y < height; y++, depth += pitch) {
-        int32_t x = 0;
-        for (; x + 8 <= width; x += 8) {
-            const smear_v8i d = v8i_load(depth + x) ^ sign;
-            least = v8i_min(least, d);
-            most = v8i_max(most, d);
-        }
-        for (; x < width; x++) {
-            r.least = min_u32(r.least, depth[x]);
-            r.most = max_u32(r.most, depth[x]);
-        }
-    }
-    for (int i = 0; i < 8; i++) {
-        r.least = min_u32(r.least, (uint16_t)least[i] ^ 0x8000u);
-        r.most = max_u32(r.most, (uint16_t)most[i] ^ 0x8000u);
-    }
-    return r;
-}
-#endif
-
-#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+#if !defined(__OPTIMIZE_SIZE__)
 static inline void range_add(uint32_t *least, uint32_t *most, uint32_t code)
 {
     *least = min_u32(*least, code);
@@ -70,7 +42,7 @@ static inline void range_add4(uint32_t *least, uint32_t *most, const uint16_t *c
 }
 #endif
 
-#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && defined(__ARM_ARCH_6M__)
+#if !defined(__OPTIMIZE_SIZE__) && defined(__ARM_ARCH_6M__)
 /* Four codes a round: 6 instructions a code of a Cortex-M0+ in place of 9, or 2 where they are the same as those before. */
 static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
 {
@@ -96,7 +68,7 @@ static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int
     }
     return (struct depth_range){ least, most };
 }
-#elif !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+#elif !defined(__OPTIMIZE_SIZE__)
 /* Four codes a round. */
 static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
 {
@@ -114,9 +86,7 @@ static inline struct depth_range depth_range_unrolled(const uint16_t *depth, int
 
 static inline struct depth_range depth_range(const uint16_t *depth, int32_t pitch, int32_t width, int32_t height)
 {
-#if SMEAR_VECTORS
-    return depth_range_vector(depth, pitch, width, height);
-#elif !defined(__OPTIMIZE_SIZE__)
+#if !defined(__OPTIMIZE_SIZE__)
     return depth_range_unrolled(depth, pitch, width, height);
 #else
     return depth_range_reference(depth, pitch, width, height);

@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_FILL_H
 
 #include "base/pixel.h"
-#include "kernels/vector.h"
 #include "kernels/kernels.h"
 
 /* Sets n >= 0 times eight words; returns where the next lies. */
@@ -30,15 +29,6 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 #else
 static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 {
-#if SMEAR_VECTORS
-    const smear_v4u four = v4u_all(value);
-    for (; n > 1; n -= 2, p += 16) {
-        v4u_store(p, four);
-        v4u_store(p + 4, four);
-        v4u_store(p + 8, four);
-        v4u_store(p + 12, four);
-    }
-#endif
     for (; n > 0; n--, p += 8) {
         p[0] = value;
         p[1] = value;
@@ -111,14 +101,7 @@ static inline void pixels_clear_narrow(uint16_t *p, int32_t n)
 #endif
 }
 
-/* Sets both bytes of each to the lowest one of `byte`: by vectors, where there are any. */
-static inline void pixels_fill_bytes(uint16_t *p, int byte, int32_t n)
-{
-#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
-    pixels_fill_narrow(p, (uint8_t)byte * 0x101u, n);
-#else
-    __builtin_memset(p, byte, (size_t)n * sizeof *p);
-#endif
-}
+/* Sets both bytes of each to the lowest one of `byte`. */
+static inline void pixels_fill_bytes(uint16_t *p, int byte, int32_t n) { __builtin_memset(p, byte, (size_t)n * sizeof *p); }
 
 #endif

@@ -6,7 +6,6 @@
 
 #include "kernels/colors_over_w.h"
 #include "kernels/flat_run.h"
-#include "kernels/hidden_run.h"
 #include "kernels/shade_run.h"
 #include "raster/texcoord.h"
 
@@ -117,6 +116,16 @@ static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_r
             return;
         x += n;
     }
+}
+
+/* Returns how many of n >= 0 pixels are hidden before the first that is seen: pixel i has the depth code
+ * (z + i dz) >> 16, modulo 2^16, and is seen where that is greater than depth[i]. */
+static int32_t hidden_run(const uint16_t *depth, int32_t n, uint32_t z, uint32_t dz)
+{
+    int32_t i = 0;
+    for (; i < n && z >> 16 <= depth[i]; i++)
+        z += dz;
+    return i;
 }
 
 /* Pixels [p->a, p->b) from the first that is seen on: those of rows that are hidden need no colours. */

@@ -30,14 +30,7 @@ static void reference(struct kernel_call *c)
     store(c, depth_range_reference(c->plane[0], (int32_t)c->word[PITCH], c->n, (int32_t)c->word[HEIGHT]));
 }
 
-#if SMEAR_VECTORS
-static void vector(struct kernel_call *c)
-{
-    store(c, depth_range_vector(c->plane[0], (int32_t)c->word[PITCH], c->n, (int32_t)c->word[HEIGHT]));
-}
-#endif
-
-#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
+#if !defined(__OPTIMIZE_SIZE__)
 static void unrolled(struct kernel_call *c)
 {
     store(c, depth_range_unrolled(c->plane[0], (int32_t)c->word[PITCH], c->n, (int32_t)c->word[HEIGHT]));
@@ -48,9 +41,7 @@ extern const struct kernel kernels_depth_range[];
 const struct kernel kernels_depth_range[] = {
     { .name = "depth_range (four rows)", .most = 35, .size = { 2 }, .prepare = prepare, .timed = 128,
       .form = { { "reference", reference },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#elif !defined(__OPTIMIZE_SIZE__)
+#if !defined(__OPTIMIZE_SIZE__)
                 { "unrolled", unrolled },
 #endif
       } },
