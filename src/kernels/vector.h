@@ -269,30 +269,6 @@ static inline void v4i_store_columns(int32_t out[16], smear_v4i a, smear_v4i b, 
 typedef uint16_t smear_v8u __attribute__((vector_size(16)));
 typedef uint64_t smear_v2u __attribute__((vector_size(16)));
 
-/* Makes pairs of the words 0 and 1 of a as lower ones and of b as upper ones; v2u_of_high_words of words 2 and 3. */
-static inline smear_v2u v2u_of_low_words(smear_v4u a, smear_v4u b)
-{
-#ifdef __SSE2__
-    return (smear_v2u)_mm_unpacklo_epi32((__m128i)a, (__m128i)b);
-#else
-    return (smear_v2u){ (uint64_t)b[0] << 32 | a[0], (uint64_t)b[1] << 32 | a[1] };
-#endif
-}
-
-static inline smear_v2u v2u_of_high_words(smear_v4u a, smear_v4u b)
-{
-#ifdef __SSE2__
-    return (smear_v2u)_mm_unpackhi_epi32((__m128i)a, (__m128i)b);
-#else
-    return (smear_v2u){ (uint64_t)b[2] << 32 | a[2], (uint64_t)b[3] << 32 | a[3] };
-#endif
-}
-
-static inline void v2u_store(uint64_t *p, smear_v2u v)
-{
-    __builtin_memcpy(p, &v, sizeof v);
-}
-
 /* Returns what is left of halves without a sign where b is taken away, 0 at least. */
 static inline smear_v8u v8u_less(smear_v8u a, smear_v8u b)
 {
