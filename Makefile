@@ -482,8 +482,8 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
 	sh tests/shell/links.sh README.md include/README.md platform/README.md src/README.md tests/README.md tools/README.md
 	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
-	test $$(wc -l < $(BUILD)/readme.c) -lt 48
-	(cat $(BUILD)/readme.c; echo 'typedef char fits[SMEAR_MEMORY(SCREEN) <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
+	test $$(wc -l < $(BUILD)/readme.c) -le 45
+	(cat $(BUILD)/readme.c; echo 'typedef char fits[sizeof memory <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
 	$(CC) -std=c99 -Iinclude -c -o $(BUILD)/readme_fits.o $(BUILD)/readme_fits.c
 	$(CXX) -x c++ -std=c++11 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -c -o $(BUILD)/readme_cxx.o $(BUILD)/readme.c
 	$(CXX) -o $(BUILD)/readme $(BUILD)/readme_cxx.o $(LIB)
@@ -491,8 +491,8 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(BUILD)/first.png
 	cmp $(PICTURES)/first.png $(BUILD)/first.png || \
 	    { echo "$(PICTURES)/first.png is not what the first program draws: make readme-pictures" >&2; exit 1; }
-	sed 's/SCREEN 160, 120, 12, 1, 0/SCREEN 160, 120, 12, 1, SMEAR_SET(SMEAR_RECONSTRUCT)/' $(BUILD)/readme.c > $(BUILD)/readme_window.c
-	$(CC) -std=c99 -Iinclude -o $(BUILD)/readme $(BUILD)/readme_window.c $(LIB)
+	sed 's/frame.camera = /frame.method = SMEAR_NONE, &/' $(BUILD)/readme.c > $(BUILD)/readme_sharp.c
+	$(CC) -std=c99 -Iinclude -o $(BUILD)/readme $(BUILD)/readme_sharp.c $(LIB)
 	! $(BUILD)/readme | cmp -s - $(BUILD)/readme.ppm
 	$(BUILD)/methods > build/methods.md
 	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' README.md | cmp - build/methods.md || \

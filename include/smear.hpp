@@ -2,10 +2,10 @@
 // smear.hpp - smear.h and smear_math.h as C++11 wants them: a renderer that owns its memory, and poses that are
 // composed by `*`. Header only; no exceptions, no RTTI, no allocation, nothing that C would not have done.
 //
-//     #define SCREEN 240, 240, 600, 8                     // width, height, triangles, draws
-//     static smear::renderer<SMEAR_MEMORY(SCREEN)> screen;
+//     static smear::renderer<SMEAR_MEMORY(240, 240, 600, 8)> screen;      // width, height, triangles, draws
 //
-//     smear_desc desc = SMEAR_DESC(SCREEN);
+//     smear_desc desc = {};
+//     desc.width = desc.height = 240, desc.max_triangles = 600, desc.max_draws = 8;
 //     desc.flush = flush;
 //     int result = screen.init(desc);
 //
@@ -54,9 +54,9 @@ inline smear_vec3 operator-(const smear_vec3 &a)
 
 namespace smear {
 
-// A context and its memory, of as many bytes as SMEAR_MEMORY or smear_memory_size() says. It is large: declare it
-// static, where it takes no room in flash. Calls before init() return SMEAR_ERR_ARG.
-template <size_t bytes> class renderer {
+// A context and its memory, of as many words of 8 bytes as SMEAR_MEMORY or `smear info --desc` says. It is large: declare
+// it static, where it takes no room in flash. Calls before init() return SMEAR_ERR_ARG.
+template <size_t words> class renderer {
 public:
     constexpr renderer() : context_(nullptr), memory_{} {}
     renderer(const renderer &) = delete;
@@ -109,7 +109,7 @@ public:
 
 private:
     smear_context *context_;
-    alignas(8) unsigned char memory_[bytes];
+    uint64_t memory_[words];
 };
 
 } // namespace smear

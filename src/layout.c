@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* layout.c - see layout.h. smear_memory.h has the same sum as a constant. */
+/* layout.c - see layout.h. smear_memory.h has the same sum of usual descs as a constant. */
 #include "layout.h"
 
 #include "smear_memory.h"
@@ -14,9 +14,6 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_raster_draw) <= SMEAR_SAMPLER_BYTES, "SM
 SMEAR_STATIC_ASSERT(sizeof(struct smear_kept_pose) <= SMEAR_KEPT_BYTES, "SMEAR_KEPT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_older) <= SMEAR_OLDER_CAMERA_BYTES, "SMEAR_OLDER_CAMERA_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_older_pose) <= SMEAR_OLDER_BYTES, "SMEAR_OLDER_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_window) <= SMEAR_WINDOW_BYTES, "SMEAR_WINDOW_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_damage) <= SMEAR_DAMAGE_BYTES, "SMEAR_DAMAGE_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_damaged_draw) <= SMEAR_DAMAGED_DRAW_BYTES, "SMEAR_DAMAGED_DRAW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");

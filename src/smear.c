@@ -53,8 +53,9 @@ int smear_init(smear_context **ctx, const smear_desc *desc, void *memory, size_t
     const int result = d.flush == NULL ? FAULT(DESC_FLUSH) : smear_resolve_desc(&d);
     if (result != SMEAR_OK)
         return result;
-    if (memory == NULL || ((uintptr_t)memory & 7u) != 0 || bytes < smear_memory_size(desc))
-        return SMEAR_ERR_MEMORY;
+    const size_t needed = smear_memory_size(desc);      /* 1.4 GB at most */
+    if (memory == NULL || bytes < needed || ((uintptr_t)memory & 7u) != 0)
+        return -(int)needed;
 
     struct smear_arena a = { (uint8_t *)memory, 0 };
     struct smear_context *c = SMEAR_PLACE(&d, SMEAR_PART_CONTEXT, arena_take(&a, 1, sizeof *c), sizeof *c);

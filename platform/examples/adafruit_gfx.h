@@ -2,7 +2,9 @@
 /* adafruit_gfx.h - smear on a colour display of Adafruit_GFX: any whose class is an Adafruit_SPITFT. */
 #include <Adafruit_ST7789.h>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static Adafruit_ST7789 tft(10, 9, 8);   /* chip select, data/command, reset */
 

@@ -2,7 +2,9 @@
 /* arduino_gfx.h - smear on a display of Arduino_GFX. */
 #include <Arduino_GFX_Library.h>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static Arduino_GFX *gfx = new Arduino_ST7789(create_default_Arduino_DataBus(), 8 /* reset */, 0, true, 240, 240);
 

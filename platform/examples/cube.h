@@ -2,17 +2,22 @@
 /* cube.h - a cube that flies past, blurred, on the display of display.h: what all examples draw. C99 or C++11. */
 #include <smear.h>
 #include <smear_math.h>
-#include <smear_memory.h>
 
 static smear_context *ctx;
-#include "display.h"            /* SCREEN, display_begin() */
+#include "display.h"            /* SCREEN_WIDTH, _HEIGHT, _FORMAT, _BANDS where it is 2; display_begin() */
+#ifndef SCREEN_BANDS
+#define SCREEN_BANDS 1
+#endif
 
-static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
+/* For 32 triangles and 4 draws. */
+static uint64_t memory[SMEAR_MEMORY(SCREEN_WIDTH, SCREEN_HEIGHT, 32, 4, SCREEN_FORMAT)
+                       + (SCREEN_BANDS - 1) * SMEAR_MEMORY_BAND(SCREEN_WIDTH, SCREEN_HEIGHT, SCREEN_FORMAT)];
 static const int16_t corner[] = { -1, -1, -1,  1, -1, -1,  1, 1, -1,  -1, 1, -1,  -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1 };
 static const uint16_t side[] = {                /* counter-clockwise seen from outside */
     4, 5, 6,  4, 6, 7,  1, 0, 3,  1, 3, 2,  5, 1, 2,  5, 2, 6,  0, 4, 7,  0, 7, 3,  7, 6, 2,  7, 2, 3,  0, 1, 5,  0, 5, 4
 };
-static smear_mesh cube;                         /* all zero: the default of every field */
+static smear_desc desc;                         /* all zero: the default of every field */
+static smear_mesh cube;
 static smear_camera camera;
 static smear_frame frame;
 static smear_draw draw;
@@ -20,7 +25,12 @@ static smear_draw draw;
 /* Once: the display, then the library. Returns SMEAR_OK or what smear_error_text() explains. */
 static int cube_begin(void)
 {
-    smear_desc desc = SMEAR_DESC(SCREEN);
+    desc.width = SCREEN_WIDTH;
+    desc.height = SCREEN_HEIGHT;
+    desc.max_triangles = 32;
+    desc.max_draws = 4;
+    desc.format = SCREEN_FORMAT;
+    desc.bands = SCREEN_BANDS;
     display_begin(&desc);
     cube.position = corner;
     cube.vertex_count = 8;

@@ -7,7 +7,10 @@
 #include <freertos/FreeRTOS.h>
 #include <freertos/task.h>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED      /* two bands */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
+#define SCREEN_BANDS 2
 #define PIN_CLOCK 12
 #define PIN_DATA 11
 #define PIN_SELECT 10

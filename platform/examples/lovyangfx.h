@@ -3,7 +3,10 @@
 #include <LovyanGFX.hpp>
 #include <LGFX_AUTODETECT.hpp>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED      /* two bands */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
+#define SCREEN_BANDS 2
 
 static LGFX lcd;
 static bool sending;

@@ -3,11 +3,11 @@
 #include <lvgl.h>
 #include <string.h>
 
-#define CANVAS_WIDTH 240
-#define CANVAS_HEIGHT 240
-#define SCREEN CANVAS_WIDTH, CANVAS_HEIGHT, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565       /* one band, in LVGL's order */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565     /* in LVGL's order */
 
-static uint16_t canvas_pixels[CANVAS_WIDTH * CANVAS_HEIGHT];
+static uint16_t canvas_pixels[SCREEN_WIDTH * SCREEN_HEIGHT];
 static lv_obj_t *canvas;
 
 static int display_flush(void *user, const smear_band *band)
@@ -15,8 +15,8 @@ static int display_flush(void *user, const smear_band *band)
     const uint8_t *from = (const uint8_t *)band->pixels;
     (void)user;
     for (int y = band->y; y < band->y + band->height; y++, from += band->stride)
-        memcpy(canvas_pixels + y * CANVAS_WIDTH + band->x, from, 2u * (unsigned)band->width);
-    if (band->y + band->height == CANVAS_HEIGHT)
+        memcpy(canvas_pixels + y * SCREEN_WIDTH + band->x, from, 2u * (unsigned)band->width);
+    if (band->y + band->height == SCREEN_HEIGHT)
         lv_obj_invalidate(canvas);      /* the frame is whole: LVGL shows it at its next refresh */
     return SMEAR_OK;
 }
@@ -24,6 +24,6 @@ static int display_flush(void *user, const smear_band *band)
 static void display_begin(smear_desc *desc)
 {
     canvas = lv_canvas_create(lv_screen_active());
-    lv_canvas_set_buffer(canvas, canvas_pixels, CANVAS_WIDTH, CANVAS_HEIGHT, LV_COLOR_FORMAT_RGB565);
+    lv_canvas_set_buffer(canvas, canvas_pixels, SCREEN_WIDTH, SCREEN_HEIGHT, LV_COLOR_FORMAT_RGB565);
     desc->flush = display_flush;
 }

@@ -5,7 +5,9 @@
 #include <hardware/spi.h>
 #include <pico/time.h>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 #define PIN_SELECT 17
 #define PIN_CLOCK 18
 #define PIN_DATA 19

@@ -2,7 +2,10 @@
 /* stm32_hal.h - smear on an ST7789 at SPI1 of an STM32, by DMA. Clocks, pins and DMA are CubeMX's, which writes main.h. */
 #include "main.h"
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED      /* two bands */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
+#define SCREEN_BANDS 2
 
 extern SPI_HandleTypeDef hspi1;
 static volatile bool sending;

@@ -2,7 +2,9 @@
 /* tft_espi.h - smear on a display of TFT_eSPI, whose pins User_Setup.h names. */
 #include <TFT_eSPI.h>
 
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED      /* one band */
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static TFT_eSPI tft;
 

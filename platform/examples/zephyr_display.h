@@ -4,7 +4,9 @@
 #include <zephyr/drivers/display.h>
 
 /* One band. SPI panels take the high byte first: PIXEL_FORMAT_RGB_565 of Zephyr 4.2 and before, then ..._RGB_565X. */
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static const struct device *const display = DEVICE_DT_GET(DT_CHOSEN(zephyr_display));
 

@@ -4,17 +4,15 @@
 #include "board.h"
 
 #include <smear.h>
-#include <smear_memory.h>
 
 #ifndef BOARD_CORES
 #define BOARD_CORES 1
 #endif
 
-/* 240x240 pixels, 64 triangles, 4 draws; the default method, tile, reach, strip and band_rows; two bands, and the
- * cores. */
-#define SCREEN 240, 240, 64, 4, 0, 0, 0, 0, 0, 2, SMEAR_RGB565_SWAPPED, BOARD_CORES
+enum { WIDTH = 240, HEIGHT = 240, TRIANGLES = 64, DRAWS = 4, FORMAT = SMEAR_RGB565_SWAPPED };
 
-static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
+static uint64_t memory[SMEAR_MEMORY(WIDTH, HEIGHT, TRIANGLES, DRAWS, FORMAT) + SMEAR_MEMORY_BAND(WIDTH, HEIGHT, FORMAT)
+                       + (BOARD_CORES - 1) * SMEAR_MEMORY_WORKER(WIDTH, HEIGHT)];
 
 static struct {
     smear_context *ctx;
@@ -90,9 +88,8 @@ static int draw(uint32_t number)
 
 int main(void)
 {
-    smear_desc desc = SMEAR_DESC(SCREEN);
-    desc.flush = flush;
-    desc.idle = idle;
+    const smear_desc desc = { .width = WIDTH, .height = HEIGHT, .max_triangles = TRIANGLES, .max_draws = DRAWS,
+                              .format = FORMAT, .bands = 2, .workers = BOARD_CORES, .flush = flush, .idle = idle };
     if (smear_init(&bus.ctx, &desc, memory, sizeof memory) != SMEAR_OK)
         return 1;
 #if BOARD_CORES > 1

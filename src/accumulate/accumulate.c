@@ -22,7 +22,6 @@ struct smear_sums {
     int32_t top;                /* the first pixel row that they hold */
 };
 
-SMEAR_STATIC_ASSERT(sizeof(struct smear_sums) <= SMEAR_SUMMING_BYTES, "SMEAR_SUMMING_BYTES");
 
 void smear_accumulate_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {

@@ -11,9 +11,6 @@
 
 #if SMEAR_WITH_LAYERS
 
-SMEAR_STATIC_ASSERT(sizeof(struct smear_group) <= SMEAR_GROUP_BYTES, "SMEAR_GROUP_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_layer_setting) <= SMEAR_LAYER_BYTES, "SMEAR_LAYER_BYTES");
-SMEAR_STATIC_ASSERT(sizeof(struct smear_layers) <= SMEAR_LAYERS_BYTES, "SMEAR_LAYERS_BYTES");
 
 static void lay_out_layer_rows(struct smear_layer_rows *r, struct smear_arena *a, const smear_desc *d)
 {

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* orbit.c - a crate that turns, seen from a camera that goes around it. Writes the last frame as a PPM. C99, C++11. */
+#include <smear.h>
 #include <smear_math.h>
-#include <smear_memory.h>
 #include <stdio.h>
 
-#define SCREEN 160, 120, 64, 4          /* width, height, triangles, draws */
-enum { R = 1024, T = 32767, LAST = 23 };
+enum { WIDTH = 160, HEIGHT = 120, TRIANGLES = 64, DRAWS = 4, R = 1024, T = 32767, LAST = 23 };
 /* Four corners and two triangles on each side of a cube, counter-clockwise seen from outside. */
 static const int16_t corner[] = {
     -R, -R, R,  R, -R, R,  R, R, R,  -R, R, R,    R, -R, -R,  -R, -R, -R,  -R, R, -R,  R, R, -R,
@@ -21,7 +20,7 @@ static uint16_t planks[32 * 32];
 static const smear_mesh crate = { corner, 0, corner_uv, 0, 0, side, 12, 24, 10, 0, 0, { 0, 0, 0 }, { 0 } };
 static const smear_texture texture = { planks, 0, 32, 32, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP, 0 };
 static const smear_material wood = { &texture, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0 };
-static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
+static uint64_t memory[SMEAR_MEMORY(WIDTH, HEIGHT, TRIANGLES, DRAWS)];
 
 static int flush(void *frame, const smear_band *band)   /* takes finished rows, top to bottom: 0x00RRGGBB */
 {
@@ -35,12 +34,13 @@ int main(void)
 {
     int frame = 0;
     smear_context *ctx;
-    smear_desc desc = SMEAR_DESC(SCREEN);
     smear_camera camera = smear_perspective(SMEAR_DEGREES(40), SMEAR_Q16(0.5), 0);
-    static smear_frame view;            /* static: what is not set is 0, the default */
+    static smear_desc desc;             /* static: what is not set is 0, the default */
+    static smear_frame view;
     static smear_draw draw;
     for (int i = 0; i < 32 * 32; i++)   /* two tones of wood with dark gaps, red on top of green and blue */
         planks[i] = i / 32 % 8 == 0 || i % 32 % 31 == 0 ? 0x4186 : i / 256 % 2 ? 0xcc88 : 0xb405;
+    desc.width = WIDTH, desc.height = HEIGHT, desc.max_triangles = TRIANGLES, desc.max_draws = DRAWS;
     desc.flush = flush, desc.user = &frame;
     view.camera = &camera, view.clear = 0x203040;
     draw.id = 1, draw.mesh = &crate, draw.material = &wood;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // orbit.cpp - orbit.c by smear.hpp: the same picture.
 #include <smear.hpp>
-#include <smear_memory.h>
 #include <cstdio>
 
-#define SCREEN 160, 120, 64, 4          // width, height, triangles, draws
-enum { R = 1024, T = 32767, LAST = 23 };
+enum { WIDTH = 160, HEIGHT = 120, TRIANGLES = 64, DRAWS = 4, R = 1024, T = 32767, LAST = 23 };
 // Four corners and two triangles on each side of a cube, counter-clockwise seen from outside.
 static const int16_t corner[] = {
     -R, -R, R,  R, -R, R,  R, R, R,  -R, R, R,    R, -R, -R,  -R, -R, -R,  -R, R, -R,  R, R, -R,
@@ -21,7 +19,7 @@ static uint16_t planks[32 * 32];
 static const smear_mesh crate = { corner, nullptr, corner_uv, nullptr, nullptr, side, 12, 24, 10, 0, 0, { 0, 0, 0 }, { 0 } };
 static const smear_texture texture = { planks, nullptr, 32, 32, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP, 0 };
 static const smear_material wood = { &texture, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0 };
-static smear::renderer<SMEAR_MEMORY(SCREEN)> screen;
+static smear::renderer<SMEAR_MEMORY(WIDTH, HEIGHT, TRIANGLES, DRAWS)> screen;
 
 static int flush(void *frame, const smear_band *band)   // takes finished rows, top to bottom: 0x00RRGGBB
 {
@@ -36,7 +34,11 @@ int main()
     for (int i = 0; i < 32 * 32; i++)   // two tones of wood with dark gaps, red on top of green and blue
         planks[i] = i / 32 % 8 == 0 || i % 32 % 31 == 0 ? 0x4186 : i / 256 % 2 ? 0xcc88 : 0xb405;
     int frame = 0;
-    smear_desc desc = SMEAR_DESC(SCREEN);
+    smear_desc desc = smear_desc();
+    desc.width = WIDTH;
+    desc.height = HEIGHT;
+    desc.max_triangles = TRIANGLES;
+    desc.max_draws = DRAWS;
     desc.flush = flush;
     desc.user = &frame;
     int error = screen.init(desc);

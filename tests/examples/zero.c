@@ -4,7 +4,6 @@
  * SMEAR_XRGB8888 was left out. target_switches.sh builds it with every switch off; the library is given to it. */
 #include <smear.h>
 #include <smear_math.h>
-#include <smear_memory.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -45,7 +44,7 @@ static int draw(unsigned methods, int method)
     desc.width = WIDTH, desc.height = HEIGHT, desc.flush = flush;
     desc.format = (uint8_t)format;
     desc.methods = (uint16_t)methods;
-    if (methods == 0 && smear_memory_size(&desc) > SMEAR_MEMORY(WIDTH, HEIGHT, 0, 0, 0, 0, 0, 0, 0, 0, format))
+    if (methods == 0 && smear_memory_size(&desc) > 8 * SMEAR_MEMORY(WIDTH, HEIGHT, 0, 0, format))
         return fails("SMEAR_MEMORY is too little", SMEAR_OK);
     int result = smear_init(&ctx, &desc, memory, sizeof memory);
     if (result != SMEAR_OK)

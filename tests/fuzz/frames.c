@@ -163,7 +163,7 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     require(r->block != NULL, "out of memory");
     if (__msan_check_mem_is_initialized == NULL)
         memset(memory, 0xa5, bytes);
-    require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY, "a byte too little is taken");
+    require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == -(int)bytes, "a byte too little is taken");
     require(smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK, "smear_init fails");
     r->pitch = pitch_of(desc);
     r->rows = rows_of(desc, lines_of(desc));

@@ -6,7 +6,7 @@
 #include "model/blob.h"
 #include "base/crc32.h"
 
-#include <smear_memory.h>
+#include <smear.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,12 +30,10 @@ static int swallow(void *user, const smear_band *band)
 
 static void draw(smear_actor *actor, uint8_t method)
 {
-#define SCREEN WIDTH, HEIGHT, 300, MAX_DRAWS, SMEAR_SET(SMEAR_RECONSTRUCT), 0, 8, 0, 0, 0, SMEAR_RGB565
-    static uint64_t memory[SMEAR_MEMORY_WORDS(SCREEN)];
+    static uint64_t memory[1 << 16];
     uint8_t sum = 0;
-    smear_desc desc = SMEAR_DESC(SCREEN);
-    desc.flush = swallow;
-    desc.user = &sum;
+    const smear_desc desc = { .width = WIDTH, .height = HEIGHT, .max_triangles = 300, .max_draws = MAX_DRAWS, .reach = 8,
+                              .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .format = SMEAR_RGB565, .flush = swallow, .user = &sum };
     const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 12 };
     smear_context *ctx;
     require(smear_init(&ctx, &desc, memory, sizeof memory) == SMEAR_OK);

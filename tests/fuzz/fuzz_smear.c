@@ -412,7 +412,7 @@ static bool rig_open(struct rig *r, struct pool *p, const smear_desc *desc, bool
     memset(memory, 0xa5, bytes);
     if (desc->reuse.buffer_age)
         r->shown = pool_take(p, pitch_of(desc) * rows_of(desc, desc->height));
-    require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == SMEAR_ERR_MEMORY);
+    require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == -(int)bytes);
     return smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK;
 }
 

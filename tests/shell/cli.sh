@@ -660,6 +660,15 @@ claim "info for a board" works info builtin:suite/pan --board rp2040
 claim "info names the board's memory" out_has '^  auto at 240x240 takes [0-9]* bytes of 204800$'
 run info builtin:suite/pan --board fridge
 claim "info knows no such board" has_failed 2 --board
+claim "info of a desc" works info --desc width=240,height=240,methods=auto+none,format=rgb565be,bands=2,tile=8,strip=8
+claim "prints the array" out_has '^static uint64_t memory\[[0-9]*\];    /. [0-9]* bytes'
+claim "another desc takes another" works info --desc width=240,height=240,methods=none,reuse.one_pose=1,display.dither=blue
+usage --desc info --desc width=240
+usage --desc info --desc width=240,height=240,tiles=8
+usage --desc info --desc width=240,height=240,methods=blur
+usage --desc info --desc width=240,height=240,tile=5
+usage --desc info --desc height=240
+usage info info --desc width=240,height=240 "$plate"
 claim "the built-in scenes" works info builtin:
 claim "are listed" out_has '^builtin:demo/race '
 usage info info

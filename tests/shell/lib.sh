@@ -91,7 +91,8 @@ has_failed() {
 
 # Linker options that keep all functions of the interface.
 interface() {
-    sed -n 's/^[a-z].*[ *]\(smear_[a-z0-9_]*\)(.*/-u \1/p' include/smear.h include/smear_model.h | grep -v '_fn$'
+    sed -n 's/^[a-z].*[ *]\(smear_[a-z0-9_]*\)(.*/-u \1/p' include/smear.h include/smear_methods.h include/smear_stats.h \
+        include/smear_model.h | grep -v '_fn$'
 }
 
 # Names of the switches of smear_config.h that leave one thing out.

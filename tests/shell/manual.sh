@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 # manual.sh SMEAR LIB FOLDER - the manual, include/README.md: what is in its blocks of C is compiled as C99 and as C++11
 # and run, in order; its block of C++ is compiled; and every public function, field, constant and macro is named in it, functions and
-# fields of smear.h, smear_math.h and smear_overlay.h, and functions of smear_model.h, in a block. That a field is set to 0 shows
-# nothing of it.
+# fields of smear.h, smear_methods.h, smear_stats.h, smear_math.h and smear_overlay.h, and functions of smear_model.h, in a block.
+# That a field is set to 0 shows nothing of it.
 #
-# A block ```c file stands outside of functions; a block ```c is the inside of one, after which `result` must be SMEAR_OK.
+# A block ```c file stands outside of functions; a block ```c is the inside of one, after which `result` must be SMEAR_OK, and what
+# tests/data/manual_checks.txt says must be true: a line has words of a block, =>, and an expression.
 set -eu
 smear=$1 lib=$2 base=$3
 page=include/README.md
@@ -22,12 +23,33 @@ mkdir -p "$base"
     od -An -v -tu1 "$base/arm.smr" | sed 's/  */,/g; s/^,//; s/$/,/'
     echo '} };'
     echo '#define arm_file (arm_blob.bytes)'
-    awk -v page=$page '
+    awk -v page=$page -v checks=tests/data/manual_checks.txt '
+        BEGIN { while ((getline line <checks) > 0) {
+            at = index(line, " => ")
+            words[++known] = substr(line, 1, at - 1)
+            check[known] = substr(line, at + 4)
+        } }
         /^```c file$/ { on = 1; printf "#line %d \"%s\"\n", NR + 1, page; next }
         /^```c$/ { on = 2; names[++count] = NR + 1; printf "static void lines_%d(void)\n{\n#line %d \"%s\"\n", NR + 1, NR + 1, page; next }
-        /^```/ { if (on == 2) print "}"; on = 0; next }
-        on { print }
+        /^```/ {
+            for (i = 1; on == 2 && i <= known; i++)
+                if (i in due) {
+                    printf "if (result == SMEAR_OK && !(%s)) {\nfprintf(stderr, \"%%s\\n\", \"%s\");\nresult = -1;\n}\n", check[i], words[i]
+                    delete due[i]
+                    used[i]++
+                }
+            if (on == 2) print "}"
+            on = 0
+            next
+        }
+        on {
+            print
+            for (i = 1; on == 2 && i <= known; i++)
+                if (index($0, words[i])) due[i] = 1
+        }
         END {
+            for (i = 1; i <= known; i++)
+                if (used[i] != 1) printf "#error %s: in no block, or in two\n", words[i]
             printf "int main(void)\n{\n"
             for (i = 1; i <= count; i++)
                 printf "    lines_%d();\n    if (result != SMEAR_OK)\n        return fprintf(stderr, \"%s:%d: %%s\\n\", smear_error_text(result)), 1;\n", \
@@ -112,7 +134,8 @@ check() { # KIND NAME PATTERN FILE
     grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
 }
 known=0
-for header in include/smear.h include/smear_math.h include/smear_overlay.h include/smear_model.h include/smear_memory.h; do
+for header in include/smear.h include/smear_math.h include/smear_overlay.h include/smear_model.h include/smear_memory.h \
+    include/smear_methods.h include/smear_stats.h; do
     names $header >"$base/names"
     known=$((known + $(wc -l <"$base/names")))
     while read -r kind name; do
@@ -120,10 +143,12 @@ for header in include/smear.h include/smear_math.h include/smear_overlay.h inclu
         # Fields of smear_point_place are the library's own.
         field:length:*overlay.h | field:gain:*overlay.h | field:along_[xy]:*overlay.h | field:[xy][01]:*overlay.h) ;;
         field:depth:*overlay.h | field:next:*overlay.h) ;;
-        *_ | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:* | *:smear_desc_of:*) ;;
+        *_ | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:*) ;;
         function:*) check "$kind" "$name" "\\b$name(" "$base/code" ;;
-        field:*:include/smear.h | field:*:include/smear_math.h | field:*:include/smear_overlay.h) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
-        *:include/smear.h | *:include/smear_overlay.h) check "$kind" "$name" "\\b$name\\b" $page ;;
+        field:*_model.h | field:*_memory.h) ;;
+        field:*) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
+        *_math.h | *_model.h | *_memory.h) ;;
+        *) check "$kind" "$name" "\\b$name\\b" $page ;;
         esac
     done <"$base/names"
 done

@@ -209,6 +209,9 @@ static void test_every_number_has_a_sentence(void)
     }
     CHECK_EQ(smear_error_kind(SMEAR_ERR_FULL), SMEAR_ERR_FULL);
     CHECK_EQ(smear_error_kind(-42), -42);
+    CHECK_EQ(smear_error_kind(SMEAR_ERR_NEEDS - 1), SMEAR_ERR_MEMORY);
+    CHECK(strncmp(smear_error_text(-5000), "memory: too little", 18) == 0);
+    CHECK(strcmp(smear_error_text(SMEAR_ERR_NEEDS + 1), "unknown error") == 0);
 }
 
 void suite_errors(void)

@@ -9,7 +9,7 @@
 #include "model/skin.h"
 #include "tests/test.h"
 
-#include <smear_memory.h>
+#include <smear.h>
 
 void suite_anim(void);
 
@@ -550,16 +550,13 @@ static int count_bytes(void *user, const smear_band *band)
     return 0;
 }
 
-#define SCREEN 48, 32, 100, 8, SMEAR_SET(SMEAR_RECONSTRUCT), 0, 8, 0, 0, 0, SMEAR_L8
-static uint64_t frame_memory[SMEAR_MEMORY_WORDS(SCREEN)];
+static uint64_t frame_memory[2738];        /* by `smear info --desc` */
 
 static void test_a_converted_model_is_drawn(void)
 {
     uint32_t bytes = 0;
-    smear_desc desc = SMEAR_DESC(SCREEN);
-    desc.debug.crc = 1;
-    desc.flush = count_bytes;
-    desc.user = &bytes;
+    const smear_desc desc = { .width = 48, .height = 32, .max_triangles = 100, .max_draws = 8, .reach = 8, .format = SMEAR_L8,
+                              .methods = SMEAR_SET(SMEAR_RECONSTRUCT), .debug = { .crc = 1 }, .flush = count_bytes, .user = &bytes };
     const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 15 };
     smear_transform place = SMEAR_IDENTITY;
     smear_context *ctx;

@@ -223,6 +223,7 @@ static const char *const compare_help[] = {
 
 static const char *const info_help[] = {
     "smear info SCENE [--board NAME] [--outside]\n"
+    "smear info --desc FIELD=VALUE,...\n"
     "\n"
     "Prints what is in a .glb, .gltf or .obj file or in builtin:NAME: nodes, clips, cameras,\n"
     "materials, textures, meshes, bounds, and the memory a device needs for its frame at the\n"
@@ -231,7 +232,10 @@ static const char *const info_help[] = {
     "\n"
     "smear info builtin: lists the built-in scenes.\n"
     "--board: what it takes of the memory there is on that board, too (smear help view lists boards).\n"
-    "--outside: files that SCENE names may lie outside of its folder.\n",
+    "--outside: files that SCENE names may lie outside of its folder.\n"
+    "--desc: the array that a smear_desc of these fields takes; what is left out is 0, the default. Names\n"
+    "of methods (joined by +), formats and dither are those of render, accumulate_bands is one more:\n"
+    "    smear info --desc width=240,height=240,methods=auto+none,format=rgb565be,bands=2\n",
     NULL
 };
 

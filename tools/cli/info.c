@@ -2,6 +2,7 @@
 /* info.c - `smear info`: what is in a scene. */
 #include "tools/cli/commands.h"
 
+#include "tools/cli/desc.h"
 #include "tools/options/arguments.h"
 #include "tools/player/memory.h"
 #include "tools/options/say.h"
@@ -30,7 +31,18 @@ static const char *read_board(void *to, const char *value)
     return info_board != NULL ? NULL : "is no board (smear help view lists them)";
 }
 
-static const struct option table[] = { { "--outside", false, read_outside }, { "--board", true, read_board }, { NULL, false, NULL } };
+/* What --desc says; without a width it was not given. */
+static smear_desc info_desc;
+
+static const char *read_desc(void *to, const char *value)
+{
+    (void)to;
+    const char *wrong = desc_read(&info_desc, value);
+    return wrong == NULL && info_desc.width == 0 ? "needs a width" : wrong;
+}
+
+static const struct option table[] = { { "--outside", false, read_outside }, { "--board", true, read_board },
+                                       { "--desc", true, read_desc }, { NULL, false, NULL } };
 
 /* ------------------------------------------------------------------ a model's parts */
 
@@ -287,11 +299,16 @@ int command_info(int count, char **text)
     const char *name;
     bool wants_help;
     info_board = NULL;
+    info_desc = (smear_desc){ 0 };
     int status = arguments_read(count, text, table, &view, &name, 1, &wants_help);
     if (status == STATUS_OK && wants_help)
         return help_print("info");
-    if (status == STATUS_OK && name == NULL)
-        status = say_bad_usage("info", "needs a scene (smear help info)");
+    if (status == STATUS_OK && info_desc.width != 0 && name == NULL) {
+        const char *wrong = desc_print_memory(&info_desc);
+        return wrong == NULL ? STATUS_OK : say_bad_usage("--desc", "%s", wrong);
+    }
+    if (status == STATUS_OK && (name == NULL || info_desc.width != 0))
+        status = say_bad_usage("info", "needs a scene or --desc (smear help info)");
     if (status == STATUS_OK && strcmp(name, "builtin:") == 0)
         return list_builtin();
     if (status == STATUS_OK)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # dist.sh SINGLE-TOOL OUT ROOM...
-# Writes the forms in which people take a library: OUT/single (smear.c, smear.h and three small headers), and
+# Writes the forms in which people take a library: OUT/single (smear.c, smear.h and two small headers), and
 # OUT/FORM/smear for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr and pico-sdk, each with its manifests and examples, and
 # an archive of each, OUT/smear-VERSION-FORM.tar.gz or .zip, the same bytes from the same sources. ROOM... are the
 # folders of src/ and src/ itself, the lowest first. URL: where the project lives, for manifests. FORMS=single: only that one.
@@ -69,8 +69,9 @@ kconfig() {
 mkdir -p "$out/single"
 # shellcheck disable=SC2086
 "$tool" SOURCE "$out/single/smear.c" $headers $sources
-"$tool" HEADER "$out/single/smear.h" include/smear_config.h include/smear.h include/smear_overlay.h include/smear_model.h
-cp include/smear_memory.h include/smear_math.h include/smear.hpp LICENSE "$out/single"
+"$tool" HEADER "$out/single/smear.h" include/smear.h include/smear_overlay.h include/smear_model.h \
+    include/smear_config.h include/smear_methods.h include/smear_stats.h include/smear_memory.h
+cp include/smear_math.h include/smear.hpp LICENSE "$out/single"
 [ "${FORMS:-}" != single ] || exit 0
 
 tree cmake

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* single.c - the library as one source file and one header.
  *
- *     single HEADER OUT.h FILE...     headers one after the other, without includes of each other
+ *     single HEADER OUT.h FILE...     headers one after the other, each where another includes it first
  *     single SOURCE OUT.c FILE...     headers and sources one after the other, bottom layer first
  *
  * Names that are local to a source and occur elsewhere, too (in a header, or local to another source), get
@@ -19,7 +19,7 @@ struct file {
     const char *path;
     char stem[NAME_BYTES];
     char *text;
-    bool is_source;
+    bool is_source, is_written;
 };
 
 /* A name of file scope. */
@@ -233,17 +233,34 @@ static const char *skip_include(const char *p)
     return *p == '\n' ? p + 1 : p;
 }
 
+/* Returns the file that a line includes, or -1. */
+static int included(const char *line)
+{
+    const char *name = strchr(line, '"') + 1;
+    const size_t length = strcspn(name, "\"");
+    for (int i = 0; i < file_count; i++) {
+        const char *slash = strrchr(files[i].path, '/'), *own = slash != NULL ? slash + 1 : files[i].path;
+        if (strlen(own) == length && memcmp(own, name, length) == 0)
+            return i;
+    }
+    return -1;
+}
+
 static void write_file(FILE *out, int file, bool renames)
 {
     const char *skipped;
     int struct_depth = 0, depth = 0;                /* of the braces of a struct's definition */
     struct token before = { END, "", 0 }, before_that = before;
     bool line_start = true;
+    files[file].is_written = true;
     fprintf(out, "\n/* ==================================================================== %s */\n\n",
             files[file].path);
     for (const char *p = files[file].text; *p != '\0';) {
         struct token t = next_token(p);
         if (line_start && (skipped = skip_include(p)) != NULL) {
+            const int other = renames ? -1 : included(p);
+            if (other >= 0 && !files[other].is_written)
+                write_file(out, other, renames);
             p = skipped;
             continue;
         }
@@ -326,9 +343,8 @@ static void write_head(FILE *out, bool is_source)
     fputs(is_source ? "/* SPDX-License-Identifier: MIT */\n"
                       "/* smear.c - the whole library, put together by `make dist` from the files "
                       "named below. C99 or later, or C++11.\n"
-                      " * Needs smear.h and smear_memory.h beside it, and memcpy and memset. */\n"
-                      "#include \"smear.h\"\n"
-                      "#include \"smear_memory.h\"\n\n"
+                      " * Needs smear.h beside it, and memcpy and memset. */\n"
+                      "#include \"smear.h\"\n\n"
                       "#ifdef __clang__       /* not every build needs every helper */\n"
                       "#pragma clang diagnostic ignored \"-Wunused-function\"\n"
                       "#endif\n"
@@ -395,7 +411,8 @@ int main(int argc, char **argv)
         fail(argv[2], "cannot be written");
     write_head(out, is_source);
     for (int i = 0; i < file_count; i++)
-        write_file(out, i, files[i].is_source || is_source);
+        if (!files[i].is_written)
+            write_file(out, i, files[i].is_source || is_source);
     if (fclose(out) != 0)
         fail(argv[2], "cannot be written");
     return 0;

@@ -344,33 +344,34 @@ static const char *read_edges(void *to, const char *value)
     return NULL;
 }
 
-/* In the order of smear_format. */
-static const char *const format_names[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
+const char *const option_formats[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
                                             "l8", "l4", "l1", "l1pages", NULL };
 
 static const char *read_format(void *to, const char *value)
 {
-    int found = read_name(value, format_names);
+    int found = read_name(value, option_formats);
     if (found < 0)
         return "needs rgb888, rgb565, rgb565be, rgb555, rgb332, l8, l4, l1 or l1pages";
     ((struct render_options *)to)->format = (smear_format)found;
     return NULL;
 }
 
+const char *const option_dithers[] = { "ordered", "none", "blue", "diffuse", NULL };
+
 static const char *read_dither(void *to, const char *value)
 {
-    static const char *const names[] = { "ordered", "none", "blue", "diffuse", NULL };  /* as smear_dither */
-    int found = read_name(value, names);
+    int found = read_name(value, option_dithers);
     if (found < 0)
         return "needs none, ordered, blue or diffuse";
     ((struct render_options *)to)->dither = (smear_dither)found;
     return NULL;
 }
 
+const char *const option_doubles[] = { "1x1", "2x1", "1x2", "2x2", NULL };
+
 static const char *read_double(void *to, const char *value)
 {
-    static const char *const names[] = { "1x1", "2x1", "1x2", "2x2", NULL };    /* as smear_doubled */
-    int found = read_name(value, names);
+    int found = read_name(value, option_doubles);
     if (found < 0)
         return "needs 1x1, 2x1, 1x2 or 2x2";
     ((struct render_options *)to)->doubled = (smear_doubled)found;
@@ -628,5 +629,5 @@ int options_reach(const struct render_options *o, int height, int *reach, int *t
 
 const char *options_format_name(smear_format format)
 {
-    return format_names[format];
+    return option_formats[format];
 }

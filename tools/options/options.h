@@ -14,6 +14,9 @@
 
 enum { OPTIONS_MAX_MOTIONS = 256, OPTIONS_MAX_CUTS = 256 };
 
+/* Names of smear_format, smear_dither and smear_doubled in their order, null last. */
+extern const char *const option_formats[], *const option_dithers[], *const option_doubles[];
+
 struct render_options {
     const char *scene;
     struct source_view view;

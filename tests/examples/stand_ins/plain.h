@@ -3,9 +3,13 @@
 #include "panel.h"
 
 #ifdef SMALL_PANEL
-#define SCREEN 128, 64, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_L1_PAGES
+#define SCREEN_WIDTH 128
+#define SCREEN_HEIGHT 64
+#define SCREEN_FORMAT SMEAR_L1_PAGES
 #else
-#define SCREEN 240, 240, 32, 4, 0, 0, 0, 0, 0, 0, SMEAR_RGB565_SWAPPED
+#define SCREEN_WIDTH 240
+#define SCREEN_HEIGHT 240
+#define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 #endif
 
 static int display_flush(void *user, const smear_band *band)
