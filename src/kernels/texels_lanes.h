@@ -64,14 +64,16 @@ SMEAR_INLINE smear_v8u texels_gather(const void *texels, smear_v8u a, smear_v8u 
 /* Eight pixels become texels where `hidden` is 0. */
 SMEAR_INLINE void texels_eight(void *color, const void *texels, smear_v4i low, smear_v4i high, smear_v8i hidden, enum texel_kind kind)
 {
-    const smear_v8u a = (smear_v8u)low, b = (smear_v8u)high;
     if (kind == TEXELS_NARROW) {
-        v8i_store(color, v8i_choose(hidden, v8i_load(color), (smear_v8i)texels_gather(texels, a, b)));
+        v8i_store(color, v8i_choose(hidden, v8i_load(color), (smear_v8i)texels_gather(texels, (smear_v8u)low, (smear_v8u)high)));
         return;
     }
     const uint32_t *const t = texels;
     uint32_t *const out = color;
-    const smear_v4u first = { t[a[0]], t[a[2]], t[a[4]], t[a[6]] }, second = { t[b[0]], t[b[2]], t[b[4]], t[b[6]] };
+    const smear_v2u x = (smear_v2u)low, y = (smear_v2u)high;
+    const uint64_t p = x[0], q = x[1], r = y[0], l = y[1];      /* two indices each */
+    const smear_v4u first = { t[(uint32_t)p], t[p >> 32], t[(uint32_t)q], t[q >> 32] };
+    const smear_v4u second = { t[(uint32_t)r], t[r >> 32], t[(uint32_t)l], t[l >> 32] };
     v4u_store(out, v4u_choose(v4i_twice_low(hidden), v4u_load(out), first & TEXEL_COPIED));
     v4u_store(out + 4, v4u_choose(v4i_twice_high(hidden), v4u_load(out + 4), second & TEXEL_COPIED));
 }
