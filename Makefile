@@ -6,6 +6,15 @@ BUILD  := build/$(TARGET)
 
 .DEFAULT_GOAL := all
 
+# All cores compile, unless -j says otherwise. What `clean` removes is not built meanwhile.
+CORES := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+ifeq ($(MAKELEVEL)$(filter clean,$(MAKECMDGOALS)),0)
+MAKEFLAGS += -j$(CORES)
+endif
+# What scripts call make by, which then starts anew with all cores. A recipe that names the variable MAKE would run under -n, too.
+make := $(MAKE)
+of_make = MAKELEVEL= MAKEFLAGS="$(filter-out -j% --jobserver%,$(MAKEFLAGS))" MAKE="$(make)"
+
 # One line for each file that is made; V=1 shows the commands, -s nothing.
 ifeq ($(V),1)
 say =
@@ -99,9 +108,7 @@ LIB := $(if $(filter-out $(OWN),src/smear.c),build/host,$(BUILD))/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
 BIN := $(if $(SAN)$(CHECK)$(EXR)$(COVERAGE),$(BUILD),build)
 
-CORES = $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
-
-.PHONY: all cost-model host-display help demo readme-pictures check test bench chart chart-picture layers house tables clean
+.PHONY: all cost-model host-display help demo readme-pictures check test test-all bench chart chart-picture layers house tables clean
 ## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -151,21 +158,24 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 ## motion-blurred pictures and loops, in build/demo; ASSETS=FOLDER shows models from there, too
-demo:
-	$(MAKE) --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(CORES)) $(BIN)/smear-demo
+demo: $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(ASSETS),-) build/demo
 
 ## what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
 check:
-	MAKE="$(MAKE)" sh tests/check.sh
+	$(of_make) sh tests/all.sh check
 
-## every suite; names what it needs
+## what a change must pass, in under ten minutes: all suites of this machine, some of others; names what it needs
 test:
-	MAKE="$(MAKE)" sh tests/all.sh
+	$(of_make) sh tests/all.sh test
+
+## every suite there is
+test-all:
+	$(of_make) sh tests/all.sh all
 
 ## instructions per frame against other rasterizers (needs valgrind)
 bench: $(BIN)/smear-bench
-	MAKE="$(MAKE)" sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
+	$(of_make) sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
 
 ## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
 chart: $(BIN)/smear-bench
@@ -433,20 +443,24 @@ check-kernels: $(BUILD)/check_kernels
 $(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^
 
+# Of tests in C++ where a compiler of it is.
+with_cxx = $(if $(shell command -v $(CXX)),$1)
+
 # Each public header alone, as C99 and as C++11, and what is used of them; memory as a constant by both.
 STRICT := -Wall -Wextra -Wconversion -Wshadow -pedantic -Werror -Iinclude
 test-headers:
 	@mkdir -p $(BUILD)
 	for header in $(notdir $(wildcard include/*.h)); do \
 	    printf '#include <%s>\nextern int used;\n' $$header | $(CC) -std=c99 $(STRICT) -c -o $(BUILD)/header.o -x c - || exit 1; done
-	for header in $(notdir $(wildcard include/*.h include/*.hpp)); do \
-	    printf '#include <%s>\n' $$header | $(CXX) -std=c++11 $(STRICT) -c -o $(BUILD)/header.o -x c++ - || exit 1; done
 	$(CC) -std=c99 -Wall -Wextra -pedantic -Werror -Iinclude -c -o $(BUILD)/header_c99.o tests/unit/header.c
-	$(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c
 	$(CC) -std=c99 $(STRICT) -o $(BUILD)/memory_forms tests/examples/memory_forms.c
-	$(CXX) -std=c++11 $(STRICT) -o $(BUILD)/memory_forms_cxx -x c++ tests/examples/memory_forms.c
 	$(BUILD)/memory_forms > $(BUILD)/memory_forms.txt
-	$(BUILD)/memory_forms_cxx | cmp - $(BUILD)/memory_forms.txt
+	$(call with_cxx,set -e; \
+	    for header in $(notdir $(wildcard include/*.h include/*.hpp)); do \
+	        printf '#include <%s>\n' $$header | $(CXX) -std=c++11 $(STRICT) -c -o $(BUILD)/header.o -x c++ -; done; \
+	    $(CXX) -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -x c++ -c -o $(BUILD)/header_cxx.o tests/unit/header.c; \
+	    $(CXX) -std=c++11 $(STRICT) -o $(BUILD)/memory_forms_cxx -x c++ tests/examples/memory_forms.c; \
+	    $(BUILD)/memory_forms_cxx | cmp - $(BUILD)/memory_forms.txt)
 
 # Programs by the public headers alone, as C99, as C++11 and by smear.hpp: one picture, of more than a few colours.
 EXAMPLES := $(BUILD)/examples
@@ -454,18 +468,19 @@ test-examples: $(LIB)
 	@mkdir -p $(EXAMPLES)
 	[ $$(wc -l < tests/examples/orbit.c) -lt 60 ]
 	$(CC) -std=c99 -O1 $(STRICT) -o $(EXAMPLES)/orbit_c tests/examples/orbit.c $(LIB)
-	$(CXX) -std=c++11 -O1 $(STRICT) -o $(EXAMPLES)/orbit_cxx -x c++ tests/examples/orbit.c -x none $(LIB)
-	$(CXX) -std=c++11 -O1 -fno-exceptions -fno-rtti $(STRICT) -o $(EXAMPLES)/orbit_hpp tests/examples/orbit.cpp $(LIB)
-	for form in c cxx hpp; do $(EXAMPLES)/orbit_$$form > $(EXAMPLES)/$$form.ppm || exit 1; done
-	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/cxx.ppm
-	cmp $(EXAMPLES)/c.ppm $(EXAMPLES)/hpp.ppm
+	$(EXAMPLES)/orbit_c > $(EXAMPLES)/c.ppm
+	$(call with_cxx,set -e; \
+	    $(CXX) -std=c++11 -O1 $(STRICT) -o $(EXAMPLES)/orbit_cxx -x c++ tests/examples/orbit.c -x none $(LIB); \
+	    $(CXX) -std=c++11 -O1 -fno-exceptions -fno-rtti $(STRICT) -o $(EXAMPLES)/orbit_hpp tests/examples/orbit.cpp $(LIB); \
+	    for form in cxx hpp; do $(EXAMPLES)/orbit_$$form | cmp - $(EXAMPLES)/c.ppm; done)
 	[ $$(tail -c 57600 $(EXAMPLES)/c.ppm | od -An -v -tx1 -w3 | sort -u | wc -l) -gt 100 ]
 
 # flush() for other people's displays (platform/examples), on stand-ins of their headers: one picture on all panels.
 FLUSH_CXX := adafruit_gfx arduino_gfx lovyangfx tft_espi u8g2
 FLUSH_ALL := $(filter-out cube,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h)))
 test-flush: $(LIB)
-	MAKE="$(MAKE)" CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) $(FLUSH_ALL)
+	CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) \
+	    $(filter-out $(if $(call with_cxx,yes),,$(FLUSH_CXX)),$(FLUSH_ALL))
 
 test-tables: build/gentables
 	build/gentables | cmp - src/base/tables.c
@@ -473,7 +488,7 @@ test-tables: build/gentables
 .PHONY: test-manual
 # All of the manual is compiled and run, and no public name is missing in it.
 test-manual: $(LIB) $(BIN)/smear
-	CC="$(CC)" CXX="$(CXX)" sh tests/shell/manual.sh $(BIN)/smear $(LIB) $(BUILD)/manual
+	CC="$(CC)" CXX="$(call with_cxx,$(CXX))" sh tests/shell/manual.sh $(BIN)/smear $(LIB) $(BUILD)/manual
 
 # The program of the README, between its markers, and its picture; its table of memory; its length.
 README_LINES := 150
@@ -485,9 +500,10 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	test $$(wc -l < $(BUILD)/readme.c) -le 45
 	(cat $(BUILD)/readme.c; echo 'typedef char fits[sizeof memory <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
 	$(CC) -std=c99 -Iinclude -c -o $(BUILD)/readme_fits.o $(BUILD)/readme_fits.c
-	$(CXX) -x c++ -std=c++11 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -c -o $(BUILD)/readme_cxx.o $(BUILD)/readme.c
-	$(CXX) -o $(BUILD)/readme $(BUILD)/readme_cxx.o $(LIB)
-	$(BUILD)/readme | cmp - $(BUILD)/readme.ppm
+	$(call with_cxx,set -e; \
+	    $(CXX) -x c++ -std=c++11 -Wall -Wextra -Wno-unused-function -Werror -Iinclude -c -o $(BUILD)/readme_cxx.o $(BUILD)/readme.c; \
+	    $(CXX) -o $(BUILD)/readme $(BUILD)/readme_cxx.o $(LIB); \
+	    $(BUILD)/readme | cmp - $(BUILD)/readme.ppm)
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(BUILD)/first.png
 	cmp $(PICTURES)/first.png $(BUILD)/first.png || \
 	    { echo "$(PICTURES)/first.png is not what the first program draws: make readme-pictures" >&2; exit 1; }
@@ -525,13 +541,13 @@ failures-readme:
 
 ## measures the demo's frames per second on emulated machines, RATES="pico gba", and writes them into README.md
 rates-readme:
-	MAKE="$(MAKE)" sh platform/rates.sh $(or $(RATES),pico gba lm3s6965evb microbit) > build/rates.md
+	$(of_make) sh platform/rates.sh $(or $(RATES),pico gba lm3s6965evb microbit) > build/rates.md
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
 .PHONY: board-table
 ## measures what the demo costs on boards, by scene and method, BOARDS="pico gba", and writes it into platform/README.md
 board-table:
-	MAKE="$(MAKE)" sh platform/board_table.sh $(or $(BOARDS),pico gba lm3s6965evb raspi0) > build/boards.md
+	$(of_make) sh platform/board_table.sh $(or $(BOARDS),pico gba lm3s6965evb raspi0) > build/boards.md
 	awk -f platform/footprint_readme.awk platform/README.md > build/readme.md && mv build/readme.md platform/README.md
 
 # The program with its calls of the system wrapped: each can be made to fail.

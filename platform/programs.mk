@@ -172,14 +172,14 @@ print-run:
 
 ## flash, RAM and worst stack of the library on every target, and what each switch saves
 footprint:
-	MAKE="$(MAKE)" sh platform/footprint.sh $(FOOTPRINT)
-	MAKE="$(MAKE)" sh platform/footprint_switches.sh $(or $(FOOTPRINT_SETS),$(FOOTPRINT))
+	$(of_make) sh platform/footprint.sh $(FOOTPRINT)
+	$(of_make) sh platform/footprint_switches.sh $(or $(FOOTPRINT_SETS),$(FOOTPRINT))
 
 ## writes these tables into platform/README.md
 footprint-readme:
 	@mkdir -p build
-	MAKE="$(MAKE)" sh platform/footprint.sh > build/footprint.txt
-	MAKE="$(MAKE)" sh platform/footprint_switches.sh > build/switches.txt
+	$(of_make) sh platform/footprint.sh > build/footprint.txt
+	$(of_make) sh platform/footprint_switches.sh > build/switches.txt
 	awk -f platform/footprint_readme.awk platform/README.md > build/platform-readme.md
 	mv build/platform-readme.md platform/README.md
 
@@ -238,7 +238,7 @@ $(PROPS)/device_error: $(call host_objects,$(ERROR_SRC))
 .PHONY: device-chart
 ## speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"
 device-chart: $(PROPS)/device_error
-	MAKE="$(MAKE)" BLURS="$(BLURS)" sh platform/device_chart.sh build/device-chart $< $(TARGETS)
+	$(of_make) BLURS="$(BLURS)" sh platform/device_chart.sh build/device-chart $< $(TARGETS)
 
 # ---------------------------------------------------------------------- a model of one's own
 
@@ -317,8 +317,8 @@ stack-test:
 target-test: $(TARGET_TESTS:%=$(BUILD)/target_%$(EXE)) $(SMALL_LAYOUTS:%=target-test-%) $(RUN_NEEDS)
 	$(foreach test,$(TARGET_TESTS),$(RUN) $(BUILD)/target_$(test)$(EXE) &&) true
 
-# Everything at once fits the flash of a small board at -Os alone.
-$(SMALL_LAYOUTS:%=target-test-%): target-test-%:
+# Everything at once fits the flash of a small board at -Os alone. Tapes are made before, not by both makes.
+$(SMALL_LAYOUTS:%=target-test-%): target-test-%: $(TAPES)/small.c $(TAPES)/golden.c
 	$(MAKE) OPT=-Os BUILD=$(BUILD)-Os $(BUILD)-Os/target_golden-$*$(EXE)
 	$(RUN_$*) $(BUILD)-Os/target_golden-$*$(EXE)
 

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# dist_single.sh FOLDER: the one-file form, smear.c and its headers in FOLDER, compiles without a warning by all compilers of
+# dist_single.sh FOLDER [BUILD]: the one-file form, smear.c and its headers in FOLDER, compiles without a warning by all compilers of
 # this machine for Cortex-M, RISC-V and x86, in all standards of C and C++, with and without GCC's extensions, and draws the
-# golden frames wherever it can run. Compilers that are not installed are named.
+# golden frames wherever it can run. Compilers that are not installed are named. BUILD: golden frames by that one of one_file.sh
+# alone.
 set -u
 . "$(dirname "$0")/lib.sh"
 base=$PWD/build/dist-single-test
@@ -26,6 +27,24 @@ here() {
     return 1
 }
 absent=""
+
+# The program that plays golden frames, compiled once for each compiler of programs.
+# program OBJECTS COMPILER
+programs="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c build/tapes/golden.c"
+program() {
+    mkdir -p "$base/$1"
+    for source in $programs; do
+        # shellcheck disable=SC2086
+        $2 -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$single" -I. -c -o "$base/$1/$(echo "$source" | tr / _).o" "$source" || exit 1
+    done
+}
+
+if [ $# -gt 1 ]; then
+    program host "${CC:-cc}"
+    draws_one() { sh tests/shell/one_file.sh "$1" "$single/smear.c" "$base/one.o" && ${CC:-cc} -o "$base/one" "$base"/host/*.o "$base/one.o" && "$base/one"; }
+    claim "pictures: $2" draws_one "$2"
+    finish
+fi
 
 # ---------------------------------------------------------------------- code
 
@@ -94,17 +113,6 @@ no_extensions() {
 }
 
 # ---------------------------------------------------------------------- pictures
-
-# The program that plays them, compiled once for each compiler of programs.
-# program OBJECTS COMPILER
-programs="tests/target/target_golden.c platform/play.c platform/print.c platform/host/platform.c build/tapes/golden.c"
-program() {
-    mkdir -p "$base/$1"
-    for source in $programs; do
-        # shellcheck disable=SC2086
-        $2 -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I"$single" -I. -c -o "$base/$1/$(echo "$source" | tr / _).o" "$source" || exit 1
-    done
-}
 
 # draws NAME COMPILE-COMMAND [COMPILER-OF-THE-PROGRAM OBJECTS-OF-THE-PROGRAM [RUNNER]]: COMPILE is what one_file.sh builds, or
 # a compiler and its options

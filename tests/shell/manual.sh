@@ -10,7 +10,7 @@
 set -eu
 smear=$1 lib=$2 base=$3
 page=include/README.md
-cc=${CC:-cc} cxx=${CXX:-c++}
+cc=${CC:-cc} cxx=$CXX            # none: what is in C++ is left out
 mkdir -p "$base"
 "$smear" convert tests/data/arm.gltf --name arm -o "$base/arm.h" >/dev/null
 "$smear" convert tests/data/arm.gltf --name arm -o "$base/arm.smr" >/dev/null
@@ -63,8 +63,8 @@ strict="-O1 -Wall -Wextra -Werror -Wno-unused -Iinclude -I$base"
 # shellcheck disable=SC2086
 {
     $cc -std=c99 -Wno-missing-field-initializers $strict -o "$base/manual" "$base/manual.c" "$lib"
-    $cxx -x c++ -std=c++11 -Wno-missing-field-initializers $strict -c -o "$base/manual_cxx.o" "$base/manual.c"
-    $cxx -std=c++11 $strict -c -o "$base/manual_cpp.o" "$base/manual.cpp"
+    [ -z "$cxx" ] || $cxx -x c++ -std=c++11 -Wno-missing-field-initializers $strict -c -o "$base/manual_cxx.o" "$base/manual.c"
+    [ -z "$cxx" ] || $cxx -std=c++11 $strict -c -o "$base/manual_cpp.o" "$base/manual.cpp"
 }
 "$base/manual"
 

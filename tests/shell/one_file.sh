@@ -17,7 +17,7 @@ gcc-O3) compile="gcc -std=c99 -O3 -Wconversion -Wno-maybe-uninitialized" ;;
 clang-O2) compile="clang-14 -std=c11 -O2" ;;
 m32) compile="gcc -m32 -std=c99 -O2" ;;
 # Neither a compiler's extensions nor vectors.
-plain) compile="gcc -DSMEAR_GNU=0 -std=c99 -pedantic-errors -fno-strict-aliasing -O1" ;;
+plain) compile="${CC:-cc} -DSMEAR_GNU=0 -std=c99 -pedantic-errors -fno-strict-aliasing -O1" ;;
 # Assembly for Cortex-M4 in a program for Linux. (Code for any address leaves it too few registers.)
 armv7em)
     compile="arm-linux-gnueabihf-gcc -mthumb -fno-pic -march=armv7ve+fp -std=c99 -O2 -DSMEAR_VECTORS=0 -DSMEAR_ASM_ARMV7EM=1"

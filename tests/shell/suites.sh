@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# suites.sh - runs suites and adds up; sourced by all.sh and check.sh. Each suite's output goes to
-# build/test/NAME.log and is shown when it fails.
+# suites.sh - runs suites and adds up; sourced by all.sh. Each suite's output goes to build/test/NAME.log and is shown when it
+# fails.
 #
 # A suite whose tools are missing is named together with the command that installs them. With CI=true that is a
 # failure: there, everything runs.
@@ -10,15 +10,33 @@ log=build/test
 mkdir -p "$log"
 passed=0
 failed=0
-missing=0
 started=$(date +%s)
-jobs=-j$(getconf _NPROCESSORS_ONLN)
+cores=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 
-# processors: spent is how many seconds of processors what this shell waited for has taken. (A subshell would tell of itself.)
+# alone: one run of suites at a time has the folder build; another waits for its end.
+alone() {
+    told=
+    until mkdir "$log.lock" 2>/dev/null; do
+        holder=$(cat "$log.lock/process" 2>/dev/null)
+        if [ -n "$holder" ] && ! kill -0 "$holder" 2>/dev/null; then
+            rm -rf "$log.lock"          # it was killed
+            continue
+        fi
+        [ -n "$told" ] || [ -z "$holder" ] || { echo "waiting for process $holder, which runs suites here"; told=yes; }
+        sleep 1
+    done
+    echo $$ >"$log.lock/process"
+    trap 'rm -rf "$log.lock"' EXIT
+    trap 'exit 1' HUP INT TERM
+    rm -rf "$log/lanes" "$log/missing" "$log/without"
+    started=$(date +%s)
+}
+
+# processors FILE: spent is how many seconds of processors what this shell waited for has taken. (A subshell would tell of itself.)
 processors() {
-    times >"$log/$name.times"
-    spent=$(awk -F '[ ms]+' 'NR == 2 { printf "%d", 60 * ($1 + $3) + $2 + $4 }' "$log/$name.times")
-    rm -f "$log/$name.times"
+    times >"$1"
+    spent=$(awk -F '[ ms]+' 'NR == 2 { printf "%d", 60 * ($1 + $3) + $2 + $4 }' "$1")
+    rm -f "$1"
 }
 
 # suite NAME COMMAND...: a suite counts its tests in a last line "N passed, N failed"; else it is one test.
@@ -26,7 +44,7 @@ suite() {
     name=$1
     shift
     before=$(date +%s)
-    processors
+    processors "$log/$name.times"
     spent_before=$spent
     "$@" >"$log/$name.log" 2>&1
     status=$?
@@ -43,7 +61,7 @@ suite() {
     passed=$((passed + good))
     failed=$((failed + bad))
     # Printed in one piece, as another lane may print, too.
-    processors
+    processors "$log/$name.times"
     line=$(printf '%-28s %4d passed, %d failed  (%d s, %d of processors)' "$name" "$good" "$bad" $(($(date +%s) - before)) \
         $((spent - spent_before)))
     [ "$bad" -eq 0 ] || line="$line
@@ -53,74 +71,64 @@ $(tail -n 60 "$log/$name.log")
     printf '%s\n' "$line"
 }
 
-# lanes GROUP...: two lanes take functions of suites, each the next that nobody took: where the longest come first, both end at
-# about the same time. A group writes no file that another uses; of one that is named FUNCTION=WORD the function has the word. Waits
-# for both and adds up.
+# lanes GROUP...: a lane for each core takes functions of suites, each the next that nobody took: where the longest come first, all
+# end at about the same time. A group writes no file that another uses; of one that is named FUNCTION=WORD the function has the
+# word. Waits for all and adds up.
 lanes() {
-    rm -rf "$log/lanes"
     mkdir -p "$log/lanes"
-    for lane in 1 2; do
+    for lane in $(seq "$cores"); do
         (
-            passed=0 failed=0 missing=0
+            trap - EXIT
+            passed=0 failed=0
             for group; do
                 ! mkdir "$log/lanes/$group" 2>/dev/null || "${group%%=*}" "${group#*=}"
             done
-            echo "$passed $failed $missing" >"$log/lanes/$lane.count"
+            echo "$passed $failed" >"$log/lanes/$lane.count"
         ) &
     done
     wait
-    for lane in 1 2; do
-        if [ -f "$log/lanes/$lane.count" ]; then
-            read -r lane_passed lane_failed lane_missing <"$log/lanes/$lane.count"
-            passed=$((passed + lane_passed))
-            failed=$((failed + lane_failed))
-            missing=$((missing + lane_missing))
-        else
+    for lane in $(seq "$cores"); do
+        lane_passed=0 lane_failed=1
+        if ! read -r lane_passed lane_failed <"$log/lanes/$lane.count"; then
             echo "a lane of suites ended early"
-            failed=$((failed + 1))
         fi
+        passed=$((passed + lane_passed))
+        failed=$((failed + lane_failed))
     done
 }
 
 # needs TOOL PACKAGES: true when the tool is there.
 needs() {
-    command -v "$1" >/dev/null 2>&1 && return 0
-    lacks "$1" "apt-get install --no-install-recommends $2"
+    command -v "$1" >/dev/null 2>&1 || lacks "$1" "$2"
 }
 
-# lacks WHAT COMMAND: something is missing that the command installs; false.
+# lacks WHAT PACKAGES: something is missing that these packages bring; false.
 lacks() {
-    if [ "${CI:-}" != true ]; then
-        without "$1" "$2"
-        return 1
-    fi
-    echo "$1 is missing: $2"
-    failed=$((failed + 1))
+    echo "not run without $1: apt-get install --no-install-recommends $2"
+    echo "$1 $2" >>"$log/missing"
     return 1
 }
 
 # without WHAT COMMAND: suites are left out that need what nobody installs by the way.
 without() {
     echo "not run without $1: $2"
-    missing=$((missing + 1))
+    echo "$1" >>"$log/without"
 }
 
-# The last lines: N passed, N failed.
+# The last lines: what was left out, in a line with the command that installs it, and N passed, N failed.
 add_up() {
-    echo "in $(($(date +%s) - started)) s"
-    [ $missing -eq 0 ] || echo "$missing suites were not run; the lines above say what they need"
+    processors "$log/all.times"
+    echo "in $(($(date +%s) - started)) s, $spent of processors"
+    if [ -f "$log/missing" ]; then
+        # shellcheck disable=SC2046
+        echo "left out for want of" $(cut -d' ' -f1 "$log/missing" | sort -u)": apt-get install --no-install-recommends" \
+            $(cut -d' ' -f2- "$log/missing" | tr ' ' '\n' | sort -u)
+        [ "${CI:-}" != true ] || failed=$((failed + 1))
+    fi
+    # shellcheck disable=SC2046
+    [ ! -f "$log/without" ] || echo "left out, as the lines above say:" $(sort -u "$log/without")
     echo "$passed passed, $failed failed"
     [ $failed -eq 0 ]
-}
-
-# What documents and headers promise of this machine's build.
-documents() {
-    suite headers $make -s test-headers
-    suite table-file $make -s test-tables
-    suite readme $make -s test-readme
-    suite manual $make -s test-manual
-    suite examples $make -s test-examples
-    suite flush $make -s test-flush
 }
 
 # Sets `assets` as `make run-suite` does, for programs that are called directly: make would look at every source again.
