@@ -6,7 +6,7 @@
 
 #include "model/blob.h"
 #include "tools/convert/build.h"
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 #include "tools/convert/track.h"
 #include "tests/test.h"
 

@@ -2,7 +2,7 @@
 /* convert.c - the order of a conversion's stages, and what they share. See convert.h. */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include "tools/model/matrix.h"
 

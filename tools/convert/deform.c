@@ -2,7 +2,7 @@
 /* deform.c - skins and morph targets in fixed point. */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include "tools/model/matrix.h"
 

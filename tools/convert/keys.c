@@ -7,7 +7,7 @@
  * vertices reach; what skins and chains of nodes make of them together is measured afterwards (measure.c). */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 #include "tools/convert/track.h"
 #include "tools/model/channel.h"
 

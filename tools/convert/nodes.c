@@ -4,7 +4,7 @@
  * by a power of two, and places are counted in units that suit the model's size. */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 #include "tools/convert/track.h"
 
 #include "tools/model/matrix.h"

@@ -3,7 +3,7 @@
  * and their vertices on grids of int16 steps. */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include <math.h>
 #include <string.h>

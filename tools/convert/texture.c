@@ -3,7 +3,7 @@
  * same picture gives the same bytes on every host. */
 #include "tools/convert/build.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include "base/tables.h"
 

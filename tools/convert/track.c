@@ -2,7 +2,7 @@
 /* track.c - see track.h. */
 #include "tools/convert/track.h"
 
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include "tools/model/matrix.h"
 

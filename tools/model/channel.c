@@ -2,40 +2,9 @@
 /* channel.c - see channel.h. Equations of interpolation are those of glTF 2.0, appendix C. */
 #include "tools/model/channel.h"
 
+#include "tools/model/exact.h"
+
 #include <math.h>
-
-static void normalize4(double q[4])
-{
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 0)) {
-        q[0] = q[1] = q[2] = 0;
-        q[3] = length = 1;
-    }
-    for (int i = 0; i < 4; i++)
-        q[i] /= length;
-}
-
-/* The shorter way from a to b; both have length 1. */
-static void slerp(double out[4], const double a[4], const double b[4], double t)
-{
-    double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-    double sign = dot < 0 ? -1 : 1, apart = 0, together = 0;
-    for (int i = 0; i < 4; i++) {
-        double minus = a[i] - sign * b[i], plus = a[i] + sign * b[i];
-        apart += minus * minus;
-        together += plus * plus;
-    }
-    /* The angle between them from both chords: exact for small angles, where acos(dot) is not. */
-    double angle = 2 * atan2(sqrt(apart), sqrt(together));
-    double from = 1 - t, to = t;
-    if (angle > 1e-9) {
-        from = sin((1 - t) * angle) / sin(angle);
-        to = sin(t * angle) / sin(angle);
-    }
-    for (int i = 0; i < 4; i++)
-        out[i] = from * a[i] + sign * to * b[i];
-    normalize4(out);
-}
 
 int channel_find_key(const struct model_channel *c, double t)
 {
@@ -73,7 +42,7 @@ static void read_quaternion(double out[4], const float *value)
 {
     for (int i = 0; i < 4; i++)
         out[i] = (double)value[i];
-    normalize4(out);
+    exact_normalize4(out);
 }
 
 /* The channel's values at t; rotations come out with length 1. */
@@ -101,14 +70,14 @@ static void sample(const struct model_channel *c, double t, double *out)
             double a[4], b[4];
             read_quaternion(a, from);
             read_quaternion(b, to);
-            slerp(out, a, b, part);
+            exact_slerp(out, a, b, part);
         } else {
             for (int i = 0; i < c->width; i++)
                 out[i] = (1 - part) * (double)from[i] + part * (double)to[i];
         }
     }
     if (c->path == MODEL_ROTATION)
-        normalize4(out);
+        exact_normalize4(out);
 }
 
 /* ------------------------------------------------------------------ jumps */
@@ -185,7 +154,7 @@ static void reflect(const struct model_channel *c, int near, double at, double b
     if (c->path == MODEL_ROTATION) {
         double turn[4], before[4] = { out[0], out[1], out[2], out[3] };
         read_quaternion(turn, key_value(c, near));
-        slerp(out, before, turn, 2);
+        exact_slerp(out, before, turn, 2);
     } else {
         for (int i = 0; i < c->width; i++)
             out[i] = 2 * (double)key_value(c, near)[i] - out[i];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* exact.h - the functions of the maths library that a conversion needs, from sums, products, quotients
- * and square roots alone: IEEE 754 gives those the same bits on every host, and so to the files. */
+/* exact.h - the functions of the maths library that clips and a conversion need, from sums, products, quotients
+ * and square roots alone: IEEE 754 gives those the same bits on every host, and so to frames and files. */
 #ifndef SMEAR_TOOLS_EXACT_H
 #define SMEAR_TOOLS_EXACT_H
 
@@ -13,7 +13,7 @@ double exact_cos(double x);
 /* Of 0 to 1/sqrt(2): 0 to pi / 4. */
 double exact_asin(double s);
 
-/* The shorter way from a to b, both of length 1; `t` of 0 to 1. Comes out with length 1. */
+/* The shorter way from a to b, both of length 1; `t` of -1 to 2. Comes out with length 1. */
 void exact_slerp(double out[4], const double a[4], const double b[4], double t);
 
 /* Length 1; (0, 0, 0, 1) instead of no direction. */

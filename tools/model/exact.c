@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* exact.c - see exact.h. */
-#include "tools/convert/exact.h"
+#include "tools/model/exact.h"
 
 #include "base/tables.h"
 
