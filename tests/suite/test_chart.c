@@ -425,7 +425,7 @@ static bool exact_picture(const char *name, struct image *out, struct failure *f
                                              .light = SMEAR_LIGHT_ENCODED, .clear = scene.clear };
     bool ok = presenter != NULL
            && presenter_exact(presenter, scene.time, &options, scene.width, scene.height,
-                              TRUTH_EXACT_INSTANTS, out, f);
+                              TRUTH_INSTANTS, out, f);
     presenter_free(presenter);
     scene_free(&scene);
     return ok;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* bench.c - what frames cost and how right they are, beside the bars that are set for them.
  *
- *     bench [peers] [defaults] [accuracy] [methods] [filters] [threads] [memory] [formats] [blur] [edges] [room] [targets FILE...]
+ *     bench [peers] [accuracy] [filters] [formats] [targets FILE...]
  *     bench chart [options]
  *     bench promise [options]
  *
@@ -21,25 +21,14 @@
 
 bool group_take(const char *group, int index, struct take *out)
 {
-    if (strcmp(group, "peers") == 0)
-        return peers_take(index, out);
-    if (strcmp(group, "methods") == 0)
-        return methods_take(index, out);
-    if (strcmp(group, "filters") == 0)
-        return filters_take(index, out);
-    if (strcmp(group, "blur") == 0)
-        return blur_take(index, out);
-    if (strcmp(group, "defaults") == 0)
-        return defaults_take(index, out);
-    if (strcmp(group, "edges") == 0)
-        return edges_take(index, out);
-    if (strcmp(group, "room") == 0)
-        return room_take(index, out);
-    if (strcmp(group, "chart") == 0)
-        return chart_take(index, out);
-    if (strcmp(group, "promise") == 0)
-        return promise_take(index, out);
-    return strcmp(group, "threads") == 0 && threads_take(index, out);
+    static const struct {
+        const char *name;
+        bool (*take)(int index, struct take *out);
+    } groups[] = { { "peers", peers_take }, { "filters", filters_take }, { "chart", chart_take }, { "promise", promise_take } };
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        if (strcmp(groups[i].name, group) == 0)
+            return groups[i].take(index, out);
+    return false;
 }
 
 struct report {
@@ -48,10 +37,7 @@ struct report {
 };
 
 static const struct report reports[] = {
-    { "peers", peers_report }, { "defaults", defaults_report }, { "accuracy", accuracy_report },
-    { "methods", methods_report }, { "filters", filters_report }, { "threads", threads_report },
-    { "memory", memory_report }, { "formats", formats_report }, { "blur", blur_report }, { "edges", edges_report },
-    { "room", room_report },
+    { "peers", peers_report }, { "accuracy", accuracy_report }, { "filters", filters_report }, { "formats", formats_report },
 };
 enum { REPORTS = sizeof reports / sizeof *reports };
 

@@ -5,7 +5,7 @@
 #
 #     [MAKE=make] sh tools/bench/bench.sh PROGRAM [REPORT...]
 #
-# With reports (peers, defaults, accuracy, methods, filters, threads, memory, formats, blur, edges, targets) only those. Files are kept in
+# With reports (peers, accuracy, filters, formats, targets) only those. Files are kept in
 # build/bench.
 set -eu
 
@@ -18,7 +18,7 @@ mkdir -p "$folder"
 host=
 targets=
 if [ $# -eq 0 ]; then
-    host='peers defaults accuracy methods filters threads memory'
+    host='peers accuracy filters formats'
     targets=yes
 fi
 for report in "$@"; do

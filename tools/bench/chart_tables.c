@@ -193,7 +193,7 @@ static void write_tables(FILE *out, const struct chart *chart)
             "of 1/255, against the mean of %d exact instants of a "
             "centred shutter of 180 degrees. Means are geometric, but for SSIM.\n"
             "FLIP at 67 pixels per degree. \"frontier\": no other setting is as cheap and as "
-            "right.\n\n```\n", (int)TRUTH_EXACT_INSTANTS);
+            "right.\n\n```\n", (int)TRUTH_INSTANTS);
     chart_print_bars(out, chart, true, ALL_KINDS * CHART_MAX_SETTINGS, &verdict);
     fprintf(out, "```\n");
     for (int c = 0; c < CHART_CONDITIONS; c++) {

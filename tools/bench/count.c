@@ -174,7 +174,6 @@ static bool same_rig(const struct take *a, const struct take *b)
         && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0 && a->shutter_poses == b->shutter_poses
         && a->workers == b->workers && a->texels_565 == b->texels_565 && a->fit_grid == b->fit_grid
         && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
-        && a->smooth == b->smooth && a->kept == b->kept && a->room == b->room
         && a->change == b->change;
 }
 

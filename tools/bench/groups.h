@@ -11,12 +11,6 @@ bool group_take(const char *group, int index, struct take *out);
 
 /* Each group's own file. */
 bool peers_take(int index, struct take *out);
-bool methods_take(int index, struct take *out);
-bool threads_take(int index, struct take *out);
 bool filters_take(int index, struct take *out);
-bool blur_take(int index, struct take *out);
-bool edges_take(int index, struct take *out);
-bool defaults_take(int index, struct take *out);
-bool room_take(int index, struct take *out);
 
 #endif

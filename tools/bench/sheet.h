@@ -30,15 +30,8 @@ double process_seconds(void);
 
 /* The reports. Each prints to standard output. */
 bool peers_report(struct sheet *sheet, struct failure *f);      /* instructions, time */
-bool defaults_report(struct sheet *sheet, struct failure *f);   /* at default options */
 bool accuracy_report(struct sheet *sheet, struct failure *f);   /* against the double reference */
-bool methods_report(struct sheet *sheet, struct failure *f);    /* cost and error of blur */
 bool filters_report(struct sheet *sheet, struct failure *f);    /* camera, pingpong, half, weights */
-bool threads_report(struct sheet *sheet, struct failure *f);
-bool memory_report(struct sheet *sheet, struct failure *f);      /* arenas of small displays */
-bool blur_report(struct sheet *sheet, struct failure *f);        /* blur at default options */
-bool edges_report(struct sheet *sheet, struct failure *f);       /* smooth ones */
-bool room_report(struct sheet *sheet, struct failure *f);        /* for few triangles */
 bool formats_report(struct sheet *sheet, struct failure *f);     /* few greys through an eye */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);
 

@@ -102,8 +102,6 @@ static bool start_library(struct rig *rig, struct failure *f)
 {
     const struct take *t = &rig->take;
     smear_desc desc = presented_desc(rig->frame, t->width, t->height);
-    if (t->room != 0)
-        desc.max_triangles = (uint32_t)t->room;
     desc.format = (uint8_t)t->format;
     desc.display.dither = t->dithered ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE;
     desc.reach = (int16_t)t->reach;
@@ -115,7 +113,6 @@ static bool start_library(struct rig *rig, struct failure *f)
     if (t->instant_only)        /* other instants may show more draws */
         desc.max_draws = MOST_DRAWS;
     desc.vertex_cache = t->plain_context ? 0 : 4096;
-    desc.reuse.cache_static = t->kept;
     desc.flush = take_band;
     desc.idle = t->workers > 1 ? bench_idle : NULL;
     desc.user = rig;
@@ -136,7 +133,6 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
         .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
-        .edges = t->smooth ? SMEAR_EDGES_SMOOTH : SMEAR_EDGES_HARD,
         .filter = t->filter, .camera_step = t->camera_step, .pingpong = t->pingpong, .weights = t->weights,
         .texels_565 = t->texels_565, .fit_grid = t->fit_grid, .clear = rig->scene.clear,
         .layer = t->plain ? &plain : NULL, .layer_count = t->plain

@@ -40,11 +40,8 @@ struct take {
     bool shutter_poses;
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
-    bool smooth;                /* edges */
-    bool kept;                  /* what stands still, from frame to frame */
     bool texels_565;            /* textures as RGB565 */
     bool fit_grid;              /* meshes on grids that fit them */
-    int room;                   /* max_triangles; 0: enough */
     int workers;                /* 0: one */
     bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
 };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* truth.c - draws truths, with the reference or with the library, or reads what was drawn
- * before. */
+/* truth.c - draws truths with the library, or reads what was drawn before. */
 #include "tools/bench/truth.h"
 
 #include "tools/bench/take.h"
@@ -62,70 +61,6 @@ static bool keep(const char *path, struct float_image *truth, struct failure *f)
     return false;
 }
 
-/* ------------------------------------------------------------------ by the reference */
-
-/* A number that changes with the scene: of its reference pictures at the ends and the middle of the
- * exposure. */
-static bool fingerprint(struct scene *scene, uint32_t *crc, struct failure *f)
-{
-    double length = SHUTTER_DEGREES / 360.0 / scene->fps;
-    struct scene_instant instant = { 0 };
-    struct ref_options options = { .width = scene->width, .height = scene->height,
-                                   .encoded = true, .clear = scene->clear };
-    bool ok = true;
-    *crc = 0;
-    for (int i = 0; i < 3 && ok; i++) {
-        struct ref_frame frame;
-        struct image picture;
-        ok = scene_pose(scene, scene->time + length * (i - 1) / 2.0, &instant, f)
-          && ref_draw(&instant, NULL, NULL, &options, &frame, f);
-        if (!ok)
-            break;
-        ok = ref_frame_image(&frame, &picture, f);
-        ref_frame_free(&frame);
-        if (ok) {
-            size_t bytes = (size_t)picture.width * (size_t)picture.height * 4;
-            *crc = crc32_update(*crc, picture.rgba, bytes);
-            image_free(&picture);
-        }
-    }
-    scene_instant_free(scene, &instant);
-    return ok;
-}
-
-static bool draw(struct scene *scene, struct float_image *out, struct failure *f)
-{
-    struct ref_truth_options options = {
-        .time = scene->time, .shutter_degrees = SHUTTER_DEGREES, .exposure = REF_CENTRED,
-        .instants = TRUTH_INSTANTS, .encoded = true, .threads = 2
-    };
-    struct ref_truth truth;
-    if (!ref_truth(scene, &options, &truth, f))
-        return false;
-    bool ok = float_image_alloc(out, truth.width, truth.height, 3, f);
-    size_t values = 3 * (size_t)truth.width * (size_t)truth.height;
-    for (size_t i = 0; i < values && ok; i++)
-        out->value[i] = (float)(truth.code[i] / 255.0);
-    ref_truth_free(&truth);
-    return ok;
-}
-
-bool truth_reference(const char *name, const char *folder, struct float_image *out,
-                     struct failure *f)
-{
-    struct scene scene;
-    uint32_t crc;
-    char path[PATH_LIMIT];
-    if (!scene_builtin(name, &scene, f))
-        return false;
-    bool ok = fingerprint(&scene, &crc, f)
-           && kept_path(path, folder, name, TRUTH_INSTANTS, "reference", crc, f);
-    if (ok && !read_kept(path, scene.width, scene.height, out))
-        ok = draw(&scene, out, f) && keep(path, out, f);
-    scene_free(&scene);
-    return ok;
-}
-
 /* ------------------------------------------------------------------ by the library */
 
 struct exposure {
@@ -164,24 +99,9 @@ static bool fingerprint_exact(struct rig *rig, uint32_t *crc, struct failure *f)
     return true;
 }
 
-/* Adds a picture that is `places` times as wide and high as the sums. */
-static void add_picture(double *sum, const struct image *picture, int places, const double value[256])
+static bool draw_exact(struct rig *rig, int instants, struct float_image *out, struct failure *f)
 {
-    const int width = picture->width / places, height = picture->height / places;
-    const uint8_t *p = picture->rgba;
-    for (int y = 0; y < height * places; y++)
-        for (int x = 0; x < width * places; x++, p += 4) {
-            double *at = sum + 3 * ((size_t)(y / places) * (size_t)width + (size_t)(x / places));
-            for (int c = 0; c < 3; c++)
-                at[c] += value[p[c]];
-        }
-}
-
-/* The rig draws `places` times as wide and high. */
-static bool draw_exact(struct rig *rig, int instants, int places, struct float_image *out, struct failure *f)
-{
-    const int width = rig->take.width / places, height = rig->take.height / places;
-    size_t values = 3 * (size_t)width * (size_t)height;
+    const size_t values = 3 * (size_t)rig->take.width * (size_t)rig->take.height;
     double *sum = calloc(values, sizeof *sum), value[256];
     bool ok = sum != NULL || fail(f, "no memory for a truth");
     for (int code = 0; code < 256; code++)
@@ -189,51 +109,38 @@ static bool draw_exact(struct rig *rig, int instants, int places, struct float_i
     for (int i = 0; i < instants && ok; i++) {
         struct image picture;
         ok = instant(rig, (i + 0.5) / instants, &picture, f);
-        if (ok) {
-            add_picture(sum, &picture, places, value);
-            image_free(&picture);
-        }
+        if (!ok)
+            break;
+        for (size_t k = 0; k < values; k++)
+            sum[k] += value[picture.rgba[k / 3 * 4 + k % 3]];
+        image_free(&picture);
     }
-    ok = ok && float_image_alloc(out, width, height, 3, f);
+    ok = ok && float_image_alloc(out, rig->take.width, rig->take.height, 3, f);
     for (size_t i = 0; i < values && ok; i++) {
-        double mean = sum[i] / ((double)instants * places * places);
+        const double mean = sum[i] / instants;
         out->value[i] = (float)(rig->take.linear ? ref_srgb_encode(mean) : mean);
     }
     free(sum);
     return ok;
 }
 
-static bool exact(const struct take *of, int instants, int places, const char *folder, struct float_image *out, struct failure *f)
+bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
 {
     const struct take take = {
-        .scene = of->scene, .width = of->width * places, .height = of->height * places, .clip = of->clip,
-        .frame = of->frame, .later = of->later, .format = SMEAR_XRGB8888,
-        .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
+        .scene = of->scene, .width = of->width, .height = of->height, .clip = of->clip, .frame = of->frame, .later = of->later,
+        .format = SMEAR_XRGB8888, .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
     };
     struct rig rig;
     uint32_t crc;
-    char path[PATH_LIMIT], kind[48], within[16] = "";
+    char path[PATH_LIMIT], kind[48];
     if (!rig_open(&rig, &take, f))
         return false;
-    if (places > 1)
-        snprintf(within, sizeof within, "-%d", places);
-    snprintf(kind, sizeof kind, "%s-%.0f%s", take.linear ? "linear" : "encoded", 1000.0 * take.later, within);
-    bool ok = fingerprint_exact(&rig, &crc, f)
-           && kept_path(path, folder, take.scene, instants, kind, crc, f);
-    if (ok && !read_kept(path, rig.take.width / places, rig.take.height / places, out))
-        ok = draw_exact(&rig, instants, places, out, f) && keep(path, out, f);
+    snprintf(kind, sizeof kind, "%s-%.0f", take.linear ? "linear" : "encoded", 1000.0 * take.later);
+    bool ok = fingerprint_exact(&rig, &crc, f) && kept_path(path, folder, take.scene, TRUTH_INSTANTS, kind, crc, f);
+    if (ok && !read_kept(path, rig.take.width, rig.take.height, out))
+        ok = draw_exact(&rig, TRUTH_INSTANTS, out, f) && keep(path, out, f);
     rig_close(&rig);
     return ok;
-}
-
-bool truth_of_take(const struct take *of, const char *folder, struct float_image *out, struct failure *f)
-{
-    return exact(of, TRUTH_EXACT_INSTANTS, 1, folder, out, f);
-}
-
-bool truth_of_pixels(const struct take *of, int places, const char *folder, struct float_image *out, struct failure *f)
-{
-    return exact(of, TRUTH_INSTANTS, places, folder, out, f);
 }
 
 bool truth_exact(const char *scene, bool linear, double later, const char *folder,

@@ -9,15 +9,9 @@
 
 #include <stdbool.h>
 
-enum { TRUTH_INSTANTS = 256, TRUTH_EXACT_INSTANTS = 1024 };
+enum { TRUTH_INSTANTS = 1024 };
 
-/* The frame that stands for a built-in scene at its own size, shutter 180 degrees and centred,
- * encoded light, drawn by the reference in double precision; values are code / 255, not rounded.
- * Kept in `folder` under a name that changes when the scene does. *out is allocated here. */
-bool truth_reference(const char *scene, const char *folder, struct float_image *out,
-                     struct failure *f);
-
-/* What blur alone is measured against: TRUTH_EXACT_INSTANTS sharp frames of the library itself,
+/* What blur alone is measured against: TRUTH_INSTANTS sharp frames of the library itself,
  * each posed and lit exactly, as `smear render --method accumulate --exact` draws them; `later`
  * frames after the one that stands for the scene, in encoded or linear light. The name changes when
  * what the library draws does. */
@@ -26,10 +20,6 @@ bool truth_exact(const char *scene, bool linear, double later, const char *folde
 
 /* The same of the scene, frame and light of a take. */
 bool truth_of_take(const struct take *take, const char *folder, struct float_image *out, struct failure *f);
-
-/* The same of TRUTH_INSTANTS instants, each in the mean of `places` x `places` even places within the pixel: what smooth edges
- * are measured against. Edges of at most 2048 / places pixels. */
-bool truth_of_pixels(const struct take *of, int places, const char *folder, struct float_image *out, struct failure *f);
 
 /* Rounded to codes: what the command line writes. *out is allocated here. */
 bool truth_round(const struct float_image *truth, struct image *out, struct failure *f);
