@@ -31,8 +31,7 @@ sanitizers() {
 
 # What firmware for a Pico is built with and run on. SDK and boot ROM are other people's: without them the suites are not run.
 pico_tools() {
-    needs arm-none-eabi-g++ "libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib" && needs cmake "cmake" && needs g++ "g++" &&
-        needs node "nodejs" || return 1
+    needs arm-none-eabi-g++ "libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib" cmake "cmake" g++ "g++" node "nodejs" || return 1
     if [ ! -d "${RP2040JS:-build/tools/node_modules/rp2040js}" ]; then
         without rp2040js "npm install --prefix build/tools rp2040js@1.4.1, or RP2040JS=FOLDER"
         return 1
@@ -47,7 +46,7 @@ pico_tools() {
 }
 
 arm() {
-    needs arm-none-eabi-gcc "gcc-arm-none-eabi" && needs qemu-system-arm "qemu-system-arm"
+    needs arm-none-eabi-gcc "gcc-arm-none-eabi" qemu-system-arm "qemu-system-arm"
 }
 
 # on TARGET SUITE...: each SUITE-TARGET is what `make TARGET=... SUITE-test` does
@@ -150,7 +149,7 @@ gba() {
 }
 
 s390x() {
-    if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" && needs qemu-s390x-static "qemu-user-static"; then
+    if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" qemu-s390x-static "qemu-user-static"; then
         on s390x target demo
     fi
 }
@@ -162,7 +161,7 @@ portable() {
 
 # What others build the library from.
 packages() {
-    needs "${CXX:-g++}" "g++" && needs python3 "python3" || return 0
+    needs "${CXX:-g++}" "g++" python3 "python3" || return 0
     needs cmake "cmake" || true            # dist.sh goes without some of what follows
     needs pkg-config "pkg-config" || true
     needs arduino-builder "arduino-builder arduino-ctags" || true
@@ -184,8 +183,8 @@ objects() {
 one_file() {
     needs tcc "tcc" || true
     suite dist-single $make -s dist-single-test
-    if needs clang-14 "clang-14 libclang-rt-14-dev" && m32 && needs g++ "g++" &&
-        needs arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && needs qemu-arm-static "qemu-user-static"; then
+    if needs clang-14 "clang-14 libclang-rt-14-dev" g++ "g++" qemu-arm-static "qemu-user-static" \
+        arm-linux-gnueabihf-gcc "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross" && m32; then
         suite fuzz-builds $make -s fuzz-builds CASES=300
     fi
 }
@@ -210,15 +209,14 @@ screens() {
     if needs tmux "tmux"; then
         suite view-terminal sh tests/shell/view_term.sh build/smear
     fi
-    if needs Xvfb "xvfb xauth" && needs xauth "xauth"; then
+    if needs Xvfb "xvfb xauth" xauth "xauth"; then
         suite build-x11-user $make -s build/host/view_x11_user
         suite view-x11 sh tests/shell/view_x11.sh build/smear build/host/view_x11_user
     fi
 }
 
 web() {
-    if needs wasm-ld-14 "clang-14 lld-14" && needs llvm-ar-14 "llvm-14" && needs xz "xz-utils" &&
-        needs chromedriver "chromium chromium-driver" && needs node "nodejs"; then
+    if needs wasm-ld-14 "clang-14 lld-14" llvm-ar-14 "llvm-14" xz "xz-utils" chromedriver "chromium chromium-driver" node "nodejs"; then
         suite build-web $make -s web build/web/libc_test
         suite web-libc build/web/libc_test
         suite web node tests/shell/web.js build/web/index.html build/smear
@@ -300,7 +298,7 @@ all_objects() {
 }
 
 rv32imc() {
-    if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" && needs qemu-system-riscv32 "qemu-system-misc"; then
+    if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" qemu-system-riscv32 "qemu-system-misc"; then
         on rv32imc target symbols demo stack
     fi
 }

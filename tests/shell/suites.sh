@@ -97,9 +97,14 @@ lanes() {
     done
 }
 
-# needs TOOL PACKAGES: true when the tool is there.
+# needs TOOL PACKAGES [TOOL PACKAGES]...: true when all tools are there; names all that are not.
 needs() {
-    command -v "$1" >/dev/null 2>&1 || lacks "$1" "$2"
+    is_there=0
+    while [ $# -gt 0 ]; do
+        command -v "$1" >/dev/null 2>&1 || lacks "$1" "$2" || is_there=1
+        shift 2
+    done
+    return $is_there
 }
 
 # lacks WHAT PACKAGES: something is missing that these packages bring; false.

@@ -322,7 +322,8 @@ static void check_header(const struct conversion *model, const char *from)
     fclose(c);
     run("${CC:-cc} -std=c99 -Wall -Wextra -pedantic -Werror %s -c -o build/convert/model.o %s",
         include_path, "build/convert/model.c");
-    run("${CXX:-c++} -std=c++11 -Wall -Wextra -pedantic -Werror %s -x c++ -fsyntax-only %s",
+    /* Where nobody compiles C++, C alone is tried. */
+    run("! command -v ${CXX:-c++} >/dev/null || ${CXX:-c++} -std=c++11 -Wall -Wextra -pedantic -Werror %s -x c++ -fsyntax-only %s",
         include_path, "build/convert/model.c");
 }
 
