@@ -109,7 +109,7 @@ LIB := $(if $(filter-out $(OWN),src/smear.c),build/host,$(BUILD))/libsmear.a
 BIN := $(if $(SAN)$(CHECK)$(EXR)$(COVERAGE),$(BUILD),build)
 
 .PHONY: all cost-model host-display help demo readme-pictures check test test-all bench chart chart-picture layers house tables clean
-## the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
+## start: the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
 $(BUILD)/%.o: %.c
@@ -157,36 +157,37 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-## motion-blurred pictures and loops, in build/demo; ASSETS=FOLDER shows models from there, too
+## start: motion-blurred pictures and loops, in build/demo; ASSETS=FOLDER shows models from there, too
 demo: $(BIN)/smear-demo
 	$(BIN)/smear-demo $(or $(ASSETS),-) build/demo
 
-## what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
+## tests: what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
 check:
 	$(of_make) sh tests/all.sh check
 
-## what a change must pass, in under ten minutes: all suites of this machine, some of others; names what it needs
+## tests: what a change must pass, in under ten minutes: all suites of this machine, some of others; names what it needs
 test:
 	$(of_make) sh tests/all.sh test
 
-## every suite there is
+## tests: every suite there is
 test-all:
 	$(of_make) sh tests/all.sh all
 
-## instructions per frame against other rasterizers (needs valgrind)
+## figures: instructions per frame against other rasterizers (needs valgrind)
 bench: $(BIN)/smear-bench
 	$(of_make) sh tools/bench/bench.sh $(BIN)/smear-bench $(REPORTS)
 
-## speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
+## figures: speed against accuracy of every method, in build/chart (needs valgrind); SCENES=a,b METHODS=auto QUICK=1
 chart: $(BIN)/smear-bench
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
 
-## the pictures of the READMEs again, from the last whole chart
+## again: the pictures of the READMEs and the numbers of the page's chart, from the last whole chart
 chart-picture: $(BIN)/smear-bench
 	@mkdir -p tools/bench/pictures
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
 	cp build/chart/chart.svg tools/bench/pictures/chart.svg
 	cp build/chart/study-chart.svg tools/bench/pictures/study.svg
+	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(TOOL_SRC) $(REF_SRC)) $(LIB)
 	$(call say,LD)
@@ -202,7 +203,7 @@ HOST_DISPLAY_SRC := platform/host/platform.c platform/host/desktop_display.c too
     $(filter tools/view/screen% tools/view/x11% $(addprefix tools/view/,surface.c panel.c guard.c tty.c \
         console.c evdev.c golden.c script.c),$(VIEW_SRC)) $(IMAGE_SRC)
 
-## a desktop's display for firmware: build/host/libsmear-display.a
+## page: a desktop's display for firmware: build/host/libsmear-display.a
 host-display: $(BUILD)/libsmear-display.a
 
 $(BUILD)/libsmear-display.a: $(call objects,$(HOST_DISPLAY_SRC))
@@ -236,7 +237,7 @@ PICTURES := tools/demo/pictures
 # Of each machine the name of its screen in platform/demo_player.c, and how much its pixels are enlarged.
 README_SCREENS := pico-240:1 gba:2 oled:2
 
-## pictures of the README again: the loop, what the panels show of frame 45, and the first program's
+## again: pictures of the README: the loop, what the panels show of frame 45, and the first program's
 readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --readme - $(PICTURES)
 	for screen in $(README_SCREENS); do \
@@ -248,7 +249,7 @@ readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --enlarge 2 build/screen.ppm $(PICTURES)/microbit.png
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
 
-## includes run one way: a file includes only what lies in its own room or below
+## tests: includes run one way: a file includes only what lies in its own room or below
 layers:
 	sh tests/shell/layers.sh $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(TEST_ROOMS)
 
@@ -262,18 +263,18 @@ core-alone: build/host/libsmear.a
 	sh tests/shell/core_alone.sh $< $(filter-out $(OTHER_ROOMS),$(SRC_ROOMS))
 
 .PHONY: format format-check
-## sources are indented as .clang-format says (needs clang-format-14); make format indents them
+## tests: sources are indented as .clang-format says (needs clang-format-14); make format indents them
 format-check:
 	printf '%s\n' $(FORMATTED) | xargs -P 2 -n 500 sh tests/shell/format.sh
 
 format:
 	sh tests/shell/format.sh --fix $(FORMATTED)
 
-## how src/ is built, measured: longest functions, switches of the top floor
+## tests: how src/ is built, measured: longest functions, switches of the top floor
 house:
 	OTHERS="$(OTHER_ROOMS)" sh tests/shell/house.sh
 
-## writes src/base/tables.c again
+## again: src/base/tables.c
 tables: build/gentables
 	build/gentables > build/tables.c && mv build/tables.c src/base/tables.c
 
@@ -286,16 +287,16 @@ build/gentables: tools/gentables.c
 
 .PHONY: dist install dist-test dist-single-test
 ONE_FILE := build/one-file/single/smear.c
-## what `make dist` and `make install` write, compiled and run
+## tests: what `make dist` and `make install` write, compiled and run
 dist-test: dist $(ONE_FILE)
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
 	sh tests/shell/dist.sh
 
-## the one file by every compiler of this machine, for every core and standard, and its golden frames
+## tests: the one file by every compiler of this machine, for every core and standard, and its golden frames
 dist-single-test: $(ONE_FILE) build/tapes/golden.c
 	sh tests/shell/dist_single.sh $(<D)
 
-## one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist; URL=https://... of the project
+## start: one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist; URL=https://... of the project
 dist: build/dist-single
 	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
 
@@ -310,7 +311,7 @@ build/dist-single: tools/dist/single.c
 	$(CC) -std=c11 -Wall -Wextra -O1 -o $@ $<
 
 PREFIX ?= /usr/local
-## library, headers and smear.pc into $(DESTDIR)$(PREFIX)
+## start: library, headers and smear.pc into $(DESTDIR)$(PREFIX)
 install: $(LIB)
 	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include
 	install -m 644 $(LIB) $(DESTDIR)$(PREFIX)/lib
@@ -318,13 +319,17 @@ install: $(LIB)
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e "s|@VERSION@|$$(sh tools/dist/version.sh)|" tools/dist/smear.pc \
 	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/smear.pc
 
-## removes build
+## start: removes build
 clean:
 	rm -rf build
 
-## this list
+# A line `## GROUP: TEXT` describes the target below it.
+## start: this list
 help:
-	@awk '/^## /{text=substr($$0,4)} /^[a-z][a-z-]*:/{if(text!=""){sub(/:.*/,"");printf "  make %-16s %s\n",$$0,text;text=""}}' \
+	@awk -v groups="start=To begin;tests=Tests;boards=For TARGET, and on it;figures=Figures;page=Page and display;again=What is kept here, made again" ' \
+	    /^## [a-z]+: / { group = substr($$2, 1, length($$2) - 1); text = substr($$0, length(group) + 6); next } \
+	    /^[a-z][a-z-]*:/ && text != "" { sub(/:.*/, ""); list[group] = list[group] sprintf("  make %-16s %s\n", $$0, text); text = "" } \
+	    END { n = split(groups, g, /[=;]/); for (i = 1; i < n; i += 2) printf "%s\n%s", g[i + 1], list[g[i]]; print "Variables" }' \
 	    $(filter Makefile %.mk,$(MAKEFILE_LIST))
 	@echo "  TARGET=NAME      $(patsubst platform/%/target.mk,%,$(wildcard platform/*/target.mk)); host where it is not given"
 	@echo "  V=1              shows the commands; -s says nothing"
@@ -404,14 +409,14 @@ print-san-suites:
 	@echo $(SAN_SUITES)
 
 # Real models lie beside the repository where they are at hand.
-## one suite of `make test`, SUITE=api; `make print-suites` lists them
+## tests: one of them, SUITE=api; `make print-suites` lists them
 run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
 COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign guess metrics ref scenes sight view x11 json,$(SUITES))
 .PHONY: coverage run-coverage
-## branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
+## tests: branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:
 	$(MAKE) --no-print-directory COVERAGE=1 run-coverage
 
@@ -423,7 +428,7 @@ $(BUILD)/frames: $(call objects,tests/fuzz/frames.c $(wildcard tests/fuzz/cases*
 	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
 
 .PHONY: proofs
-## numbers, texture addresses, formats and clipping free of run-time errors, by Frama-C and by trying all; STEP=n: every n-th
+## tests: numbers, texture addresses, formats and clipping free of run-time errors, by Frama-C and by trying all; STEP=n: every n-th
 proofs: build/proofs/reciprocals build/proofs/polygons
 	sh tests/proofs/proofs.sh $^ $(STEP)
 
@@ -436,7 +441,7 @@ build/proofs/%: tests/proofs/%.c src/base/tables.c
 	    -fsanitize-undefined-trap-on-error -o $@ $< src/base/tables.c
 
 .PHONY: check-kernels
-## every variant of an inner loop against its reference, and nanoseconds per pixel of both
+## tests: every variant of an inner loop against its reference, and nanoseconds per pixel of both
 check-kernels: $(BUILD)/check_kernels
 	$<
 
@@ -495,7 +500,8 @@ README_LINES := 150
 README_WORDS := 1400
 test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
-	sh tests/shell/links.sh README.md include/README.md platform/README.md src/README.md tests/README.md tools/README.md
+	sh tests/shell/links.sh README.md include/README.md platform/README.md src/README.md src/CHANGES.md tests/README.md tools/README.md
+	grep -q "^## [0-9.]*, .*headers say $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//')$$\|^## $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//'), " src/CHANGES.md
 	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
 	test $$(wc -l < $(BUILD)/readme.c) -le 45
 	(cat $(BUILD)/readme.c; echo 'typedef char fits[sizeof memory <= 40960 ? 1 : -1];') > $(BUILD)/readme_fits.c
@@ -528,24 +534,24 @@ $(BUILD)/methods: tests/examples/memory.c $(LIB)
 	$(CC) -std=c99 $(STRICT) -o $@ $< $(LIB)
 
 .PHONY: readme-figures rates-readme failures-readme
-## writes the memory of methods into README.md again
+## again: the memory of methods in README.md
 readme-figures: $(BUILD)/methods
 	$(BUILD)/methods > build/methods.md
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
-## measures where methods fail and writes the table into tests/README.md
+## again: the table in tests/README.md of where methods fail
 failures-readme:
 	$(MAKE) --no-print-directory -s run-suite SUITE=failures
 	awk -f tests/shell/failures_table.awk build/test/failures.txt > build/failures.md
 	awk -f platform/footprint_readme.awk tests/README.md > build/readme.md && mv build/readme.md tests/README.md
 
-## measures the demo's frames per second on emulated machines, RATES="pico gba", and writes them into README.md
+## again: the demo's frames per second on emulated machines in README.md, RATES="pico gba"
 rates-readme:
 	$(of_make) sh platform/rates.sh $(or $(RATES),pico gba lm3s6965evb microbit) > build/rates.md
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
 .PHONY: board-table
-## measures what the demo costs on boards, by scene and method, BOARDS="pico gba", and writes it into platform/README.md
+## again: what the demo costs on boards, by scene and method, in platform/README.md, BOARDS="pico gba"
 board-table:
 	$(of_make) sh platform/board_table.sh $(or $(BOARDS),pico gba lm3s6965evb raspi0) > build/boards.md
 	awk -f platform/footprint_readme.awk platform/README.md > build/readme.md && mv build/readme.md platform/README.md
@@ -567,7 +573,7 @@ $(BUILD)/hostile: tests/shell/hostile.c
 	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
 
 .PHONY: faults-injected
-## every allocation, read, write and rename of the program fails once, and the power at each
+## tests: every allocation, read, write and rename of the program fails once, and the power at each
 faults-injected: $(BUILD)/faults-injected
 	$< .
 
@@ -585,11 +591,11 @@ $(BUILD)/demo-screen $(BUILD)/model-screen $(BUILD)/game-screen: $(BUILD)/platfo
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
-## a race in a window or terminal: left and right steer, down brakes; build/host/game-screen
+## start: a race in a window or terminal: left and right steer, down brakes; build/host/game-screen
 game: $(BUILD)/game-screen
 	$< show window
 
-## instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
+## figures: instructions per piece of work on TARGET, for the estimates of `smear view` (tools/view/cost.c)
 cost-model: $(BUILD)/cost_bench$(EXE) build/tapes/view_cost
 	$(RUN_BENCH) $< > $(BUILD)/cost.txt
 	build/tapes/view_cost fit build/tapes/cost.counts $(BUILD)/cost.txt

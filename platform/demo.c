@@ -7,8 +7,6 @@
  *     demo cost [SCREEN [BLUR [STEP [FOG]]]]   what the loop's frames cost, in the units of platform.h's clock;
  *                                  of a way to blur of demo_player.c, or as the screen has it; of every
  *                                  STEPth frame, a divisor of the loop; in fog between two distances, 10-60
- *     demo half [SCREEN [BLUR [STEP [FOG]]]]   the same on a screen half as wide and high: tells what frames cost whatever
- *                                  their size (make demo-fixed)
  *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
@@ -153,13 +151,11 @@ static void print_shot(const char *name, const struct shot *s, uint32_t pixels)
     platform_print(" %\n");
 }
 
-/* Means over every stepth frame of the loop, from the middle of the first step on, on the screen's width and height by `part`.
+/* Means over every stepth frame of the loop, from the middle of the first step on.
  * Where the display keeps what it is sent, frames before those are drawn, too, and not counted. */
-static int cost(const struct demo_screen *screen, int part, const struct demo_blur *way, uint32_t step, const smear_fog *fog)
+static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step, const smear_fog *fog)
 {
     smear_desc desc = screen->desc;
-    desc.width = (int16_t)(desc.width / part);
-    desc.height = (int16_t)(desc.height / part);
     smear_stats stats;
     struct sum total = { 0, 0, DEMO_LOOP / step }, submit = total, raster = total, blur = total,
                convert = total;
@@ -250,7 +246,7 @@ static bool read_fog(smear_fog *fog, const char *text)
     return begins < ends && ends < 1u << 15;
 }
 
-static int cost_of(const struct demo_screen *screen, int part, const char *name, uint32_t step, const char *between)
+static int cost_of(const struct demo_screen *screen, const char *name, uint32_t step, const char *between)
 {
     smear_fog fog;
     if (between != NULL && !read_fog(&fog, between))
@@ -259,7 +255,7 @@ static int cost_of(const struct demo_screen *screen, int part, const char *name,
     if (name != NULL && way == NULL)
         return failed("no such way to blur", 0);
     return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0)
-                                              : cost(screen, part, way, step, between != NULL ? &fog : NULL);
+                                              : cost(screen, way, step, between != NULL ? &fog : NULL);
 }
 
 static int memory(void)
@@ -329,10 +325,9 @@ int main(int argc, char **argv)
         return show(screen, argc > 3 ? argv[3] : NULL);
     if (is_word(command, "check"))
         return check(screen, step > 0 ? step : 1, argc > 4);
-    if (is_word(command, "cost") || is_word(command, "half"))
-        return cost_of(screen, is_word(command, "half") ? 2 : 1, argc > 3 ? argv[3] : NULL, argc > 4 ? read_decimal(argv[4]) : 1,
-                       argc > 5 ? argv[5] : NULL);
+    if (is_word(command, "cost"))
+        return cost_of(screen, argc > 3 ? argv[3] : NULL, argc > 4 ? read_decimal(argv[4]) : 1, argc > 5 ? argv[5] : NULL);
     if (is_word(command, "memory"))
         return memory();
-    return failed("usage: demo [show | check | cost | half | memory [SCREEN [NUMBER]]]", 0);
+    return failed("usage: demo [show | check | cost | memory [SCREEN [NUMBER]]]", 0);
 }

@@ -82,7 +82,7 @@ $(BUILD)/overlay_cost$(EXE): $(PROGRAM_OBJ) $(BUILD)/tests/target/overlay_cost.o
 
 # Each switch of smear_config.h off, and sets of them: golden frames of this machine.
 .PHONY: switches-test
-## golden frames with each switch of smear_config.h off
+## tests: golden frames with each switch of smear_config.h off
 switches-test: $(ONE_FILE) $(TAPES)/golden.c
 	sh tests/shell/target_switches.sh build/switches $<
 
@@ -96,7 +96,7 @@ $(BUILD)/template-1 $(BUILD)/template-2: $(BUILD)/template-%: $(TEMPLATE_SRC) pl
 	$(CC) $(CFLAGS) -Werror -DBOARD_CORES=$* -o $@ $(TEMPLATE_SRC) $(LIB) -lpthread
 
 .PHONY: template-test
-## platform/template on a board of threads
+## tests: platform/template on a board of threads
 template-test: $(BUILD)/template-1 $(BUILD)/template-2
 	timeout 120 $(BUILD)/template-1
 	timeout 120 $(BUILD)/template-2
@@ -151,7 +151,7 @@ $(PROPS)/target_screen: $(call host_objects,$(SCREEN_SRC))
 	$(HOST_CC) -o $@ $^ -lm
 
 .PHONY: demo-firmware demo-run demo-cost demo-test footprint print-run
-## the demo as firmware for TARGET
+## boards: the demo as firmware for TARGET
 demo-firmware: $(BUILD)/demo$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
@@ -159,23 +159,23 @@ demo-firmware: $(BUILD)/demo$(EXE)
 SCREENSHOT = $(SHOT) $< $(or $(FRAME),45) $(<:$(EXE)=.ppm) && echo "wrote $(<:$(EXE)=.ppm)"
 SHOW      ?= $(RUN) $< show
 
-## shows it; of emulated displays a screenshot, build/TARGET/demo.ppm, FRAME=45
+## boards: shows the demo; of emulated displays a screenshot, build/TARGET/demo.ppm, FRAME=45
 demo-run: $(BUILD)/demo$(SHOWN)$(EXE) $(RUN_NEEDS)
 	@$(SHOW)
 
-## its frames and, where there is a display, screenshots against the host's
+## boards: the demo's frames and, where there is a display, screenshots against the host's
 demo-test: $(BUILD)/demo$(EXE) $(PROPS)/target_screen $(RUN_NEEDS)
 	RUN="$(RUN)" sh tests/shell/target_demo.sh $(BUILD)/demo-test $< $(DEMO_LOOPS)
 
 print-run:
 	@echo $(RUN)
 
-## flash, RAM and worst stack of the library on every target, and what each switch saves
+## boards: flash, RAM and worst stack of the library on every target, and what each switch saves
 footprint:
 	$(of_make) sh platform/footprint.sh $(FOOTPRINT)
 	$(of_make) sh platform/footprint_switches.sh $(or $(FOOTPRINT_SETS),$(FOOTPRINT))
 
-## writes these tables into platform/README.md
+## again: the tables of `make footprint` in platform/README.md
 footprint-readme:
 	@mkdir -p build
 	$(of_make) sh platform/footprint.sh > build/footprint.txt
@@ -191,17 +191,9 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g1 -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## what its frames cost on TARGET; BLUR=auto-draft, subframes-4 ...: another way to blur, STEP=6: every sixth of them;
-## with both, FOG=10-60: in fog between 10 and 60 metres
+## boards: what the frames of the demo cost; BLUR=auto-draft, subframes-4 ...: blurred so, STEP=6: every sixth, FOG=10-60: metres
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP) $(if $(FOG),$(if $(STEP),$(FOG),$(error FOG=$(FOG) needs a BLUR and a STEP)))
-
-.PHONY: demo-fixed
-## what a frame of the demo costs whatever its size, and each pixel: by two sizes; BLUR=none, STEP=6
-demo-fixed: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
-	for part in cost half; do \
-	    $(RUN_BENCH) $< $$part $(DEMO_SCREEN) $(or $(BLUR),none) $(or $(STEP),6) || exit 1; \
-	done | awk -f platform/fixed.awk
 
 # ---------------------------------------------------------------------- the smallest
 
@@ -214,16 +206,16 @@ $(BUILD)/tiny$(EXE): $(TINY_OBJ) $(LIB) $(SCRIPTS)
 	$(CC) $(LDFLAGS) $(TEST_LDFLAGS) -Wl,-Map=$(@:$(EXE)=).map -o $@ $(TINY_OBJ) $(LIB) $(LDLIBS)
 
 .PHONY: tiny-firmware tiny-test tiny-cost
-## the smallest firmware, for TARGET=microbit
+## boards: the smallest firmware, for TARGET=microbit
 tiny-firmware: $(BUILD)/tiny$(EXE)
 	$(if $(SIZE),$(SIZE) -A $< | grep -E 'text|rodata|data|bss|mesh')
 
-## its frames against the host's, and what it takes
+## boards: the smallest firmware's frames against the host's, and what it takes
 tiny-test: $(BUILD)/tiny$(EXE) $(RUN_NEEDS)
 	$(MAKE) --no-print-directory -s TARGET=host build/host/tiny
 	RUN="$(RUN)" SIZE="$(SIZE)" sh tests/shell/target_tiny.sh $(BUILD)/tiny-test $< build/host/tiny
 
-## instructions per frame
+## boards: instructions per frame of the smallest firmware
 tiny-cost: $(BUILD)/tiny$(EXE)
 	$(RUN_BENCH) $< cost
 
@@ -236,7 +228,7 @@ $(PROPS)/device_error: $(call host_objects,$(ERROR_SRC))
 	$(HOST_CC) -o $@ $^ -lm
 
 .PHONY: device-chart
-## speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"
+## figures: speed against accuracy on Cortex-M and Game Boy Advance, in build/device-chart; TARGETS="gba:gba" BLURS="none object"
 device-chart: $(PROPS)/device_error
 	$(of_make) BLURS="$(BLURS)" sh platform/device_chart.sh build/device-chart $< $(TARGETS)
 
@@ -270,28 +262,28 @@ $(BUILD)/model$(EXE): $(MODEL_OBJ) $(LIB) $(SCRIPTS)
 endif
 
 .PHONY: model-firmware model-run model-cost model-test
-## a converted model (MODEL=build/model.h) as firmware for TARGET
+## boards: a converted model (MODEL=build/model.h) as firmware for TARGET
 model-firmware: $(BUILD)/model$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it, as demo-run does
+## boards: shows the model, as demo-run does
 model-run: $(BUILD)/model$(SHOWN)$(EXE) $(RUN_NEEDS)
 	@$(SHOW)
 
-## its frames against the host's
+## boards: the model's frames against the host's
 model-test: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(MAKE) --no-print-directory -s TARGET=host MODEL="$(MODEL)" build/host/model
 	build/host/model check $(DEMO_SCREEN) > $(BUILD)/model.want
 	$(RUN) $< check $(DEMO_SCREEN) > $(BUILD)/model.got
 	cmp $(BUILD)/model.want $(BUILD)/model.got
 
-## what its frames cost on TARGET
+## boards: what the model's frames cost
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
 
 # No floating point, no 64-bit division, no C library: of the library and the demo as they are linked.
 .PHONY: symbols-test
-## what the firmware calls, from its symbols
+## boards: what the firmware calls, from its symbols
 symbols-test: $(LIB) $(SYMBOLS_PROGRAMS)
 	HOOKS='$(SYMBOLS_HOOKS)' sh tests/shell/target_symbols.sh $(NM) $(or $(SYMBOLS_LIB),$(LIB)) $(SYMBOLS_PROGRAMS)
 
@@ -301,7 +293,7 @@ STACK_PROGRAM ?= 300
 CALLS_BUILD = $(BUILD)$(if $(CALLS),,/stack)
 
 .PHONY: stack-test
-## the library's worst stack fits the one that TARGET has for it
+## boards: the library's worst stack fits the one that TARGET has for it
 stack-test:
 	$(if $(STACK),,$(error TARGET=$(TARGET) does not say how large its stack is))@true
 	$(MAKE) --no-print-directory -s CALLS=1 BUILD=$(CALLS_BUILD) OPT="$(OPT)" $(CALLS_BUILD)/libsmear.a
@@ -313,7 +305,7 @@ stack-test:
 
 .PHONY: target-test target-bench overlay-cost target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
-## unit tests and golden frames on TARGET
+## boards: unit tests and golden frames on TARGET
 target-test: $(TARGET_TESTS:%=$(BUILD)/target_%$(EXE)) $(SMALL_LAYOUTS:%=target-test-%) $(RUN_NEEDS)
 	$(foreach test,$(TARGET_TESTS),$(RUN) $(BUILD)/target_$(test)$(EXE) &&) true
 
@@ -322,15 +314,15 @@ $(SMALL_LAYOUTS:%=target-test-%): target-test-%: $(TAPES)/small.c $(TAPES)/golde
 	$(MAKE) OPT=-Os BUILD=$(BUILD)-Os $(BUILD)-Os/target_golden-$*$(EXE)
 	$(RUN_$*) $(BUILD)-Os/target_golden-$*$(EXE)
 
-## what frames cost on TARGET
+## boards: what frames cost on TARGET
 target-bench: $(BUILD)/target_bench$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $(BUILD)/target_bench$(EXE)
 
-## what a line of text, and points, take of a frame on TARGET
+## boards: what a line of text, and points, take of a frame on TARGET
 overlay-cost: $(BUILD)/overlay_cost$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $<
 
-## take today's golden frames as right (look at the pictures first)
+## again: tests/golden.txt: today's golden frames are right (look at the pictures first)
 target-accept: $(TAPES)/target_tapes
 	$(TAPES)/target_tapes list > $(TAPES)/golden.txt
 	mv $(TAPES)/golden.txt tests/golden.txt

@@ -26,21 +26,21 @@ $(BUILD)/game$(EXE): $(GAME_OBJ) $(PROGRAM_OBJ) $(DISPLAY_SRC:%.c=$(BUILD)/%.o) 
 endif
 
 .PHONY: game game-firmware game-run game-test game-cost
-## the game as firmware for TARGET
+## boards: the game as firmware for TARGET
 game-firmware: $(BUILD)/game$(EXE)
 	$(if $(SIZE),$(SIZE) $<)
 
-## shows it, as demo-run does
+## boards: shows the game, as demo-run does
 game-run: $(BUILD)/game$(SHOWN)$(EXE) $(RUN_NEEDS)
 	@$(SHOW)
 
-## the recorded race on TARGET: the frames and times of platform/game/lap.txt
+## boards: the recorded race on TARGET: the frames and times of platform/game/lap.txt
 game-test: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 	for screen in $(GAME_CHECKED); do \
 	    $(RUN) $< check $$screen $(GAME_STEP) > $(BUILD)/game.txt && \
 	    sed -n "s/^$$screen //p" platform/game/lap.txt | diff - $(BUILD)/game.txt || exit 1; \
 	done
 
-## what its frames cost on TARGET
+## boards: what the game's frames cost
 game-cost: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(GAME_SCREEN) $(GAME_STEP)

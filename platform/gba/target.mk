@@ -86,11 +86,11 @@ game-firmware: $(BUILD)/game.gba
 symbols-test: gba-stages-test
 
 .PHONY: gba-stages-test gba-hot
-## no function of one stage is called in the other
+## boards: no function of one stage is called in the other
 gba-stages-test: $(BUILD)/libsmear.a
 	sh tests/shell/gba_stages.sh $<
 
-## chooses again what lies in the Game Boy Advance's fast memory, and when, by measuring
+## again: what lies in the Game Boy Advance's fast memory, and when, by measuring
 gba-hot: $(BUILD)/gbarun
 	@mkdir -p $(BUILD)/hot
 	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(GAME_OBJ) $(LIB)
@@ -100,7 +100,7 @@ gba-hot: $(BUILD)/gbarun
 	mv $(HOT:platform/gba/%=$(BUILD)/hot/%) platform/gba/
 
 .PHONY: gba-places
-## what each part of the library's memory would gain by lying in the Game Boy Advance's video or fast memory, by measuring
+## figures: what each part of the library's memory would gain by lying in the Game Boy Advance's video or fast memory, by measuring
 gba-places: $(BUILD)/gbarun
 	@mkdir -p $(BUILD)/places
 	$(MAKE) --no-print-directory TARGET=gba $(FIRMWARE_OBJ) $(LIB)

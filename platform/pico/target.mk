@@ -47,7 +47,7 @@ export LOOPS_KEYS   := 22:16,23:0,28:16,29:0,80:8,81:0,100:4,101:0,104:4,105:0,1
 HOT_BYTES ?= 36200
 
 .PHONY: pico-hot
-## chooses again what lies in a Pico's RAM
+## again: what lies in a Pico's RAM
 pico-hot: build/demo/props.c
 	@mkdir -p $(BUILD)/hot
 	echo '/* nothing */' > $(BUILD)/hot/hot.ld

@@ -141,13 +141,13 @@ async function begin() {
     if (typeof WebAssembly !== "object")
         throw new Error("this browser has no WebAssembly, or it is switched off. Any since 2018 has it; or play it without one: make game");
     const text = id => at(id).textContent.trim();
-    if (text("unlzma") === "" || text("game") === "") throw new Error("the program is missing in this copy of the page: make game-web writes a whole one");
+    if (text("unlzma") === "" || text("game") === "") throw new Error("the program is missing in this copy of the page: make web writes a whole one");
     let files;
     try {
         files = await filesOf(text("unlzma"), text("game"));
         w = (await WebAssembly.instantiate(files[0], imports)).instance.exports;
     } catch (error) {
-        throw new Error("the program in this copy of the page is damaged (" + error.message + "): make game-web writes a whole one");
+        throw new Error("the program in this copy of the page is damaged (" + error.message + "): make web writes a whole one");
     }
     w.wasm_set(0, 0);
     if (w.game_open(0) !== 0) throw new Error(said);

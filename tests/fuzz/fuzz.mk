@@ -41,7 +41,7 @@ FUZZ_GOALS := $(filter fuzz% build/fuzz/%,$(MAKECMDGOALS))
 
 # Each fuzzer over its corpus once, and for a few seconds beyond it.
 .PHONY: fuzz-corpus
-## fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
+## tests: fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
 	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
@@ -75,7 +75,7 @@ $(eval $(call frames_build,memory,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=memo
 $(eval $(call frames_build,threads,$(FUZZ_CC),-O1 -DSMEAR_CHECK=1 -fsanitize=thread))
 
 .PHONY: fuzz fuzz-many fuzz-builds
-## valid and wild frames, and valid ones in parts, under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
+## tests: valid and wild frames, and valid ones in parts, under sanitizers (needs clang-14), MINUTES=1 in all from case FIRST=1; build/fuzz/frames-address valid N: one
 fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threads
 	build/fuzz/frames-address valid $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 10)) s
 	build/fuzz/frames-address parts $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 5)) s
@@ -86,7 +86,7 @@ fuzz: build/fuzz/frames-address build/fuzz/frames-memory build/fuzz/frames-threa
 	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads threads $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 7)) s
 	TSAN_OPTIONS=halt_on_error=1 build/fuzz/frames-threads many $(or $(FIRST),1) $$(($(or $(MINUTES),1) * 4)) s
 
-## FRAMES=20000 of 256 to 20,000 triangles by 2 to 8 workers, sanitized, against one worker with room (needs clang-14), from case FIRST=1
+## tests: FRAMES=20000 of 256 to 20,000 triangles by 2 to 8 workers, sanitized, against one worker with room (needs clang-14), from case FIRST=1
 fuzz-many: build/fuzz/frames-address
 	build/fuzz/frames-address many $(or $(FIRST),1) $(or $(FRAMES),20000) f
 
@@ -144,7 +144,7 @@ $(eval $(call lib_build,unsigned,$(subst $$,$$$$,$(FUZZ_CACHED)),-std=gnu11 -O2 
 $(eval $(call lib_build,armv6m,$(FUZZ_THUMB),-std=c11 -O2 -DSMEAR_VECTORS=0 -DSMEAR_ASM_ARMV6M=1 -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,\
     $(CASES_SRC:%.c=build/fuzz/arm-cases/%.o)))
 
-## pictures of CASES=2000 cases from FIRST=1 by eleven builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 plain")
+## tests: pictures of CASES=2000 cases from FIRST=1 by eleven builds: of gcc, clang, -O0 to -O3, -m32 and others (BUILDS="m32 plain")
 fuzz-builds: $(foreach build,$(or $(BUILDS),$(FUZZ_BUILDS)),build/fuzz/frames-$(build))
 	first=; \
 	for build in $(or $(BUILDS),$(FUZZ_BUILDS)); do \

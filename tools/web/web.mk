@@ -27,12 +27,9 @@ WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -
 # What is compiled without vectors is the same in both.
 web_objects = $(foreach source,$(WEB_SRC),$(WEB)/$(if $(filter $(source),$(WEB_VECTORS)),$(1),scalar)/$(source:.c=.o))
 
-.PHONY: web game-web web-chart web-bench
-## web pages: build/web/index.html and game.html, for any static host or as they lie (needs clang-14, lld-14, llvm-14 and xz)
+.PHONY: web web-bench
+## page: web pages: build/web/index.html and game.html, for any static host or as they lie (needs clang-14, lld-14, llvm-14 and xz)
 web: $(WEB)/index.html $(WEB)/game.html
-
-## the game as a page: build/web/game.html
-game-web: $(WEB)/game.html
 
 $(WEB)/game.html: $(WEB)/pack $(addprefix platform/wasm/game.,html js) tools/web/unpack.js $(WEB)/unlzma.wasm $(WEB)/game.lzma
 	$(call say,GEN)
@@ -114,16 +111,7 @@ $(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) to
 	@mkdir -p $(@D)
 	$(if $(filter build/%,$<),awk -f tools/web/chart.awk $< > $@,cp $< $@)
 
-# Of the settings that the page has, measured anew under valgrind in some minutes.
-WEB_SETTINGS := none,auto draft,auto balanced,auto fine,timemask,subframes,accumulate 2,accumulate 4,accumulate 8,accumulate 16,reconstruct 4,reconstruct 8,reconstruct 16,camera 8,pingpong,half 8,object,layered 4,layered 8,layered 16
-## the kept numbers of the page's chart, measured again (needs valgrind)
-web-chart: $(BIN)/smear-bench
-	$(BIN)/smear-bench chart --quick --methods '$(WEB_SETTINGS)' > /dev/null
-	@mkdir -p $(WEB)
-	awk -f tools/web/chart.awk build/chart/part/chart.csv > $(WEB)/measured.csv
-	mv $(WEB)/measured.csv tools/web/chart.csv
-
-## frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
+## figures: frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
 web-bench: $(WEB)/index.html
 	node tests/shell/web_bench.js $(WEB)/index.html
 
