@@ -56,14 +56,6 @@ BUILD   := $(BUILD)-coverage
 LDFLAGS += --coverage
 $(BUILD)/src/%.o $(BUILD)/vectors.h.gch: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic
 endif
-# EXR=1: tests keep their pictures as OpenEXR, too, and the suites that need it are there.
-ifeq ($(EXR),1)
-OWN      := $(if $(filter build/host,$(BUILD)),tests/run.c tests/suite/exr.c tests/suite/test_exr.c tests/suite/test_assets.c,%)
-BUILD    := $(BUILD)-exr
-CFLAGS   += -DHAVE_EXR=1 $(shell pkg-config --cflags OpenEXR)
-EXR_LIBS := -lOpenEXRCore
-endif
-
 ifeq ($(wildcard platform/$(TARGET)/target.mk),)
 $(error no TARGET=$(TARGET): make help lists them)
 endif
@@ -91,10 +83,10 @@ CLI_SRC   := $(wildcard tools/player/*.c tools/options/*.c tools/cli/*.c)
 VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(MODEL_SRC) \
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c \
     $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c jpeg_color.c jpeg_idct.c jpeg_read.c \
         jpeg_scan.c output.c palette.c place.c png_read.c png_write.c ppm.c) \
-    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c cover.c model_scene.c present.c \
+    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c present.c \
         present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
@@ -106,7 +98,7 @@ host_objects = $(1:%.c=build/host/%.o)
 
 LIB := $(if $(filter-out $(OWN),src/smear.c),build/host,$(BUILD))/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
-BIN := $(if $(SAN)$(CHECK)$(EXR)$(COVERAGE),$(BUILD),build)
+BIN := $(if $(SAN)$(CHECK)$(COVERAGE),$(BUILD),build)
 
 .PHONY: all cost-model host-display help demo readme-pictures check test test-all bench chart chart-picture layers house tables clean
 ## start: the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
@@ -157,9 +149,9 @@ $(BIN)/smear: $(call objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
-## start: motion-blurred pictures and loops, in build/demo; ASSETS=FOLDER shows models from there, too
+## start: motion-blurred pictures and loops, in build/demo
 demo: $(BIN)/smear-demo
-	$(BIN)/smear-demo $(or $(ASSETS),-) build/demo
+	$(BIN)/smear-demo build/demo
 
 ## tests: what a change needs, in under three minutes on two cores: most suites of this machine, golden frames under sanitizers
 check:
@@ -239,7 +231,7 @@ README_SCREENS := pico-240:1 gba:2 oled:2
 
 ## again: pictures of the README: the loop, what the panels show of frame 45, and the first program's
 readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
-	$(BIN)/smear-demo --readme - $(PICTURES)
+	$(BIN)/smear-demo --readme $(PICTURES)
 	for screen in $(README_SCREENS); do \
 	    build/demo/target_screen picture $${screen%:*} 45 180 build/screen.png && \
 	    $(BIN)/smear-demo --enlarge $${screen#*:} build/screen.png $(PICTURES)/$${screen%:*}.png || exit 1; \
@@ -337,10 +329,9 @@ help:
 
 # ---------------------------------------------------------------------- tests
 
-EXR_SUITES := exr
 # Suites of one source file each, and suites of frames, tools and measures: suite_NAME() in test_NAME.c.
 ALL_SUITES := $(patsubst test_%.c,%,$(notdir $(wildcard tests/unit/test_*.c tests/suite/test_*.c)))
-SUITES     := $(filter-out $(EXR_SUITES),$(ALL_SUITES))
+SUITES     := $(ALL_SUITES)
 # Suites that need neither libc nor floating point: they run on every target, too.
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture tilemax,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
@@ -351,16 +342,11 @@ ifeq ($(SAN),1)
 SUITES := $(SAN_SUITES) $(filter-out $(SAN_SUITES),$(filter $(SUITE),$(SUITES)))
 endif
 
-ifeq ($(EXR),1)
-SUITES   += $(EXR_SUITES)
-EXR_SRC  := tests/suite/exr.c
-endif
-
 # The chart without what measures.
 CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_peer.c chart_plot.c \
                  chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
 TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c) \
-    $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) $(EXR_SRC) \
+    $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) \
     $(if $(filter-out $(SAN_SUITES),$(SUITES)),$(wildcard tests/suite/failures*.c) $(CHART_SRC))
 TESTS    := $(BUILD)/run
 # What the suite of kernels calls: a family of kernels in each.
@@ -399,7 +385,7 @@ $(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
-	$(CC) $(LDFLAGS) -o $@ $^ $(EXR_LIBS) -lm -lpthread
+	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
 .PHONY: print-suites print-san-suites run-suite test-headers test-examples test-flush test-tables test-readme
 print-suites:

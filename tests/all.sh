@@ -16,10 +16,6 @@ shift
 # stack-test reads the call graphs of the objects that the other suites build.
 calls="env CALLS=1"
 
-exr() {
-    command -v pkg-config >/dev/null 2>&1 && pkg-config --exists OpenEXR
-}
-
 m32() {
     echo 'int main(void) { return 0; }' | gcc -m32 -x c -o build/test/m32 - 2>/dev/null || lacks gcc-m32 "libc6-dev-i386 lib32gcc-12-dev"
 }
@@ -190,12 +186,6 @@ one_file() {
 }
 
 files() {
-    if exr; then
-        suite exr $make -s run-suite SUITE=exr EXR=1
-        suite assets-as-exr $make -s run-suite SUITE=assets EXR=1
-    else
-        lacks openexr-through-pkg-config "libopenexr-dev pkg-config" || true
-    fi
     suite build-hostile $make -s build/host/hostile
     suite limits sh tests/shell/limits.sh build/smear build/host/hostile
     suite build-faults-injected $make -s build/host/faults-injected

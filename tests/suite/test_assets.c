@@ -1,16 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_assets.c - every model file at hand loads, is drawn by the library, and looks like the
- * reference, cameras and animations of the file included. Built with EXR, both pictures are kept
- * under build/exr for looking at in other programs. */
+ * reference, cameras and animations of the file included. */
 #include "tests/ref/accuracy.h"
 
 #include "tests/test.h"
-
-#ifdef HAVE_EXR
-#include "tests/suite/exr.h"
-
-#include <sys/stat.h>
-#endif
 
 #include <math.h>
 #include <stdio.h>
@@ -61,60 +54,9 @@ static struct likeness likeness_of(const struct ref_frame *frame, const struct s
     return l;
 }
 
-/* ------------------------------------------------------------------ pictures to keep */
-
-#ifdef HAVE_EXR
-static void keep(const char *name, const char *who, const struct exr_frame *frame)
-{
-    struct failure f = {{0}};
-    char path[200];
-    mkdir("build", 0777);
-    mkdir("build/exr", 0777);
-    snprintf(path, sizeof path, "build/exr/%s-%s.exr", name, who);
-    if (!CHECK(exr_save(path, frame, &f)))
-        say("    %s: %s\n", path, f.text);
-}
-
-static void keep_both(const struct subject *s, const struct ref_frame *frame,
-                      const struct shot *sharp, const struct shot *under)
-{
-    struct failure f = {{0}};
-    struct exr_frame out;
-    size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    if (!CHECK(exr_frame_alloc(&out, frame->width, frame->height, &f)))
-        return;
-    for (size_t i = 0; i < pixels; i++) {
-        for (size_t k = 0; k < 3; k++)
-            out.plane[EXR_R + k][i] = (float)ref_srgb_decode(sharp->rgb[3 * i + k] / 255.0);
-        out.plane[EXR_Z][i] = under->distance[i];
-        out.plane[EXR_VELOCITY_X][i] = under->velocity[2 * i];
-        out.plane[EXR_VELOCITY_Y][i] = under->velocity[2 * i + 1];
-    }
-    keep(s->name, "library", &out);
-    for (size_t i = 0; i < pixels; i++) {
-        for (size_t k = 0; k < 3; k++)
-            out.plane[EXR_R + k][i] = (float)frame->color[3 * i + k];
-        out.plane[EXR_Z][i] = (float)frame->depth[i];
-        out.plane[EXR_VELOCITY_X][i] = (float)frame->velocity[2 * i];
-        out.plane[EXR_VELOCITY_Y][i] = (float)frame->velocity[2 * i + 1];
-    }
-    keep(s->name, "reference", &out);
-    exr_frame_free(&out);
-}
-#else
-static void keep_both(const struct subject *s, const struct ref_frame *frame,
-                      const struct shot *sharp, const struct shot *under)
-{
-    (void)s;
-    (void)frame;
-    (void)sharp;
-    (void)under;
-}
-#endif
-
 /* ------------------------------------------------------------------ the files */
 
-static void check_subject(struct subject *s, bool kept)
+static void check_subject(struct subject *s)
 {
     struct shot sharp = {0}, under = {0}, blurred = {0};
     struct ref_frame frame;
@@ -142,8 +84,6 @@ static void check_subject(struct subject *s, bool kept)
         CHECK_EQ(under.stats.crc32, blurred.stats.crc32);
         if (l.moving == 0)
             CHECK_EQ(blurred.stats.crc32, sharp.stats.crc32);
-        if (kept)
-            keep_both(s, &frame, &sharp, &under);
     }
     shot_free(&sharp);
     shot_free(&under);
@@ -171,7 +111,7 @@ static void check_files(bool circling)
         if (!subject_open_file(&s, *path, WIDTH, HEIGHT))
             continue;
         if (!circling || CHECK(subject_circle(&s, 4.0)))
-            check_subject(&s, !circling);
+            check_subject(&s);
         subject_close(&s);
     }
     CHECK(count > 0);

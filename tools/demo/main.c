@@ -2,13 +2,10 @@
 /* main.c - the program behind `make demo`: a folder of pictures, sharp and motion-blurred, all
  * drawn by the library.
  *
- *     smear-demo [--readme] ASSETS|- FOLDER
+ *     smear-demo [--readme] FOLDER
  *     smear-demo --enlarge ZOOM PICTURE OUT.png
  *
- * ASSETS is a folder of models. With `-` only the built-in scenes are shown; scenes whose models
- * are missing or broken are named and left out. --readme writes the pictures of the README
- * instead, --enlarge a picture whose pixels are squares of ZOOM x ZOOM. */
-#include "tools/demo/dioramas.h"
+ * --readme writes the pictures of the README instead, --enlarge a picture whose pixels are squares of ZOOM x ZOOM. */
 #include "tools/demo/film.h"
 #include "tools/demo/gallery.h"
 #include "tools/demo/layout.h"
@@ -22,7 +19,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,8 +46,7 @@ struct exhibit {
 /* A scene and what is shown of it: what one process does at a time. */
 struct room {
     const char *builtin;        /* demo/..., or */
-    bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo, or */
-    const struct diorama_kind *diorama;                     /* one made of assets */
+    bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo */
     const struct exhibit *exhibit;
     int count;
 };
@@ -100,57 +95,12 @@ static const struct exhibit night[] = {
       .what = "the same as a loop" },
 };
 
-static const struct exhibit rally[] = {
-    { .name = "rally-sharp.png", .kind = SHARP,
-      .what = "trucks on a forest track, the sharp instant" },
-    { .name = "rally-blurred.png", .kind = BLURRED,
-      .what = "the same blurred: the camera drives along, wheels spin" },
-    { .name = "rally-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
-    { .name = "rally-640.png", .kind = BLURRED, .width = 640, .height = 480,
-      .what = "blurred, 640x480" },
-};
-
-static const struct exhibit rally_film[] = {
-    { .name = "rally.gif", .kind = BLURRED, .width = 240, .height = 180,
-      .frames = RALLY_LOOP_FRAMES, .what = "blurred, a loop of two seconds" },
-};
-
-static const struct exhibit pass[] = {
-    { .name = "pass-pair.png", .kind = PAIR, .what = "trucks rush past: sharp | blurred" },
-    { .name = "pass-640.png", .kind = BLURRED, .width = 640, .height = 480,
-      .what = "blurred, 640x480" },
-};
-
-static const struct exhibit chase[] = {
-    { .name = "chase-pair.png", .kind = PAIR, .what = "robot and fox run: sharp | blurred" },
-};
-
-static const struct exhibit dance[] = {
-    { .name = "dance-pair.png", .kind = PAIR,
-      .what = "a robot dances before fans: sharp | blurred" },
-};
-
-static const struct exhibit wind[] = {
-    { .name = "wind-pair.png", .kind = PAIR, .what = "fans in the wind: sharp | blurred" },
-};
-
-static const struct exhibit coins[] = {
-    { .name = "coins-pair.png", .kind = PAIR, .what = "a jump for turning coins: sharp | blurred" },
-};
-
 /* The longest first, so that all cores end about together. */
 static const struct room demo_rooms[] = {
     { .builtin = "demo/race", .exhibit = race_film, .count = COUNT_OF(race_film) },
-    { .diorama = &diorama_rally, .exhibit = rally_film, .count = COUNT_OF(rally_film) },
-    { .diorama = &diorama_rally, .exhibit = rally, .count = COUNT_OF(rally) },
     { .builtin = "demo/race", .exhibit = race, .count = COUNT_OF(race) },
     { .builtin = "demo/drone", .exhibit = drone, .count = COUNT_OF(drone) },
     { .open = night_open, .exhibit = night, .count = COUNT_OF(night) },
-    { .diorama = &diorama_pass, .exhibit = pass, .count = COUNT_OF(pass) },
-    { .diorama = &diorama_chase, .exhibit = chase, .count = COUNT_OF(chase) },
-    { .diorama = &diorama_dance, .exhibit = dance, .count = COUNT_OF(dance) },
-    { .diorama = &diorama_wind, .exhibit = wind, .count = COUNT_OF(wind) },
-    { .diorama = &diorama_coins, .exhibit = coins, .count = COUNT_OF(coins) },
 };
 
 /* ------------------------------------------------------------------ of the README */
@@ -266,35 +216,14 @@ static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
 
 /* ------------------------------------------------------------------ all of them */
 
-static bool open_room(const struct room *room, const char *assets, struct scene *out,
-                      struct failure *f)
-{
-    if (room->diorama != NULL)
-        return diorama_open(room->diorama, assets, out, f);
-    return room->open != NULL ? room->open(out, f) : demo_make(room->builtin, out, f);
-}
-
-/* Missing models are no error of the demo. */
-static int leave_out(const struct room *room, const struct failure *why)
-{
-    char text[sizeof why->text + 32];
-    if (room->diorama == NULL)
-        return say_bad_input("built-in scene", why);
-    snprintf(text, sizeof text, "left out: %s", why->text);
-    say_warning(room->diorama->stage->name, text);
-    return STATUS_OK;
-}
-
 /* A status. */
-static int show_room(const struct room *room, const char *assets, const struct gallery *gallery)
+static int show_room(const struct room *room, const struct gallery *gallery)
 {
     struct scene scene = { .data = NULL };
     struct failure f = { "" };
     int status = STATUS_OK;
-    if (room->diorama != NULL && assets == NULL)
-        return STATUS_OK;
-    if (!open_room(room, assets, &scene, &f))
-        return leave_out(room, &f);
+    if (!(room->open != NULL ? room->open(&scene, &f) : demo_make(room->builtin, &scene, &f)))
+        return say_bad_input("built-in scene", &f);
     for (int i = 0; i < room->count; i++) {
         f = (struct failure){ "" };
         if (!make_exhibit(gallery, &scene, &room->exhibit[i], &f))
@@ -309,7 +238,6 @@ static int show_room(const struct room *room, const char *assets, const struct g
 struct tour {
     const struct room *room;
     int count;
-    const char *assets;
     const struct gallery *gallery;
 };
 
@@ -324,7 +252,7 @@ static int show_from(const struct tour *tour, int queue)
             continue;
         if (got != 1)
             return status;
-        int result = show_room(&tour->room[number], tour->assets, tour->gallery);
+        int result = show_room(&tour->room[number], tour->gallery);
         if (result != STATUS_OK)
             status = result;
     }
@@ -374,29 +302,6 @@ static int show_all(const struct tour *tour)
     return status;
 }
 
-/* Scenes of models that are not part of this repository. */
-static void tell_left_out(const struct tour *tour)
-{
-    int count = 0;
-    for (int i = 0; i < tour->count; i++)
-        if (tour->assets == NULL && tour->room[i].diorama != NULL)
-            count += tour->room[i].count;
-    if (count > 0)
-        printf("left out: %d pictures of models from elsewhere (make demo ASSETS=FOLDER of glTF sample models)\n", count);
-}
-
-/* Null when there are none. */
-static const char *find_assets(const char *name)
-{
-    struct stat info;
-    if (strcmp(name, "-") == 0)
-        return NULL;
-    if (stat(name, &info) == 0 && S_ISDIR(info.st_mode))
-        return name;
-    say_warning(name, "is no folder of models: built-in scenes only");
-    return NULL;
-}
-
 /* A status. */
 static int enlarge(const char *zoom, const char *from, const char *to)
 {
@@ -421,17 +326,16 @@ int main(int argc, char **argv)
     if (argc == 5 && strcmp(argv[1], "--enlarge") == 0)
         return enlarge(argv[2], argv[3], argv[4]);
     bool is_readme = argc > 1 && strcmp(argv[1], "--readme") == 0;
-    if (argc != (is_readme ? 4 : 3) || argv[argc - 1][0] == '-')
-        return say_bad_usage("usage", "smear-demo [--readme] ASSETS|- FOLDER");
+    if (argc != (is_readme ? 3 : 2) || argv[argc - 1][0] == '-')
+        return say_bad_usage("usage", "smear-demo [--readme] FOLDER");
     const char *folder = argv[argc - 1];
     output_catch_signals();
     if (!gallery_open(&gallery, folder, &f))
         return say_bad_input(folder, &f);
     const struct tour tour = { .room = is_readme ? readme_rooms : demo_rooms,
                                .count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms),
-                               .assets = find_assets(argv[argc - 2]), .gallery = &gallery };
+                               .gallery = &gallery };
     int status = show_all(&tour);
     printf("pictures in %s\n", folder);
-    tell_left_out(&tour);
     return status;
 }
