@@ -7,7 +7,7 @@ BUILD  := build/$(TARGET)
 .DEFAULT_GOAL := all
 
 # All cores compile, unless -j says otherwise. What `clean` removes is not built meanwhile.
-CORES := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+CORES ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 ifeq ($(MAKELEVEL)$(filter clean,$(MAKECMDGOALS)),0)
 MAKEFLAGS += -j$(CORES)
 endif

@@ -8,7 +8,7 @@
 #           frames by portable C and on three other machines, the command line, packages
 #   all     all there is
 #
-# Suites are in groups, of which as many run beside each other as there are cores. The last line adds up: N passed, N failed.
+# Suites are in groups, of which up to four run beside each other, as many as there are cores. The last line adds up: N passed, N failed.
 set -u
 . "$(dirname "$0")/shell/suites.sh"
 level=$1

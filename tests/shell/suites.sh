@@ -12,6 +12,7 @@ passed=0
 failed=0
 started=$(date +%s)
 cores=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+lanes=$((cores < 4 ? cores : 4))
 
 # alone: one run of suites at a time has the folder build; another waits for its end.
 alone() {
@@ -71,14 +72,16 @@ $(tail -n 60 "$log/$name.log")
     printf '%s\n' "$line"
 }
 
-# lanes GROUP...: a lane for each core takes functions of suites, each the next that nobody took: where the longest come first, all
-# end at about the same time. A group writes no file that another uses; of one that is named FUNCTION=WORD the function has the
+# lanes GROUP...: up to four lanes take functions of suites, each the next that nobody took: where the longest come first, all end at
+# about the same time. What they compile, they do with two processes for each core of theirs. A group writes no file that another uses; of one that is named FUNCTION=WORD the function has the
 # word. Waits for all and adds up.
 lanes() {
     mkdir -p "$log/lanes"
-    for lane in $(seq "$cores"); do
+    for lane in $(seq "$lanes"); do
         (
             trap - EXIT
+            CORES=$((2 * cores / lanes))
+            export CORES
             passed=0 failed=0
             for group; do
                 ! mkdir "$log/lanes/$group" 2>/dev/null || "${group%%=*}" "${group#*=}"
@@ -87,7 +90,7 @@ lanes() {
         ) &
     done
     wait
-    for lane in $(seq "$cores"); do
+    for lane in $(seq "$lanes"); do
         lane_passed=0 lane_failed=1
         if ! read -r lane_passed lane_failed <"$log/lanes/$lane.count"; then
             echo "a lane of suites ended early"
