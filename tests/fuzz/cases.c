@@ -12,6 +12,12 @@
 /* splitmix64 */
 uint32_t source_word(struct source *s)
 {
+    if (s->left >= 2) { /* the first counts most: ranges are told by the upper bits */
+        const uint32_t word = (uint32_t)s->bytes[0] << 24 | (uint32_t)s->bytes[1] << 16 | (uint32_t)s->bytes[0] << 8 | s->bytes[1];
+        s->bytes += 2;
+        s->left -= 2;
+        return word;
+    }
     uint64_t z = s->state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
     z = (z ^ z >> 27) * 0x94d049bb133111ebu;
@@ -689,6 +695,14 @@ void case_make(struct fuzz_case *c, uint64_t number, bool wild)
 {
     memset(c, 0, sizeof *c);
     c->source.state = number * 0x2545f4914f6cdd1du + (wild ? 77u : 0u);
+    c->wild = wild;
+    make_case(c);
+}
+
+void case_make_of_bytes(struct fuzz_case *c, const uint8_t *bytes, size_t size, bool wild)
+{
+    memset(c, 0, sizeof *c);
+    c->source = (struct source){ .bytes = bytes, .left = size };
     c->wild = wild;
     make_case(c);
 }

@@ -17,6 +17,8 @@
 
 struct source {
     uint64_t state;
+    const uint8_t *bytes; /* whose words come first */
+    size_t left;
 };
 
 uint32_t source_word(struct source *s);
@@ -72,6 +74,9 @@ struct fuzz_case {
 
 /* Makes case `number` up to its desc and scene. */
 void case_make(struct fuzz_case *c, uint64_t number, bool wild);
+
+/* Makes the case of which the bytes say what chance says otherwise, two for a word; then those of `state` 0 follow. */
+void case_make_of_bytes(struct fuzz_case *c, const uint8_t *bytes, size_t size, bool wild);
 
 /* Makes case `number` of 256 to 20,000 triangles, 2 to 8 workers and a store that may be too small: cases_many.c. What it is made
  * of: the desc, sizes of a mesh, a mesh, what is plain; and one worker's desc with room for all, which must draw the same. */

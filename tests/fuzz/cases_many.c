@@ -11,7 +11,7 @@ enum { LEAST = 256,
 
 void case_make_many(struct fuzz_case *c, uint64_t number)
 {
-    struct source s = { number * 0x9fb21c651e98df25u };
+    struct source s = { .state = number * 0x9fb21c651e98df25u };
     const int halves = source_range(&s, 0, 6), most = MOST >> halves; /* few as often as many */
     const int triangles = source_range(&s, most / 2 > LEAST ? most / 2 : LEAST, most);
     const int draws = source_chance(&s, 3) ? 1 : source_range(&s, 1, CASE_DRAWS);

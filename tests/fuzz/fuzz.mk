@@ -34,7 +34,8 @@ $(eval $(call fuzz_vectors,obj,$(FUZZ_CC) $(filter-out -MMD -MP,$(FUZZ_OBJ_FLAGS
 build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	$(call say,LD)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(FUZZ_OBJ) -lm -lpthread
+	$(FUZZ_CC) $(FUZZ_FLAGS) -fsanitize=fuzzer,address,undefined -o $@ $< $(filter %.o,$^) -lm -lpthread
+build/fuzz/smear: $(patsubst %.c,build/fuzz/obj/%.o,$(wildcard tests/fuzz/cases*.c))
 
 FUZZ_GOALS := $(filter fuzz% build/fuzz/%,$(MAKECMDGOALS))
 -include $(if $(FUZZ_GOALS),$(FUZZ_OBJ:.o=.d))
