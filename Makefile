@@ -54,7 +54,7 @@ ifeq ($(COVERAGE),1)
 OWN     := $(if $(filter build/host,$(BUILD)),src/%,%)
 BUILD   := $(BUILD)-coverage
 LDFLAGS += --coverage
-$(BUILD)/src/%.o $(BUILD)/vectors.h.gch: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic
+$(BUILD)/src/%.o: CFLAGS += -O0 --coverage -fprofile-update=prefer-atomic
 endif
 ifeq ($(wildcard platform/$(TARGET)/target.mk),)
 $(error no TARGET=$(TARGET): make help lists them)
@@ -108,20 +108,6 @@ $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(if $(CALLS),,$(if $(wildcard $(@:.o=.ci)),rm -f $(@:.o=.ci)))
 	$(CC) $(CFLAGS) -c -o $@ $<
-
-# What GCC knows of vectors is most of the text of half the library's sources and of tests of kernels, and most of the time that
-# a build takes: it is read once for all of them.
-ifeq ($(filter-out host linux,$(TARGET))$(shell $(CC) -v 2>&1 | grep -c -e '^Target: x86_64' -e '^gcc version'),2)
-VECTOR_TESTS := $(wildcard tests/kernels/*.c) $(addprefix tests/unit/,store.c test_convert.c test_raster.c test_subframes.c \
-    test_tilemax.c test_timemask.c)
-$(BUILD)/src/%.o $(VECTOR_TESTS:%.c=$(BUILD)/%.o): CFLAGS += -include $(BUILD)/vectors.h
-$(patsubst %.c,$(BUILD)/%.o,$(LIB_SRC) $(VECTOR_TESTS)): | $(BUILD)/vectors.h.gch
-$(BUILD)/vectors.h.gch:
-	$(call say,CC,$(@:.gch=))
-	@mkdir -p $(@D)
-	echo '#include <immintrin.h>' > $(@:.gch=)
-	$(CC) $(filter-out -MMD -MP,$(CFLAGS)) -x c-header -o $@ $(@:.gch=)
-endif
 
 ifneq ($(BUILD),build/host)
 build/host/%.o: %.c

@@ -8,28 +8,15 @@ FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c tests/random.c tests/ref/jpeg_case.c \
     $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
 
-# As in the Makefile, what compilers know of vectors is read once for all sources of a build: `vectors` is what says so, for those
-# of src/. Clang looks for it beside the header, and so does GCC.
-define fuzz_vectors
-build/fuzz/$(1)/src/%.o: private vectors := -include build/fuzz/$(1)/vectors.h
-$(LIB_SRC:%.c=build/fuzz/$(1)/%.o): | build/fuzz/$(1)/vectors.h.gch
-build/fuzz/$(1)/vectors.h.gch: tests/fuzz/fuzz.mk
-	$$(call say,CC,$$(@:.gch=))
-	@mkdir -p $$(@D)
-	printf '#ifdef __x86_64__\n#include <immintrin.h>\n#endif\n' > $$(@:.gch=)
-	$(2) -x c-header -o $$@ $$(@:.gch=)
-endef
-
 # Beside undefined behaviour, in the library conversions that nobody wrote may not change a value.
 FUZZ_CHECKED := address,undefined,implicit-conversion,local-bounds
 FUZZ_OBJ_FLAGS := $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 build/fuzz/obj/%.o: %.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)
-	$(FUZZ_CC) $(FUZZ_OBJ_FLAGS) $(checked) $(vectors) -c -o $@ $<
+	$(FUZZ_CC) $(FUZZ_OBJ_FLAGS) $(checked) -c -o $@ $<
 FUZZ_LIB_FLAGS := -fsanitize=$(FUZZ_CHECKED) -fno-sanitize-recover=all
 build/fuzz/obj/src/%.o: private checked := $(FUZZ_LIB_FLAGS)
-$(eval $(call fuzz_vectors,obj,$(FUZZ_CC) $(filter-out -MMD -MP,$(FUZZ_OBJ_FLAGS)) $(FUZZ_LIB_FLAGS)))
 
 build/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_OBJ)
 	$(call say,LD)
@@ -59,12 +46,11 @@ define frames_build
 build/fuzz/$(1)/%.o: %.c
 	$$(call say,CC,$$<)
 	@mkdir -p $$(@D)
-	$(2) $(FUZZ_BASE) -D_GNU_SOURCE $(3) $$(vectors) -c -o $$@ $$<
+	$(2) $(FUZZ_BASE) -D_GNU_SOURCE $(3) -c -o $$@ $$<
 build/fuzz/frames-$(1): $(FRAMES_SRC:%.c=build/fuzz/$(1)/%.o)
 	$$(call say,LD)
 	$(2) $(3) -o $$@ $$^ -lpthread
 -include $(if $(FUZZ_GOALS),$(FRAMES_SRC:%.c=build/fuzz/$(1)/%.d))
-$(call fuzz_vectors,$(1),$(2) $(filter-out -MMD -MP,$(FUZZ_BASE)) -D_GNU_SOURCE $(3))
 endef
 
 # The library of the fuzzers.
@@ -131,9 +117,8 @@ define lib_build
 build/fuzz/$(1)/%.o: %.c
 	$$(call say,CC,$$<)
 	@mkdir -p $$(@D)
-	$(2) $(3) -Iinclude -Isrc -I. -MMD -MP $$(vectors) -c -o $$@ $$<
+	$(2) $(3) -Iinclude -Isrc -I. -MMD -MP -c -o $$@ $$<
 -include $(if $(FUZZ_GOALS),$(LIB_SRC:%.c=build/fuzz/$(1)/%.d))
-$(call fuzz_vectors,$(1),$(2) $(3))
 $(call frames_of,$(1),$(2),$(4) $(LIB_SRC:%.c=build/fuzz/$(1)/%.o))
 endef
 $(eval $(call lib_build,mul16,gcc,-std=c11 -Os -DSMEAR_HAS_MUL64=0 -DSMEAR_HAS_CLZ=0,$(call host_objects,$(CASES_SRC))))

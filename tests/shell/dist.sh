@@ -211,7 +211,7 @@ if command -v cmake >/dev/null 2>&1; then
     # project NAME: configures and builds out/NAME, whose program draws the example's picture. That it is a release where nobody
     # says otherwise is shown by its commands, below: one build with all optimization is fuzz-builds' part. What compiles fastest
     # is enough here.
-    debug="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_C_FLAGS=-DSMEAR_AVX2=0"
+    debug="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0"
     project() {
         cp "$dist/platformio/smear/examples/plain/src/main.c" "$base/$1/main.c"
         # shellcheck disable=SC2086

@@ -60,7 +60,6 @@ for level in -O3 -O2 -Os -Og -O0; do
 done
 generates "g++ for cortex-m0plus" "arm-none-eabi-g++ -mcpu=cortex-m0plus -mthumb -x c++ -std=c++11 -ffreestanding" -O1
 generates "gcc for cortex-m4" "arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c11 -ffreestanding" -O2
-# With vectors of eight: as most desktops compile it.
 generates "gcc" "gcc -std=c99 -Wconversion" -O2
 # No line is this core's own: what -O2 warns of, Cortex-M0+ and M4 have shown.
 generates "gcc for rv32imc" "riscv64-unknown-elf-gcc -march=rv32imc -mabi=ilp32 -std=c11 -ffreestanding" -O1

@@ -13,15 +13,6 @@ players="tests/target/target_golden.c platform/play.c platform/print.c platform/
 programs="$players build/tapes/golden.c"
 sources=$(printf '%s\n' src/*.c src/*/*.c | wc -l)
 
-# What GCC knows of vectors, most of the text of half the sources, is read once for all.
-vectors=
-if [ "$(uname -m)" = x86_64 ]; then
-    echo '#include <immintrin.h>' >"$base/vectors.h"
-    # shellcheck disable=SC2086
-    ${CC:-cc} $flags -x c-header -o "$base/vectors.h.gch" "$base/vectors.h" || exit 1
-    vectors="-include $base/vectors.h"
-fi
-
 # shellcheck disable=SC2086
 ${CC:-cc} $flags -c -o "$base/tapes.o" build/tapes/golden.c || exit 1
 
@@ -54,7 +45,7 @@ draws() {
     name=$1
     shift
     # shellcheck disable=SC2046,SC2086
-    sh tests/shell/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags $vectors "$@" -- src/*.c src/*/*.c $programs &&
+    sh tests/shell/compile_cached.sh "$base/cache" "$base/$name.list" "${CC:-cc}" $flags "$@" -- src/*.c src/*/*.c $programs &&
         ${CC:-cc} -o "$base/$name" $(cat "$base/$name.list") &&
         ${CC:-cc} $flags "$@" -o "$base/$name-zero" tests/examples/zero.c $(head -n "$sources" "$base/$name.list") && plays "$name"
 }
