@@ -47,6 +47,17 @@ equals() { [ "$1" = "$2" ] || { echo "$1, not $2"; return 1; }; }
 is_true() { awk "BEGIN { exit !($1) }" || { echo "not true: $1"; return 1; }; }
 has() { grep -e "$2" "$1" >/dev/null || { head -n 5 "$1"; return 1; }; }
 
+# fails_with TEXT COMMAND...: the command fails, and says the text
+fails_with() {
+    text=$1
+    shift
+    if "$@" >"$base/told" 2>&1; then
+        echo "did not fail"
+        return 1
+    fi
+    grep -q "$text" "$base/told" || { cat "$base/told"; return 1; }
+}
+
 # wait_for SECONDS COMMAND...: until the command succeeds
 wait_for() {
     tries=$(($1 * 10))

@@ -11,15 +11,6 @@ rm -rf "$base"
 mkdir -p "$base"
 
 board() { $make -s TARGET=lm3s6965evb MODEL="$1" "$2"; }
-fails_with() { # TEXT COMMAND...
-    text=$1
-    shift
-    if "$@" >"$base/told" 2>&1; then
-        echo "did not fail"
-        return 1
-    fi
-    grep -q "$text" "$base/told" || { cat "$base/told"; return 1; }
-}
 # The panel's 128x64 pixels, 4x4 each: is anything there, and does it change with time?
 shot() { sh platform/lm3s6965evb/shot.sh build/lm3s6965evb/model.elf "$1" "$base/$1.ppm"; }
 is_lit() { tail -c +16 "$1" | od -An -v -tu1 | tr -s ' ' '\n' | sort -u | awk 'NF' | wc -l | grep -qv '^ *[012]$'; }

@@ -11,15 +11,6 @@ rm -rf "$base"
 mkdir -p "$base"
 
 pico() { $make -s TARGET=pico "$@"; }
-fails_with() { # TEXT COMMAND...
-    text=$1
-    shift
-    if "$@" >"$base/told" 2>&1; then
-        echo "did not fail"
-        return 1
-    fi
-    grep -q "$text" "$base/told" || { cat "$base/told"; return 1; }
-}
 boards=$(sed -n 's/^BOARD(\([a-z0-9_]*\), *RP2040.*/\1/p' platform/pico/boards.h)
 configure() { # FOLDER OPTION...
     folder=$1
