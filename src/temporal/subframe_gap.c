@@ -168,18 +168,11 @@ static inline bool is_steady(const struct subframes *f, const struct gap *gap, s
         && is_multiple(f, gap, sum.rb >> 16);
 }
 
-/* Whether the sums of the taps at both ends are those of a pixel: then no edge is looked for between them. */
-static inline bool shows_the_same(const struct subframes *f, int32_t at, int32_t offset, struct packed_sum here)
-{
-    const struct packed_sum a = packed_sum_at(&f->sums, at - offset), b = packed_sum_at(&f->sums, at + offset);
-    return ((a.rb ^ here.rb) | (a.gn ^ here.gn) | (b.rb ^ here.rb) | (b.gn ^ here.gn)) == 0;
-}
-
 /* Returns the pairs of taps up to an edge that stands still between them and a pixel, as one along the motion does. */
 static inline int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
 {
     const struct packed_sum here = packed_sum_at(&f->sums, at);
-    if (shows_the_same(f, at, gap->offset[pairs - 1], here) || !is_steady(f, gap, here))
+    if (!is_steady(f, gap, here))
         return pairs;
     for (int32_t i = 0; i < pairs; i++) {
         const struct packed_sum a = packed_sum_at(&f->sums, at - gap->offset[i]), b = packed_sum_at(&f->sums, at + gap->offset[i]);
