@@ -98,7 +98,8 @@ SMEAR_INLINE void flat_eight(void *pixels, uint16_t *depth, smear_v4u z, smear_v
     const smear_v8i hidden = (smear_v8i)(nearer == 0);
     v8i_store(depth, (smear_v8i)(old + nearer));
     if (narrow) {
-        v8i_store(pixels, v8i_choose(hidden, v8i_load(pixels), v8i_all((int16_t)color)));
+        uint16_t *const out = (uint16_t *)pixels;
+        v8i_store(out, v8i_choose(hidden, v8i_load(out), v8i_all((int16_t)color)));
         return;
     }
     uint32_t *out = (uint32_t *)pixels;

@@ -47,7 +47,7 @@ SMEAR_INLINE smear_v4i texels_indices(struct texels_pair *k, int log2_width, int
 /* Takes eight texels of 16 bits. Two indices at once leave vectors: elements one by one take longer. */
 SMEAR_INLINE smear_v8u texels_gather(const void *texels, smear_v8u a, smear_v8u b)
 {
-    const uint16_t *const t = texels;
+    const uint16_t *const t = (const uint16_t *)texels;
     const smear_v2u x = (smear_v2u)a, y = (smear_v2u)b;
     const uint64_t p = x[0], q = x[1], r = y[0], s = y[1];
     smear_v8u texel = { t[(uint32_t)p], 0, 0, 0, 0, 0, 0, 0 };
@@ -65,11 +65,12 @@ SMEAR_INLINE smear_v8u texels_gather(const void *texels, smear_v8u a, smear_v8u 
 SMEAR_INLINE void texels_eight(void *color, const void *texels, smear_v4i low, smear_v4i high, smear_v8i hidden, enum texel_kind kind)
 {
     if (kind == TEXELS_NARROW) {
-        v8i_store(color, v8i_choose(hidden, v8i_load(color), (smear_v8i)texels_gather(texels, (smear_v8u)low, (smear_v8u)high)));
+        uint16_t *const narrow = (uint16_t *)color;
+        v8i_store(narrow, v8i_choose(hidden, v8i_load(narrow), (smear_v8i)texels_gather(texels, (smear_v8u)low, (smear_v8u)high)));
         return;
     }
-    const uint32_t *const t = texels;
-    uint32_t *const out = color;
+    const uint32_t *const t = (const uint32_t *)texels;
+    uint32_t *const out = (uint32_t *)color;
     const smear_v2u x = (smear_v2u)low, y = (smear_v2u)high;
     const uint64_t p = x[0], q = x[1], r = y[0], l = y[1];      /* two indices each */
     const smear_v4u first = { t[(uint32_t)p], t[p >> 32], t[(uint32_t)q], t[q >> 32] };

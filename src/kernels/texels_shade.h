@@ -114,7 +114,7 @@ SMEAR_INLINE void texels_shade_lanes(const struct shaded_texels *k, struct texel
 {
     struct texels_pair pair;
     struct shaded_lanes red, green, blue;
-    uint16_t *depth = run->depth, *color = run->color;
+    uint16_t *depth = run->depth, *color = (uint16_t *)run->color;
     uint32_t z = run->z;
     texels_pair_start(&pair, run->uv, run->duv, run->dduv);
     shaded_lanes_start(&blue, l->c[2], l->d[2]);

@@ -485,7 +485,8 @@ static SMEAR_RARE void tiny_box_across(struct tiny_box *b) { tiny_box_reference(
 static inline void tiny_box(struct tiny_box *b)
 {
     if (SMEAR_SMALL_CODE || SMEAR_ASM_ARM) {    /* targets are wide there */
-        tiny_box_rows(b, b->shaded, b->linear, false, SMEAR_SMALL_CODE || b->code_shift == 0);
+        tiny_box_rows(b, SMEAR_WITH_GOURAUD && b->shaded, SMEAR_WITH_LINEAR && b->linear, false,
+                      SMEAR_SMALL_CODE || b->code_shift == 0);
         return;
     }
     if (b->code_shift == 0) {

@@ -78,7 +78,7 @@ void smear_layers_keep(struct smear_context *c, const smear_frame *f)
 bool smear_layers_are_curved(struct smear_context *c)
 {
     struct smear_layer_setting *s = c->layers->setting;
-    for (int i = 0; i < c->layers->setting_count; i++, s++)
+    for (int i = 0; SMEAR_WITH_CURVES && i < c->layers->setting_count; i++, s++)
         if (s->has_camera && smear_cameras_are_curved(&c->shot, s->camera, s->has_older))
             return true;
     return false;
@@ -87,7 +87,7 @@ bool smear_layers_are_curved(struct smear_context *c)
 void smear_layers_bend(struct smear_context *c)
 {
     struct smear_layer_setting *s = c->layers->setting;
-    for (int i = 0; i < c->layers->setting_count; i++, s++)
+    for (int i = 0; SMEAR_WITH_CURVES && i < c->layers->setting_count; i++, s++)
         if (s->has_camera)
             smear_cameras_bend(&c->shot, s->camera, s->has_older);
 }

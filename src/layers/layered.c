@@ -220,9 +220,9 @@ static void set_area(struct layers_row *r)
     const struct smear_layer_rows *rows = &r->layers->rows;
     const int32_t height = r->background.y1 - r->background.y0;
     r->area = (struct smear_layer_area){
-        .layer = rows, .group = r->group, .rows = height + 2 * r->streak.reach_y, .top = r->streak.reach_y, .height = height,
+        .layer = rows, .group = r->group, .rows = height + 2 * r->streak.reach_y, .top = r->streak.reach_y,
         .background = r->background.color, .background_depth = r->background.depth, .background_stride = frame->window.width,
-        .tile_shift = frame->window.tile_shift, .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .work = rows->work,
+        .height = height, .tile_shift = frame->window.tile_shift, .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .work = rows->work,
         .linear = frame->raster.linear
     };
 }

@@ -96,7 +96,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     const struct bounds bounds = given != NULL ? *given : bounds_of(v);
     const int32_t left = (bounds.x0 + 127) >> 8, right = (bounds.x1 + 127) >> 8;
     const int32_t top = (bounds.y0 + 127) >> 8, bottom = (bounds.y1 + 127) >> 8;
-    const int32_t most = segment_textured(p->segment) ? SMALL_TEXTURED_PX : SMALL_PX;
+    const int32_t most = segment_textured(p->segment) ? (int32_t)SMALL_TEXTURED_PX : (int32_t)SMALL_PX;
     const bool small = right - left <= most && bottom - top <= most;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
@@ -253,16 +253,19 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
     const uint32_t ordered = SMEAR_FRONT_ORDER ? smear_front_order(frame, target, head) : 0;
-    if (ordered != 0)
-        draw_list(frame, target, head, &(struct numbers){ front_order_of(&target->cache), NULL, ordered });
-    else
+    if (ordered != 0) {
+        const struct numbers order = { front_order_of(&target->cache), NULL, ordered };
+        draw_list(frame, target, head, &order);
+    } else {
         draw_list(frame, target, head, NULL);
+    }
 }
 
 #if SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                           const uint32_t *number, uint32_t count)
 {
-    draw_list(frame, target, 0, &(struct numbers){ NULL, number, count });
+    const struct numbers given = { NULL, number, count };
+    draw_list(frame, target, 0, &given);
 }
 #endif

@@ -43,7 +43,7 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
         return;
     tiny_codes(b, v[0][VERTEX_DEPTH], depths->low, depths->high);
     tiny_corners(b, v[0], v[1], v[2], left, top);
-    if (b->shaded) {
+    if (SMEAR_WITH_GOURAUD && b->shaded) {
         const uint32_t *const c0 = (const uint32_t *)v[0] + l->color, *const c1 = (const uint32_t *)v[1] + l->color;
         tiny_colors(b, c0, c1, (const uint32_t *)v[2] + l->color, b->linear ? 0 : 1u << 21);
         if (SMEAR_WITH_FOG && (SMEAR_SMALL_CODE || fog != NULL) && fog_is_even(fog))
@@ -68,10 +68,11 @@ bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, c
     struct tiny_span s;
     tiny_span(&s, v[0], v[1], v[2]);
     const struct tiny_depths depths = { s.low, s.high };
+    const struct pixel_box box = { s.left, s.right, s.top, s.bottom };
     if (s.right - s.left > SMALL_PX || s.bottom - s.top > SMALL_PX || (s.right - s.left) * (s.bottom - s.top) > TINY_PIXELS
         || !tiny_suits(l, &depths))
         return false;
-    smear_tiny_box(l, t, v, color, &(struct pixel_box){ s.left, s.right, s.top, s.bottom }, &depths, NULL);
+    smear_tiny_box(l, t, v, color, &box, &depths, NULL);
     return true;
 }
 #endif
