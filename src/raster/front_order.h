@@ -17,7 +17,7 @@ size_t smear_front_order_bytes(const struct smear_bins *bins);
 static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
 {
     const struct front_memory *const m = cache->entry != NULL ? (const struct front_memory *)cache->entry - 1 : NULL;
-    return m != NULL && m->bytes > sizeof *m ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
+    return m != NULL && m->bytes > sizeof(uintptr_t) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
 }
 
 /* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any

@@ -10,19 +10,22 @@ enum {
     ORDER_PART = 4                  /* of the memory, at most, may hold orders of lists */
 };
 
+/* What is kept of rows of one colour has pointers. */
+#define ALIGN ((uint32_t)sizeof(uintptr_t))
+
 static uint32_t entry_bytes_of(const struct smear_bins *bins)
 {
     uint32_t entry_bytes = sizeof(struct kept);
     for (uint32_t i = 0; i < bins->segment_count; i++)
         entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
-    return entry_bytes;
+    return (entry_bytes + ALIGN - 1u) & ~(ALIGN - 1u);
 }
 
 #if SMEAR_FRONT_ORDER
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)
 {
-    const size_t n = (size_t)count, most = bytes / n & ~(size_t)3, order = smear_front_order_bytes(bins);
-    const size_t before = (order <= most / ORDER_PART ? order : 0) + sizeof(struct front_memory);
+    const size_t n = (size_t)count, most = bytes / n & ~(size_t)(ALIGN - 1u), order = smear_front_order_bytes(bins);
+    const size_t before = ((order <= most / ORDER_PART ? order : 0) + sizeof(struct front_memory) + ALIGN - 1u) & ~(size_t)(ALIGN - 1u);
     if (most < before)
         return (struct smear_raster_cache){ NULL, 0, 0 };
     const uint32_t entry_bytes = entry_bytes_of(bins);
