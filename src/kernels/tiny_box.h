@@ -8,8 +8,14 @@
 #include "kernels/kernels.h"
 #include "kernels/tiny_weights.h"
 
-/* Where size counts, one loop of C does. */
 #define TINY_ASM_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+
+/* One loop of C does for all kinds where size counts: in a page and in the GBA's fast memory, too. */
+#ifdef __wasm__
+#define TINY_ONE_LOOP 1
+#else
+#define TINY_ONE_LOOP (SMEAR_SMALL_CODE || SMEAR_ASM_ARM)
+#endif
 
 /* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
  * rounds codes (tiny_pixel). */
@@ -482,11 +488,11 @@ static SMEAR_NOINLINE void tiny_box_armv7em(struct tiny_box *b)
 
 static SMEAR_RARE void tiny_box_across(struct tiny_box *b) { tiny_box_reference(b); }
 
-static inline void tiny_box(struct tiny_box *b)
+/* `narrow`: b->narrow, where that may be. */
+static inline void tiny_box(struct tiny_box *b, bool narrow)
 {
-    if (SMEAR_SMALL_CODE || SMEAR_ASM_ARM) {    /* targets are wide there */
-        tiny_box_rows(b, SMEAR_WITH_GOURAUD && b->shaded, SMEAR_WITH_LINEAR && b->linear, false,
-                      SMEAR_SMALL_CODE || b->code_shift == 0);
+    if (TINY_ONE_LOOP) {
+        tiny_box_rows(b, SMEAR_WITH_GOURAUD && b->shaded, SMEAR_WITH_LINEAR && b->linear, narrow, SMEAR_SMALL_CODE || b->code_shift == 0);
         return;
     }
     if (b->code_shift == 0) {

@@ -128,10 +128,11 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
             return;
         if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
             smear_setup(&s, area);
-        smear_cover_choose(&s, small);
     } else if (has_levels(&s)) {
         smear_setup_shrink(&s, &smaller);
     }
+    if (!known || SMEAR_DIRECT)         /* rows above may have been pixels of another kind */
+        smear_cover_choose(&s, small);
     const bool is_new = make_velocity(&s) || !known;
     if (is_new && kept != NULL && goes_on)
         kept_keep(kept, &s, number, bottom);

@@ -29,7 +29,7 @@ static inline void draw_rows(struct tiny_box *b, const struct smear_raster_targe
     b->rows = n;
     for (int32_t y = 0; SMEAR_LATE_BLOCKS && y < n; y++)
         target_settle(t, at + y * b->stride - x, x, x + b->columns);
-    tiny_box(b);
+    tiny_box(b, narrow);
 }
 
 void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,

@@ -68,7 +68,7 @@ static bool make(struct tiny_box *b, struct kernel_call *c, bool shaded, bool li
     {                                                   \
         struct tiny_box b;                              \
         if (make(&b, c, SHADED, LINEAR, NARROW))        \
-            tiny_box(&b);                               \
+            tiny_box(&b, b.narrow);                               \
     }
 
 CALLS(flat, false, false, false)
