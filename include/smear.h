@@ -206,7 +206,7 @@ typedef enum smear_method {
 #define SMEAR_SET(method) (1u << (method))
 
 /* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. */
-enum { SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
+enum { SMEAR_SKETCH = 512, SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 
 #include "smear_methods.h"
 

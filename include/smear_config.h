@@ -41,6 +41,9 @@
                                          * several instants: no temporal methods */
 #define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
 #endif
+#ifndef SMEAR_WITH_LINES                /* SMEAR_SKETCH: targets beyond SMEAR_DRAFT */
+#define SMEAR_WITH_LINES (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
+#endif
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */
 #define SMEAR_WITH_TIMEMASK (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
@@ -120,6 +123,9 @@
 
 #if SMEAR_WITH_TIMEMASK && !SMEAR_WITH_SUBFRAMES
 #error "SMEAR_WITH_TIMEMASK needs SMEAR_WITH_SUBFRAMES"
+#endif
+#if SMEAR_WITH_LINES && !SMEAR_WITH_SUBFRAMES
+#error "SMEAR_WITH_LINES needs SMEAR_WITH_SUBFRAMES"
 #endif
 #if SMEAR_WITH_DAMAGE && !SMEAR_WITH_SUBFRAMES
 #error "SMEAR_WITH_DAMAGE needs SMEAR_WITH_SUBFRAMES"

@@ -42,6 +42,10 @@ struct smear_frame;
  * instant. Small and slow. */
 #define SMEAR_SET_ACCUMULATE_BANDS (1u << 15)
 
+/* Beside SMEAR_AUTO: keeps a window of rows, by which frames of targets beyond SMEAR_DRAFT blur along lines what stands still while
+ * the camera moves. */
+#define SMEAR_SET_SKETCH (1u << 14)
+
 static inline uint8_t smear_method_is_temporal(int method)
 {
     return method >= SMEAR_SUBFRAMES && method <= SMEAR_AUTO;

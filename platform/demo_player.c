@@ -76,7 +76,7 @@ const struct demo_blur demo_blurs[] = {
     { "subframes-4", SMEAR_SUBFRAMES, 4 }, { "subframes-8", SMEAR_SUBFRAMES, 8 },
     { "subframes-32", SMEAR_SUBFRAMES, 32 },
     { "timemask-8", SMEAR_TIMEMASK, 8 }, { "timemask-32", SMEAR_TIMEMASK, 32 },
-    { "auto", SMEAR_AUTO, 0 }, { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT },
+    { "auto", SMEAR_AUTO, 0 }, { "auto-sketch", SMEAR_AUTO, SMEAR_SKETCH }, { "auto-draft", SMEAR_AUTO, SMEAR_DRAFT },
     { "auto-balanced", SMEAR_AUTO, SMEAR_BALANCED }, { "auto-fine", SMEAR_AUTO, SMEAR_FINE }
 };
 
@@ -92,7 +92,8 @@ const struct demo_blur *demo_blur_find(const char *name)
 
 void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc)
 {
-    desc->methods = (uint16_t)SMEAR_SET(blur->method);
+    desc->methods = (uint16_t)(SMEAR_SET(blur->method)
+                               | (blur->method == SMEAR_AUTO && blur->number > SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u));
     if (smear_method_is_temporal(blur->method))
         return;
     /* Where pages flip, twice as much of a sharp frame is damaged, and nothing is saved. */

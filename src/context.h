@@ -58,4 +58,6 @@ struct smear_context {
     bool has_fixed;                 /* a draw stays where it is before a camera that moves */
 };
 
+static inline bool frame_has_lines(const struct smear_context *c) { return temporal_has_lines(&c->temporal); }
+
 #endif

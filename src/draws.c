@@ -26,6 +26,16 @@ static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw
     r->moves = own && !attached;
 }
 
+/* Whether a draw is drawn at several instants over what lines blur: it moves by itself, moves not at all before a camera that
+ * does, or is blended. */
+static bool moves_over_lines(const struct smear_draw_poses *p, const smear_draw *draw, bool blended)
+{
+    bool own = draw->motion == SMEAR_MOTION_NONE;
+    for (int i = 1; i < 3; i++)
+        own = own || p->position[i] != p->position[0] || !smear_transform_is_same(p->object[i], p->object[0]);
+    return own || (blended && poses_differ(p));
+}
+
 /* Finds where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
 static void classify_draw(struct smear_context *c, uint32_t i)
 {
@@ -39,6 +49,10 @@ static void classify_draw(struct smear_context *c, uint32_t i)
     c->has_fixed = c->has_fixed || r->fixed;
     if (c->frame.method == SMEAR_CAMERA)
         r->moves = false;
+    if (frame_has_lines(c)) {
+        const smear_draw *draw = &c->submitted[i].draw;
+        r->moves = moves_over_lines(&p, draw, draw->material != NULL && draw->material->alpha == SMEAR_BLEND);
+    }
     c->stats.draws_moved += r->moves;
 }
 
@@ -109,15 +123,15 @@ static void place_fine(struct smear_placement *place, const struct smear_assembl
     smear_draw_poses_place(place, &poses, &c->shot, a->mesh, at);
 }
 
-/* Finds where a draw is, at an instant and along its path. */
-static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves,
+/* Finds where a draw is, at an instant and, with `has_path`, along its path. */
+static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves, bool has_path,
                   const struct smear_instant *instant)
 {
     a->place_fine = place_fine;
     a->place_of = c;
     a->instant = moves ? instant : &smear_instant_now;
     smear_draw_poses_place(&a->at, p, &c->shot, a->mesh, moves ? instant : &smear_instant_now);
-    if (!moves || !assembler_keeps_paths(&c->assembler))
+    if (!has_path)
         return;
     const struct smear_instant open = smear_instant_at(&c->shot, -65536), close = smear_instant_at(&c->shot, 65536);
     a->path = true;
@@ -143,7 +157,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     /* Fog, of which a tiny triangle has one part however the frame is cut, and velocities that are not those of the depth. */
     a->fixed = frame_has_fog(&c->rows.raster) || draw_is_fixed(&c->raster_draw[i]);
     const bool moves = poses_differ(&poses);
-    place(a, c, &poses, moves, instant);
+    place(a, c, &poses, moves, assembler_keeps_paths(&c->assembler) && (frame_has_lines(c) ? c->raster_draw[i].moves : moves), instant);
     /* Layers reach beyond the frame. */
     if (!frame_has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
         return false;

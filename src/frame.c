@@ -16,18 +16,24 @@
 
 /* ------------------------------------------------------------------ SMEAR_AUTO, SMEAR_SUBFRAMES, SMEAR_TIMEMASK */
 
-/* What is static is drawn once; tiles in which something moves draw their moving triangles at several instants. */
+/* What is static is drawn once; tiles in which something moves draw their moving triangles at several instants. Along lines a
+ * row is finished late, with the triangles that move in it; what a display shows is not what is static then. */
 static int render_temporal(struct smear_context *c)
 {
     const struct smear_instant middle = smear_instant_middle(&c->shot);
+    const bool lines = frame_has_lines(c);
     int result = SMEAR_OK;
-    smear_draws_find_damage(c);
+    if (lines)
+        damage_forget(c->damage);
+    else
+        smear_draws_find_damage(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
-        end = smear_draws_assemble(c, row, row, c->rows.window.rows, &middle, &refill);
+        end = smear_draws_assemble(c, lines ? max_i32(row - 1, 0) : row, row, c->rows.window.rows, &middle, &refill);
         result = smear_temporal_rows(&c->temporal, &c->rows, row, end);
     }
-    smear_draws_end_damage(c, result);
+    if (!lines)
+        smear_draws_end_damage(c, result);
     return result;
 }
 
@@ -60,11 +66,14 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
                                 && (!spans || smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2])));
     raster->linear = c->frame.light_space == SMEAR_LIGHT_LINEAR;
     c->shot.camera_moves = camera_moves;
+    if (SMEAR_WITH_SUBFRAMES)
+        smear_temporal_begin(&c->temporal, &c->frame, rows, &c->shot);
     if (SMEAR_WITH_RECONSTRUCT)
         smear_filtered_begin(c, by_depth);
     rows->clear = c->frame.clear & 0xffffffu;
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
     c->assembler.keep_paths = smear_method_is_temporal(method);
+    c->assembler.still = frame_has_lines(c) ? &c->temporal.lines->flow : NULL;
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
     rows->refill = NULL;
@@ -83,8 +92,6 @@ SMEAR_NOINLINE void smear_frame_prepare(struct smear_context *c, bool by_depth)
     prepare_stages(c, by_depth);
     c->has_groups = c->has_fixed = false;
     smear_draws_begin_damage(c);
-    if (SMEAR_WITH_SUBFRAMES)
-        smear_temporal_begin(&c->temporal, &c->frame, &c->rows.window);
     smear_draws_prepare(c);
 }
 

@@ -35,12 +35,20 @@ static void lay_out_window(struct smear_window *w, struct smear_arena *a, const 
     w->columns = (d->width + d->tile - 1) / d->tile;
     w->rows = (d->height + row_px(d) - 1) / row_px(d);
     w->lag = (d->reach + d->tile - 1) / d->tile;
-    w->ring = has_window(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
+    w->ring = has_window(d) || has_lines(d) ? (w->lag + 1) * d->tile + d->reach : min_i32(row_px(d), d->height);
     if (caches_static(d))
         w->ring = max_i32(w->ring, d->height);
     w->color = SMEAR_PLACE(d, SMEAR_PART_COLOR, arena_take(a, window_plane(w), 4), window_plane(w) * 4);
     w->depth = SMEAR_PLACE(d, SMEAR_PART_DEPTH, arena_take(a, window_plane(w), 2), window_plane(w) * 2);
     w->moving = arena_take(a, (size_t)w->columns, 1);
+}
+
+static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const smear_desc *d)
+{
+    uint32_t *row = arena_take(a, (size_t)d->width * (size_t)d->tile, sizeof *row);
+    t->lines = arena_take(a, 1, sizeof *t->lines);
+    if (t->lines != NULL)           /* else it is only measured */
+        *t->lines = (struct smear_lines){ .row = row };
 }
 
 static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
@@ -56,6 +64,8 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     if ((d->methods & SMEAR_SET(SMEAR_AUTO)) != 0)
         t->moving.blocks.block = arena_take(a, rows * (size_t)block_columns(d->width) * (size_t)block_rows(d->tile),
                                             sizeof *t->moving.blocks.block);
+    if (has_lines(d))
+        lay_out_lines(t, a, d);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));

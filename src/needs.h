@@ -16,7 +16,10 @@ static inline bool has_window(const smear_desc *d) { return wants(d, SMEAR_SET_F
 static inline bool is_temporal(const smear_desc *d) { return wants(d, SMEAR_SET_TEMPORAL); }
 static inline bool has_layers(const smear_desc *d) { return wants(d, SMEAR_SET_LAYERS); }
 static inline bool has_half(const smear_desc *d) { return wants(d, SMEAR_SET(SMEAR_HALF)); }
-static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS); }
+static inline bool has_reach(const smear_desc *d) { return wants(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH); }
+
+/* Frames of targets beyond SMEAR_DRAFT find room for the rows that lines reach. */
+static inline bool has_lines(const smear_desc *d) { return wants(d, SMEAR_SET_SKETCH); }
 static inline bool caches_static(const smear_desc *d) { return SMEAR_CACHE_STATIC_MOST && d->reuse.cache_static; }
 static inline bool has_buffer_age(const smear_desc *d) { return SMEAR_BUFFER_AGE_MOST != 0 && d->reuse.buffer_age; }
 

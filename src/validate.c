@@ -101,6 +101,8 @@ static int resolve_methods(smear_desc *d)
         d->methods = SMEAR_SET_DEFAULT;
     if ((d->methods & ~(unsigned)SMEAR_SET_COMPILED) != 0)
         return FAULT(DESC_METHODS);
+    if (has_lines(d) && !wants(d, SMEAR_SET(SMEAR_AUTO)))
+        return FAULT(DESC_METHODS);
     if (d->debug.inspect != NULL && !SMEAR_INSPECT_MOST)
         return FAULT(DESC_INSPECT);
     if (!is_temporal(d) && d->reuse.cache_static)

@@ -16,7 +16,7 @@ enum {
                                | (SMEAR_WITH_RECONSTRUCT ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u)
                                | (SMEAR_WITH_FILTERS ? SMEAR_SET_FILTERS : 0u) | (SMEAR_WITH_LAYERS ? SMEAR_SET_LAYERS : 0u)
                                | (SMEAR_WITH_SUBFRAMES ? SMEAR_SET(SMEAR_SUBFRAMES) | SMEAR_SET(SMEAR_AUTO) : 0u)
-                               | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
+                               | (SMEAR_WITH_LINES ? SMEAR_SET_SKETCH : 0u) | (SMEAR_WITH_TIMEMASK ? SMEAR_SET(SMEAR_TIMEMASK) : 0u))
 };
 
 /* Other fields of desc. */

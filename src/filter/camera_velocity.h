@@ -3,7 +3,7 @@
 #ifndef SMEAR_CAMERA_VELOCITY_H
 #define SMEAR_CAMERA_VELOCITY_H
 
-#include "filter/reproject.h"
+#include "geometry/reproject.h"
 #include "raster/window.h"
 
 /* How velocities are stored, as in struct smear_raster_frame. */

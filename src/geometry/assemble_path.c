@@ -9,6 +9,7 @@
 #include "geometry/path.h"
 #include "geometry/path_places.h"
 #include "geometry/ranges.h"
+#include "geometry/reproject.h"
 #include "geometry/space.h"
 
 #if SMEAR_WITH_SUBFRAMES
@@ -220,17 +221,23 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     return word;
 }
 
-/* Whether no vertex moves, not even by a step (q8 px). */
-static bool is_static(const struct smear_path_bounds *bounds)
+/* Whether no vertex moves, not even by a step (q8 px). Along lines: whether all move as if they stood still before the camera. */
+static bool is_static(const struct path_batch *b, const struct smear_path_bounds *bounds, const int32_t *const record[3])
 {
-    return bounds->travel + bounds->curvature == 0;
-}
-
-static uint32_t *list_of(const struct path_batch *b, const struct smear_path_bounds *bounds)
-{
-    struct smear_bins *g = b->a->bins;
-    uint32_t *list = is_blend(b->d) ? g->blend_last : is_static(bounds) ? g->opaque_last : g->moving_last;
-    return &list[bins_row(g, bounds->y0)];
+    enum { ALIKE = 384 };           /* q8 px */
+    const int motion = b->segment->motion;
+    if (!SMEAR_WITH_LINES || b->a->still == NULL)
+        return bounds->travel + bounds->curvature == 0;
+    if (bounds->space != 0)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = record[i], *open = v + motion, *close = open + PATH_POSE_WORDS;
+        int32_t still[2];
+        smear_flow_at(b->a->still, v[VERTEX_X] >> 8, v[VERTEX_Y] >> 8, (uint32_t)v[VERTEX_DEPTH] >> 11, still);
+        if (max_i32(abs_i32(close[PATH_X] - open[PATH_X] - still[0]), abs_i32(close[PATH_Y] - open[PATH_Y] - still[1])) > ALIKE)
+            return false;
+    }
+    return true;
 }
 
 /* Whether the next part of the triangle has been added already. */
@@ -270,14 +277,16 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     uint32_t color = smear_face_color(b->d, b->segment, face);
     if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.linear))
         bounds->flags |= PATH_FLAT;
-    struct smear_triangle *t = bins_add_path(g, list_of(b, bounds), bounds);
+    const bool stands = is_static(b, bounds, record);
+    uint32_t *list = is_blend(b->d) ? g->blend_last : stands ? g->opaque_last : g->moving_last;
+    struct smear_triangle *t = bins_add_path(g, &list[bins_row(g, bounds->y0)], bounds);
     for (int i = 0; i < 3; i++)
         t->vertex[i] = vertex[i];
     t->segment = (uint16_t)(b->segment - g->segment);
     t->color = color;
     b->parts++;
     b->a->path_count++;
-    b->a->path_static_count += is_static(bounds);
+    b->a->path_static_count += stands;
     if (assembler_has_damage(b->a))
         mark_tiles(b->a->damaged, bounds);
     b->a->triangles_drawn++;

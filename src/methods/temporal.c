@@ -183,8 +183,8 @@ static void widen(struct smear_tile_run *t, const struct finish *f)
 }
 
 /* Draws tiles beside each other from `first` on, which share instants: as many as the one that needs most, or as the plan
- * says. Tiles in which something is blended are drawn apart, as nothing is closed there. Returns the first tile that is not
- * among them. */
+ * says. Tiles that need none are drawn apart from others, and so are those in which something is blended, as nothing is
+ * closed there. Returns the first tile that is not among them. */
 static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
 {
     struct smear_temporal *self = f->self;
@@ -194,7 +194,8 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     travel_set_method(&travel[first], TILE_SUBFRAMES);
     for (; next < end && !is_static(&travel[next]); next++) {
         smear_tile_method_choose(&choice, &self->chooser, &travel[next]);
-        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0)
+        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0
+            || (choice.instants == 0) != (instants == 0))
             break;
         travel_set_method(&travel[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);
@@ -336,12 +337,16 @@ static void finish_job(void *argument, int strip, int worker)
 
 /* ------------------------------------------------------------------ rows */
 
+/* What lines blur counts as SMEAR_CAMERA, after which they are made. */
 static void count_tiles(const struct smear_temporal *self, const struct smear_rows *rows)
 {
     for (int32_t i = 0; i < rows->window.columns; i++) {
         const enum smear_tile_method method = travel_method(&self->moving.travel[i]);
-        smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : TILE_COMPLEX,
-                        method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
+        if (method == TILE_COPY && temporal_has_lines(self))
+            smear_row_count(rows, TILE_UNIFORM, SMEAR_CAMERA);
+        else
+            smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : TILE_COMPLEX,
+                            method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
     }
 }
 
@@ -364,36 +369,41 @@ static bool next_run(const struct smear_temporal *self, const struct smear_rows 
     return run->first < run->end;
 }
 
-/* Draws, finishes and hands out tiles beside each other. `end`: of the tile rows that are assembled. */
-static int finish_run(struct smear_temporal *self, struct smear_rows *rows, int row, int end, const struct smear_damage_run *run)
+/* Draws what does not move of tiles beside each other, and finds where it is. */
+static void draw_run(struct smear_temporal *self, struct finish *f)
 {
-    uint32_t start = stage_start(rows);
-    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
-    finish.row.x0 = tile_left(rows, run->first);
-    finish.row.x1 = tile_right(rows, run->end - 1);
-    smear_row_target(rows, row, &finish.background);
+    struct smear_rows *rows = f->row.rows;
+    const uint32_t start = stage_start(rows);
+    smear_row_target(rows, f->row.row, &f->background);
     if (!static_is_cached(self->damage)) {
-        smear_row_run(rows, background_job, &finish.row, FILL_STATIC | FILL_MOVING);
+        smear_row_run(rows, background_job, &f->row, FILL_STATIC | FILL_MOVING);
         if (SMEAR_EDGES && bins_margin(&rows->bins) != 0)
-            smear_smooth_static(rows, row, self);
+            smear_smooth_static(rows, f->row.row, self);
     }
     stage_end(rows, &rows->stats->time.raster, start);
+}
 
-    start = stage_start(rows);
-    finish.row.band = smear_band_begin(rows);
+/* Finishes and hands out tiles [first, last) beside each other whose background is known. `end`: of the tile rows that are
+ * assembled. */
+static int finish_run(struct smear_temporal *self, struct finish *f, int end, const struct smear_damage_run *run)
+{
+    struct smear_rows *rows = f->row.rows;
+    const uint32_t start = stage_start(rows);
+    const int row = f->row.row;
+    f->row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
-    const int strips = finish.strips = (int)((rows->window.width + self->strip - 1) / self->strip);
+    const int strips = f->strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_kept(self->damage) && rows_have_points(rows)))
-        finish_static(&finish, run->first, run->end, 0);
+        finish_static(f, run->first, run->end, 0);
     else if (rows->refill == NULL)
-        smear_jobs_run(&rows->jobs, finish_job, &finish, strips + begin_next(&finish, end));
+        smear_jobs_run(&rows->jobs, finish_job, f, strips + begin_next(f, end));
     else
         for (int strip = 0; strip < strips; strip++)
-            finish_job(&finish, strip, 0);
+            finish_job(f, strip, 0);
     stage_end(rows, &rows->stats->time.blur, start);
     if (rows->refill != NULL && rows->refill->failed)
         return SMEAR_ERR_ROOM;
-    return smear_band_flush(&finish.row);
+    return smear_band_flush(&f->row);
 }
 
 /* Finds what moves and is blended in a row that is refilled. */
@@ -407,6 +417,7 @@ static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, 
         smear_list_blended(&self->moving, &rows->bins, &rows->window, rows->blend, row_top(rows, row));
 }
 
+/* Finds what moves and is blended in a row. */
 static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_bins *bins = &rows->bins;
@@ -417,7 +428,6 @@ static void list_row(struct smear_temporal *self, struct smear_rows *rows, int r
         list_refilled(self, rows, row);
         return;
     }
-    rows->opaque = row_advance(rows, bins->opaque_last, rows->opaque, row);
     if (!known)
         rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
     smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
@@ -439,23 +449,94 @@ static void add_shares(struct smear_temporal *self, int workers)
     }
 }
 
-static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+/* Begins to finish a row. */
+static void begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
+}
+
+static void end_row(struct smear_temporal *self, const struct smear_rows *rows)
+{
+    count_tiles(self, rows);
+    add_shares(self, rows->jobs.workers);
+}
+
+static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
     struct smear_damage_run run = { 0, 0 };
+    begin_row(self, rows, row);
+    if (rows->refill == NULL)
+        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     while (next_run(self, rows, row, &run)) {
-        int result = finish_run(self, rows, row, end, &run);
+        struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+        finish.row.x0 = tile_left(rows, run.first);
+        finish.row.x1 = tile_right(rows, run.end - 1);
+        draw_run(self, &finish);
+        int result = finish_run(self, &finish, end, &run);
         if (result != SMEAR_OK)
             return result;
     }
-    count_tiles(self, rows);
-    add_shares(self, rows->jobs.workers);
+    end_row(self, rows);
     if (SMEAR_WITH_DAMAGE)
         smear_damage_row_sent(self->damage, rows, row);
     return SMEAR_OK;
 }
+
+/* ------------------------------------------------------------------ along lines */
+
+#if SMEAR_WITH_LINES
+static void lines_job(void *argument, int job, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    const struct smear_rows *rows = f->row.rows;
+    const int32_t top = row_top(rows, f->row.row), bottom = row_bottom(rows, f->row.row);
+    int32_t x0, x1;
+    (void)worker;
+    smear_job_columns(rows, job, &x0, &x1);
+    smear_lines_blur(f->self->lines, &rows->window, x0, x1, top, bottom, min_i32(bottom + rows->window.tile, rows->window.height));
+}
+
+/* Blurs a row along lines, as far as it stands still, and finishes it. */
+static int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
+    const struct smear_window *w = &rows->window;
+    const struct smear_damage_run all = { 0, (int)w->columns };
+    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+    begin_row(self, rows, row);
+    smear_row_target(rows, row, &finish.background);
+    const uint32_t start = stage_start(rows);
+    smear_jobs_run(&rows->jobs, lines_job, &finish, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time.blur, start);
+    finish.background.color = self->lines->row;
+    finish.background.color_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
+    const int result = finish_run(self, &finish, end, &all);
+    end_row(self, rows);
+    return result;
+}
+
+static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
+    int result = SMEAR_OK;
+    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+    if (rows->refill == NULL)
+        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    draw_run(self, &finish);
+    if (row > 0)
+        result = finish_along_lines(self, rows, row - 1, end);
+    if (row == rows->window.rows - 1 && result == SMEAR_OK)
+        result = finish_along_lines(self, rows, row, end);
+    return result;
+}
+#else
+static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
+    return draw_row(self, rows, row, end);
+}
+#endif
+
+/* ------------------------------------------------------------------ parts of a frame */
 
 /* Returns the error that tile rows [first, end) may have, for their share of the frame's budget. */
 static int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
@@ -477,14 +558,22 @@ static int32_t target_within_budget(const struct smear_temporal *self, struct sm
     return target;
 }
 
-void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_window *w)
+void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_rows *rows,
+                          const struct smear_shot *shot)
 {
+    const struct smear_window *w = &rows->window;
     /* Pairs of taps of the widest gap, 8 to either side, find room between the borders of a frame this large. */
     self->chooser = (struct smear_chooser){
         frame->method, frame->samples, frame->target,
         SMEAR_WITH_LINEAR && frame->light_space == SMEAR_LIGHT_LINEAR,
         min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&self->shutter)
     };
+    if (SMEAR_WITH_LINES && self->lines != NULL) {
+        self->lines->on = frame->method == SMEAR_AUTO && frame->target > SMEAR_DRAFT && shot->camera_moves && !shot->cut
+                       && smear_shutter_is_box(&self->shutter);
+        if (self->lines->on)
+            smear_lines_begin(self->lines, shot, w, frame_is_linear(&rows->raster));
+    }
     self->target = frame->target;
     self->budget = frame->budget;
     self->before = (struct smear_shares){ 0, 0 };
@@ -506,7 +595,7 @@ int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, in
         rows->stats->target = max_u32(rows->stats->target, (uint32_t)self->chooser.target);
     }
     for (int row = first; row < end; row++) {
-        int result = draw_row(self, rows, row, end);
+        int result = temporal_has_lines(self) ? draw_along_lines(self, rows, row, end) : draw_row(self, rows, row, end);
         if (result != SMEAR_OK)
             return result;
     }

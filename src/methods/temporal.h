@@ -5,6 +5,7 @@
 
 #include "display/damage.h"
 #include "geometry/shutter.h"
+#include "temporal/lines.h"
 #include "temporal/row_lists.h"
 
 struct smear_temporal {
@@ -21,17 +22,22 @@ struct smear_temporal {
     struct smear_shares before;         /* of the frame's tile rows so far */
     struct smear_shares shares[SMEAR_WORKERS_MAX];      /* of the row being drawn */
     struct smear_damage *damage;        /* null without desc.reuse */
+    struct smear_lines *lines;          /* of the still scene of a frame whose camera moves; null: the desc has no room for them */
 };
+
+/* What stands still is blurred along lines in this frame, and what moves by itself is drawn over it. */
+static inline bool temporal_has_lines(const struct smear_temporal *t) { return SMEAR_WITH_LINES && t->lines != NULL && t->lines->on; }
 
 /* Returns the columns that a strip of a frame takes with what is drawn beyond its sides: nothing where it is as wide as
  * the frame. */
 int32_t smear_strip_columns(int32_t strip, int32_t width);
 
 /* Begins a frame: forgets what was learnt from the rows of the last one. */
-void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_window *w);
+void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_rows *rows,
+                          const struct smear_shot *shot);
 
-/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled. Returns as
- * smear_band_flush. */
+/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled; along lines each is
+ * finished when the row below it is drawn. Returns as smear_band_flush. */
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end);
 
 #endif

@@ -305,8 +305,8 @@ static uint32_t cost_of(const struct subframes *f, const struct subframe_box *bo
 static uint32_t take_middle(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box box,
                             struct subframe_box *all)
 {
-    struct smear_contrast contrast;
     const struct smear_tile_run *t = f->t;
+    struct smear_contrast contrast;
     smear_tile_contrast(&contrast, f, plan, &box);
     f->instants = (uint32_t)smear_tile_plan_instants(plan, &contrast, (t->x1 - t->x0 + t->tile - 1) / t->tile, cost_of(f, &box));
     if ((f->instants & 1u) != 0)
@@ -416,6 +416,13 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     struct smear_tile_run own;
     make(&f, &space, t, instants);
     f.plans = plan != NULL && plan->chooser != NULL;
+    bool is_still = false;
+    if (f.plans && target_is_sketch(plan->chooser->target)) {
+        instants = smear_tile_sketch_instants(plan, t);
+        is_still = instants == 0;
+        f.instants = (uint32_t)max_i32(instants, 1);
+        f.plans = false;
+    }
     if (t->fill != NULL) {
         own = *t;
         f.t = f.refilled = &own;
@@ -425,6 +432,10 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     uint32_t samples = 0;
     if (f.refilled != NULL ? list_refilled(&f, f.plans, &middle) : list(&f)) {
         all = no_box;
+        if (is_still && f.refilled == NULL && !f.blends) {
+            all = draw_instant(&f, SHUTTER_CLOSE / 2);
+            return (uint32_t)pixels_in(&all);
+        }
         if (f.plans && f.refilled == NULL)
             middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
         samples = f.plans ? take_middle(&f, plan, middle, &all) : 0;

@@ -47,6 +47,9 @@ struct smear_tile_choice {
     struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
 
+/* A target so coarse that nothing is measured for it. */
+static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target > SMEAR_DRAFT; }
+
 struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
@@ -100,6 +103,10 @@ struct smear_step smear_tile_way(const struct smear_tile_travel *tile);
  * which that is one. */
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *contrast, int tiles,
                                  uint32_t cost);
+
+/* Returns how many instants the tiles of a run take of a sketch: so many that gaps between them are closed well enough by the
+ * displacement of the blocks, which are told to close them; 0: what moves is where it is in the middle, as near as can be seen. */
+int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t);
 
 /* Returns the displacement of a tile from one instant to the next along x, 1/16 px, at most, before it is known how many
  * there will be. */

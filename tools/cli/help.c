@@ -112,8 +112,8 @@ static const char *const render_help[] = {
     "                        same pictures\n"
     "  --scale LIST          turn=1,way=1,objects=1: of the camera's rotation, its translation and\n"
     "                        the motion of objects, 0 to 63\n",
-    "  --quality draft|balanced|fine, --target CODES\n"
-    "                        error that auto aims at: 4, 1.5 and 0.5 codes [balanced]; no effect\n"
+    "  --quality sketch|draft|balanced|fine, --target CODES\n"
+    "                        error that auto aims at: 8, 4, 1.5, 0.5 codes [balanced]; no effect\n"
     "                        on other methods\n"
     "  --reach PX|PERCENT%   longest blur radius of reconstruct, in pixels or of the height; not\n"
     "                        above the tile [5%, at most a tile]\n"

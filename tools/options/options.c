@@ -224,12 +224,12 @@ static const char *read_reconstruct(void *to, const char *value)
 
 static const char *read_quality(void *to, const char *value)
 {
-    static const char *const names[] = { "draft", "balanced", "fine", NULL };
-    static const int target[] = { SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
+    static const char *const names[] = { "sketch", "draft", "balanced", "fine", NULL };
+    static const int target[] = { SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
     struct render_options *o = to;
     int found = read_name(value, names);
     if (found < 0)
-        return "needs draft, balanced or fine";
+        return "needs sketch, draft, balanced or fine";
     o->has_quality = true;
     o->target = target[found];
     return NULL;

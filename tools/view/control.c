@@ -94,11 +94,14 @@ static void do_method(struct view *v, int way)
 
 static void do_quality(struct view *v, int way)
 {
-    static const int targets[] = { SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
-    static const char *const names[] = { "draft", "balanced", "fine" };
+    enum { COUNT = 4 };
+    static const int targets[COUNT] = { SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
+    static const char *const names[COUNT] = { "sketch", "draft", "balanced", "fine" };
     struct render_options o = v->main.options;
-    int at = o.target == SMEAR_DRAFT ? 0 : o.target == SMEAR_FINE ? 2 : 1;
-    at = (at + way + 3) % 3;
+    int at = 0;
+    while (at < COUNT - 1 && o.target < targets[at])
+        at++;
+    at = (at + way + COUNT) % COUNT;
     o.target = targets[at];
     apply_both(v, &o);
     view_say(v, "quality %s (auto)", names[at]);

@@ -6,7 +6,7 @@
  * translation. The drawn instant is a sum of such maps, B P + b, linear in clip space as everywhere else. What it
  * shows at s w, s = (x / f, y / f, 1), is P = B' (s w - b), so that the pose sees it at w (A B' s + (a - A B'
  * b) / w): linear in x, y and 1 / w, which is what depth codes tell. */
-#include "filter/reproject.h"
+#include "geometry/reproject.h"
 
 #include "base/fixmath.h"
 #include "geometry/pose.h"
@@ -288,4 +288,67 @@ void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2,
         out[0] = -out[0];
         out[1] = -out[1];
     }
+}
+
+/* ------------------------------------------------------------------ of first order */
+
+static int64_t scale_up(int32_t a, int shift) { return (int64_t)a * ((int64_t)1 << shift); }
+
+/* How a term changes from the first pose to the second, over the exposure. */
+struct change {
+    const struct smear_reprojection *r;
+    struct number exposure;
+};
+
+/* Returns the change of a term 2^-q; without a second pose it ends where nothing moves. */
+static struct number change_of(const struct change *c, int64_t first, int64_t second, int q)
+{
+    return times(number_of((c->r->poses == 2 ? second : 0) - first, -q), c->exposure);
+}
+
+/* Makes terms per unit of 11 bits. Returns by how many they are to be shifted down. */
+static uint8_t take_units(int32_t out[], const struct number term[], int count)
+{
+    enum { BITS = 11 };
+    int up = 47;
+    for (int i = 0; i < count; i++)
+        if (term[i].m != 0)
+            up = min_i32(up, BITS - (32 - count_leading_zeros((uint32_t)abs_i32(term[i].m))) - term[i].e);
+    up = clamp_i32(up, 16, 47);
+    for (int i = 0; i < count; i++)
+        out[i] = fixed_of(term[i], up, BITS);
+    return (uint8_t)(up - 16);
+}
+
+void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, int32_t exposure)
+{
+    enum { MOST = 28 };         /* bits of a sum's terms: 4096 px */
+    const struct smear_reprojection_pose *p = &r->pose[0], *q = &r->pose[1];
+    const struct change c = { r, number_of(exposure, -16) };
+    const struct number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
+    struct number aside[2];
+    *f = (struct smear_flow){ .width = r->width, .height = r->height };
+    f->turn_x = fixed_of(change_of(&c, -(int64_t)p->w_x, -(int64_t)q->w_x, 30), 22, 19);
+    f->turn_y = fixed_of(change_of(&c, -(int64_t)p->w_y, -(int64_t)q->w_y, 30), 22, 19);
+    for (int i = 0; i < 2; i++) {
+        const int32_t *from = i == 0 ? p->x : p->y, *to = i == 0 ? q->x : q->y;
+        f->along[i] = fixed_of(change_of(&c, (int64_t)from[i] - p->w_1, (int64_t)to[i] - q->w_1, 27), 16, 17);
+        f->across[i] = fixed_of(change_of(&c, from[1 - i], to[1 - i], 27), 16, 17);
+        f->one[i] = fixed_of(change_of(&c, p->one[i], q->one[i], 16), 16, MOST);
+        aside[i] = change_of(&c, scale_up(p->u[i], p->u_shift), scale_up(q->u[i], q->u_shift), 37);
+    }
+    f->turn_down = take_units(&f->turn_u, &turn, 1);
+    f->aside_down = take_units(f->aside, aside, 2);
+    const uint32_t length = (uint32_t)max_i32(max_i32(abs_i32(f->aside[0]), abs_i32(f->aside[1])), 1), units = (1u << 20) - 1;
+    f->units_most = f->aside_down >= 31 - MOST ? units : min_u32((1u << (MOST + f->aside_down)) / length, units);
+}
+
+void smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2])
+{
+    enum { TURN_MOST = 1 << 17 };
+    const int32_t from_x = x - (f->width >> 1), from_y = y - (f->height >> 1), u = (int32_t)min_u32(units, f->units_most);
+    const int32_t turn = clamp_i32(((from_x * f->turn_x + from_y * f->turn_y) >> 6) + (u * f->turn_u >> f->turn_down),
+                                   -TURN_MOST, TURN_MOST);
+    out[0] = (from_x * (f->along[0] + turn) + from_y * f->across[0] + f->one[0] + (u * f->aside[0] >> f->aside_down)) >> 8;
+    out[1] = (from_y * (f->along[1] + turn) + from_x * f->across[1] + f->one[1] + (u * f->aside[1] >> f->aside_down)) >> 8;
 }

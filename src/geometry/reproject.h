@@ -40,4 +40,27 @@ void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now,
 void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2, uint32_t units,
                      int32_t out[2]);
 
+/* The displacement over the exposure to first order, for blocks of pixels and vertices: what a reprojection divides by is taken
+ * for 1, which leaves out the square of the part by which a distance changes to either side of the middle. With places (X, Y) in
+ * pixels from the frame's middle and u the depth's units:
+ *
+ *     turn = X turn_x + Y turn_y + u turn_u
+ *     dx   = X (along[0] + turn) + Y across[0] + one[0] + u aside[0]
+ *     dy   = Y (along[1] + turn) + X across[1] + one[1] + u aside[1] */
+struct smear_flow {
+    int32_t width, height;
+    int32_t turn_x, turn_y;     /* q22 per pixel */
+    int32_t along[2], across[2];        /* q16 */
+    int32_t one[2];             /* q16 px */
+    int32_t turn_u, aside[2];   /* per unit, 11 bits, as units may have 20: q16 plus `down` bits */
+    uint8_t turn_down, aside_down;
+    uint32_t units_most;        /* nearer places go as far as this one */
+};
+
+/* Makes the flow of a reprojection; `exposure`: the displacement between its poses to the whole exposure's, q16. */
+void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, int32_t exposure);
+
+/* Finds the displacement over the exposure, q8 px, of what has depth `units` at the middle of pixel (x, y). */
+void smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2]);
+
 #endif

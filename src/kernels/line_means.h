@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/* line_means.h - means of pixels that lie along a line: all pixels of a block take theirs at the same distances. */
+#ifndef SMEAR_LINE_MEANS_H
+#define SMEAR_LINE_MEANS_H
+
+#include "base/base.h"
+
+enum { LINE_TAPS_LOG_MAX = 3, LINE_TAPS_MAX = 1 << LINE_TAPS_LOG_MAX };
+
+/* A block of pixels and its taps. */
+struct line_block {
+    const uint32_t *in;         /* XRGB codes of its first pixel; rows `in_stride` apart */
+    uint32_t *out;              /* rows `out_stride` apart */
+    int32_t in_stride, out_stride;
+    int32_t columns, rows;
+    int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX: */
+    int32_t offset[LINE_TAPS_MAX];      /* from a pixel to each */
+};
+
+/* Writes the mean of each pixel's taps; with `linear` that of their light, as a code. The fourth channel becomes 0. */
+void smear_line_means(const struct line_block *b, bool linear);
+
+/* What all variants give. */
+void smear_line_means_reference(const struct line_block *b, bool linear);
+
+#endif

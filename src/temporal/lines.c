@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+/* lines.c - see lines.h.
+ *
+ *     for each row of blocks, for each run of blocks with the same displacement:
+ *         taps    where its line meets pixels
+ *         means   of the pixels there (kernels/line_means.h) */
+#include "temporal/lines.h"
+
+#include "geometry/shot.h"
+#include "kernels/line_means.h"
+
+enum { BLOCK = 8 };                 /* pixels that share a displacement are so many wide and high */
+
+/* Distances from a pixel to its taps, px, and how far they reach. */
+struct taps {
+    int32_t log;                    /* there are 2^log */
+    int32_t x[LINE_TAPS_MAX], y[LINE_TAPS_MAX];
+    int32_t left, right, up, down;
+};
+
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, bool linear)
+{
+    const struct smear_shutter_order at = smear_shot_order(shot);
+    const struct smear_instant middle = smear_instant_middle(shot);
+    const bool spans = shot_spans_exposure(shot);
+    struct smear_reprojection camera;
+    lines->linear = linear;
+    smear_reproject_make(&camera, &shot->camera[at.middle], &shot->camera[at.open], &shot->camera[at.close],
+                         spans ? smear_instant_now.weight : middle.weight, spans, w->width, w->height);
+    smear_flow_make(&lines->flow, &camera, spans ? 65536 : shot->half_exposure >> 7);
+}
+
+/* Finds the displacement of a block from open to close, q8 px, no longer along y than lines reach. */
+static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
+{
+    const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
+    const uint16_t depth = w->depth[window_ring_row(w, y) * w->width + x];
+    smear_flow_at(&lines->flow, x, y, smear_depth_units(depth), out);
+    for (int i = 0; i < 2; i++) {
+        const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
+        if (length <= most)
+            continue;
+        out[1 - i] = (int32_t)((int64_t)out[1 - i] * most / length);
+        out[i] = out[i] < 0 ? -most : most;
+    }
+}
+
+/* Places two taps per pixel of the way, evenly. */
+static void place_taps(struct taps *t, int32_t x, int32_t y)
+{
+    const int32_t length = max_i32(abs_i32(x), abs_i32(y));
+    int32_t log = 0;
+    while (log < LINE_TAPS_LOG_MAX && length << 1 > 256 << log)
+        log++;
+    const int32_t n = 1 << log, down = log + 1 + 8, half = n << 8;
+    for (int32_t k = 0; k < n; k++) {
+        t->x[k] = (x * (2 * k + 1 - n) + half) >> down;
+        t->y[k] = (y * (2 * k + 1 - n) + half) >> down;
+    }
+    t->log = log;
+    t->left = min_i32(t->x[0], t->x[n - 1]);
+    t->right = max_i32(t->x[0], t->x[n - 1]);
+    t->up = min_i32(t->y[0], t->y[n - 1]);
+    t->down = max_i32(t->y[0], t->y[n - 1]);
+}
+
+/* Blurs columns [x0, x1) of rows [y0, y1), which are within a row of blocks. Taps lie in the frame and in rows that are drawn. */
+static void blur_within(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
+                        int32_t y0, int32_t y1)
+{
+    const int32_t at = window_ring_row(w, y0), n = 1 << t->log;
+    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
+                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
+                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log };
+    if (at + t->up < 0 || at + y1 - y0 + t->down > w->ring) {       /* some rows lie beyond the end of the ring */
+        for (int32_t y = y0 + 1; y1 - y0 > 1 && y <= y1; y++)
+            blur_within(lines, w, t, x0, x1, y - 1, y);
+        if (y1 - y0 > 1)
+            return;
+        for (int k = 0; k < n; k++)
+            b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
+    } else {
+        for (int k = 0; k < n; k++)
+            b.offset[k] = t->y[k] * w->width + t->x[k];
+    }
+    smear_line_means(&b, lines->linear);
+}
+
+/* Returns taps that lie so far aside, up and down at most. */
+static struct taps taps_within(const struct taps *all, int32_t left, int32_t right, int32_t up, int32_t down)
+{
+    struct taps t = *all;
+    for (int k = 0; k < 1 << t.log; k++) {
+        t.x[k] = clamp_i32(t.x[k], left, right);
+        t.y[k] = clamp_i32(t.y[k], up, down);
+    }
+    t.up = max_i32(t.up, up);
+    t.down = min_i32(t.down, down);
+    return t;
+}
+
+/* Blurs the blocks of columns [x0, x1) of a row of them. Where taps of a block would lie beside the frame it takes what is inside. */
+static void blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const struct taps *all, int32_t x0, int32_t x1,
+                        int32_t y0, int32_t y1, int32_t end)
+{
+    const struct taps t = taps_within(all, -w->width, w->width, -y0, end - y1);
+    for (int32_t x = x0, next; x < x1; x = next) {
+        next = min_i32(x + BLOCK, x1);
+        if (x + t.left < 0 || next + t.right > w->width) {
+            const struct taps inside = taps_within(&t, -x, w->width - next, -y0, end - y1);
+            blur_within(lines, w, &inside, x, next, y0, y1);
+            continue;
+        }
+        while (next < x1 && min_i32(next + BLOCK, x1) + t.right <= w->width)
+            next = min_i32(next + BLOCK, x1);
+        blur_within(lines, w, &t, x, next, y0, y1);
+    }
+}
+
+void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                      int32_t end)
+{
+    enum { STEP = 64 };                 /* displacements are alike that differ by less, q8 px */
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        const int32_t bottom = min_i32(y + BLOCK, y1), middle = min_i32(y + BLOCK / 2, y1 - 1);
+        int32_t d[2], next[2];
+        displacement_of(next, lines, w, min_i32(x0 + BLOCK / 2, x1 - 1), middle);
+        for (int32_t x = x0, right; x < x1; x = right) {
+            struct taps taps;
+            d[0] = next[0];
+            d[1] = next[1];
+            for (right = x + BLOCK; right < x1; right += BLOCK) {
+                displacement_of(next, lines, w, min_i32(right + BLOCK / 2, x1 - 1), middle);
+                if (abs_i32(next[0] - d[0]) >= STEP || abs_i32(next[1] - d[1]) >= STEP)
+                    break;
+            }
+            right = min_i32(right, x1);
+            place_taps(&taps, d[0], d[1]);
+            blur_blocks(lines, w, &taps, x, right, y, bottom, end);
+        }
+    }
+}

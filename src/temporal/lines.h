@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* lines.h - the still scene of a frame whose camera moves: drawn once, in the middle of the exposure, and blurred along the line
+ * on which the camera's motion takes each block of pixels.
+ *
+ * The plain form of [GPUGems3] chapter 27: what a block's depth and two cameras say holds for the whole block, and its taps
+ * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach. */
+#ifndef SMEAR_LINES_H
+#define SMEAR_LINES_H
+
+#include "geometry/reproject.h"
+#include "raster/window.h"
+
+struct smear_lines {
+    bool on;                        /* in this frame */
+    bool linear;
+    struct smear_flow flow;         /* how what stands still moves on the screen */
+    uint32_t *row;                  /* blurred pixels of a tile row, or null where the desc has no room for lines */
+};
+
+struct smear_shot;
+
+/* Begins a frame whose camera moves. */
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, bool linear);
+
+/* Blurs columns [x0, x1) of pixel rows [y0, y1) of a tile row into lines->row; x0 and y0 are multiples of 8. `end`: rows of the
+ * frame up to it have been drawn; those from its height on have no pixels. */
+void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                      int32_t end);
+
+#endif
