@@ -60,4 +60,7 @@ struct smear_context {
 
 static inline bool frame_has_lines(const struct smear_context *c) { return temporal_has_lines(&c->temporal); }
 
+/* And there are two pictures of it. */
+static inline bool frame_has_pictures(const struct smear_context *c) { return frame_has_lines(c) && c->temporal.lines->pictures > 1; }
+
 #endif

@@ -10,90 +10,6 @@
 /* Several cores assemble draws: not where size counts, or the assembler's state lies on the stack. */
 #define SMEAR_ASSEMBLY_JOBS (SMEAR_WITH_WORKERS && !SMEAR_FAST_STACK && !SMEAR_SMALL_CODE)
 
-/* ------------------------------------------------------------------ what draws are */
-
-/* Finds, where velocities come from depth, whether a draw has one of its own, or stays where it is before the camera. */
-static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw_poses *p, uint8_t motion)
-{
-    bool own = false, attached = true;
-    for (int i = 1; i < 3; i++) {
-        const bool deforms = p->position[i] != p->position[0];
-        own = own || deforms || !smear_transform_is_same(p->object[i], p->object[0]);
-        attached = attached && !deforms
-                && smear_pose_is_attached(p->object[i], p->camera[i], p->object[0], p->camera[0]);
-    }
-    r->fixed = motion == SMEAR_MOTION_NONE || (own && attached);
-    r->moves = own && !attached;
-}
-
-/* Whether a draw is drawn at several instants over what lines blur: it moves by itself, moves not at all before a camera that
- * does, or is blended. */
-static bool moves_over_lines(const struct smear_draw_poses *p, const smear_draw *draw, bool blended)
-{
-    bool own = draw->motion == SMEAR_MOTION_NONE;
-    for (int i = 1; i < 3; i++)
-        own = own || p->position[i] != p->position[0] || !smear_transform_is_same(p->object[i], p->object[0]);
-    return own || (blended && poses_differ(p));
-}
-
-/* Finds where a draw's velocity comes from: its own vertices, its depth, or nowhere. */
-static void classify_draw(struct smear_context *c, uint32_t i)
-{
-    struct smear_raster_draw *r = &c->raster_draw[i];
-    struct smear_draw_poses p;
-    poses_of(&p, c, i);
-    r->moves = poses_differ(&p);
-    r->fixed = false;
-    if (frame_has_depth_velocity(&c->rows.raster))
-        find_own_motion(r, &p, c->submitted[i].draw.motion);
-    c->has_fixed = c->has_fixed || r->fixed;
-    if (c->frame.method == SMEAR_CAMERA)
-        r->moves = false;
-    if (frame_has_lines(c)) {
-        const smear_draw *draw = &c->submitted[i].draw;
-        r->moves = moves_over_lines(&p, draw, draw->material != NULL && draw->material->alpha == SMEAR_BLEND);
-    }
-    c->stats.draws_moved += r->moves;
-}
-
-static void look_up_material(struct smear_context *c, uint32_t i)
-{
-    const smear_draw *d = &c->submitted[i].draw;
-    const smear_material *m = d->material;
-    struct smear_raster_draw *r = &c->raster_draw[i];
-    const smear_texture *texture = SMEAR_TEXTURE_MOST && m != NULL ? m->texture : NULL;
-    r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
-    r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-    if (texture != NULL)
-        smear_sampler_make(&r->sampler, texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
-                           frame_is_linear(&c->rows.raster));
-    c->rows.blends = c->rows.blends || draw_is_blended(r);
-    /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
-    c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);
-}
-
-void smear_draws_prepare(struct smear_context *c)
-{
-    c->rows.blends = false;
-    for (uint32_t i = 0; i < c->draw_count; i++) {
-        classify_draw(c, i);
-        look_up_material(c, i);
-        c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
-    }
-    draws_begin_exposure(c, -65536, 65536);
-}
-
-#if SMEAR_WITH_OVERLAY
-void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to)
-{
-    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
-    const bool still = c->frame.method == SMEAR_NONE;
-    const struct smear_instant open = still ? smear_instant_now : smear_instant_at(&c->shot, from);
-    const struct smear_instant close = still ? smear_instant_now : smear_instant_at(&c->shot, to);
-    smear_points_place(&c->rows, &c->shot, &open, &close);
-}
-#endif
-
 /* ------------------------------------------------------------------ an assembly */
 
 /* Velocity is measured from the open pose to the close pose, or to now: one further pose is enough where that is drawn. */
@@ -127,6 +43,8 @@ static void place_fine(struct smear_placement *place, const struct smear_assembl
 static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves, bool has_path,
                   const struct smear_instant *instant)
 {
+    if (frame_has_lines(c) && !has_path)
+        instant = &c->temporal.lines->instant[c->temporal.lines->picture];
     a->place_fine = place_fine;
     a->place_of = c;
     a->instant = moves ? instant : &smear_instant_now;
@@ -246,7 +164,7 @@ static bool is_lacking(struct smear_damage *d, uint32_t i)
 /* Whether a draw of the kind must be drawn. */
 static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool known, struct smear_tile_box **seen)
 {
-    if (kind == DRAWS_ALL)
+    if (kind == DRAWS_ALL || frame_has_lines(c))
         return true;
     if (damage_compares(c->damage))
         return is_lacking(c->damage, i);
@@ -295,12 +213,34 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     return true;
 }
 
+/* Assembles all draws, and those that are static again for the second picture. */
+static bool assemble_pictures(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant)
+{
+    struct smear_bins *g = as->bins;
+    uint32_t *const first = g->opaque_last;
+    as->twice = true;
+    bool done = assemble_kind(c, as, instant, NULL, DRAWS_ALL);
+    as->twice = false;
+    const uint32_t drawn = as->triangles_drawn, dropped = as->triangles_dropped, beside = c->stats.draws_beside;
+    g->opaque_last = g->second_last;
+    c->temporal.lines->picture = 1;
+    done = done && assemble_kind(c, as, instant, NULL, DRAWS_STATIC);
+    c->temporal.lines->picture = 0;
+    g->opaque_last = first;
+    as->triangles_drawn = drawn;
+    as->triangles_dropped = dropped;
+    c->stats.draws_beside = beside;
+    return done;
+}
+
 /* Assembles all draws. Where the display keeps tiles, what moves comes first: it says in which of them something must
  * be drawn. If some of it is drawn among what is static, the nearest of which wins or else the first, all is assembled
  * again in order. So are fills, which know no more than is in them. */
 static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
                            struct smear_refill *f)
 {
+    if (f == NULL && frame_has_pictures(c))
+        return assemble_pictures(c, as, instant);
     if (!assembler_has_damage(as))
         return assemble_kind(c, as, instant, f, DRAWS_ALL);
     if (f == NULL && !damage_compares(c->damage)) {
@@ -437,7 +377,7 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    if (n == 1 || frame_has_layers(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
+    if (n == 1 || frame_has_layers(c) || frame_has_pictures(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
         || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
@@ -605,10 +545,15 @@ static void begin_lists(struct smear_context *c, int top, int first)
 {
     struct smear_rows *rows = &c->rows;
     rows->opaque = rows->blend = rows->moving = SMEAR_NO_TRIANGLE;
+    if (frame_has_pictures(c))
+        c->temporal.lines->opaque = SMEAR_NO_TRIANGLE;
     if (SMEAR_RASTER_CACHE)
         make_cache(c);
-    for (int row = top; row < first; row++)
+    for (int row = top; row < first; row++) {
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+        if (frame_has_pictures(c))
+            c->temporal.lines->opaque = row_advance(rows, rows->bins.second_last, c->temporal.lines->opaque, row);
+    }
 }
 
 /* Fills the store with the next triangles of a row that is refilled, and begins its lists. Statistics count what a kind of

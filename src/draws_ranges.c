@@ -27,7 +27,7 @@ void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant
 {
     struct smear_assembler as = c->assembler;
     struct smear_bins *g = as.bins;
-    if (bins_kept(g) != 0 || frame_has_layers(c))
+    if (bins_kept(g) != 0 || frame_has_layers(c) || frame_has_pictures(c))      /* of which each has others */
         return;
     g->kept_words = cut_ranges(c, g);
     struct smear_tile_box *box = ranges_all(g);

@@ -22,9 +22,9 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangl
  * capacity. */
 static uint32_t pool_words(const smear_desc *d)
 {
-    const uint32_t least = 64;
-    return max_u32(d->max_triangles * ((is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES) / 4),
-                   least);
+    const uint32_t least = 64, bytes = has_lines(d) ? 2 * SMEAR_TRIANGLE_BYTES
+                                     : is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES;
+    return max_u32(d->max_triangles * (bytes / 4), least);
 }
 
 static void lay_out_window(struct smear_window *w, struct smear_arena *a, const smear_desc *d)
@@ -45,10 +45,12 @@ static void lay_out_window(struct smear_window *w, struct smear_arena *a, const 
 
 static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const smear_desc *d)
 {
-    uint32_t *row = arena_take(a, (size_t)d->width * (size_t)d->tile, sizeof *row);
+    const size_t pixels = (size_t)d->width * (size_t)d->tile;
+    uint32_t *row = arena_take(a, pixels, sizeof *row);
+    uint16_t *depth = arena_take(a, pixels, sizeof *depth);
     t->lines = arena_take(a, 1, sizeof *t->lines);
     if (t->lines != NULL)           /* else it is only measured */
-        *t->lines = (struct smear_lines){ .row = row };
+        *t->lines = (struct smear_lines){ .row = row, .depth = depth };
 }
 
 static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
@@ -113,11 +115,13 @@ static void lay_out_store(struct smear_context *c, struct smear_arena *a, const 
     g->camera = &c->shot.camera[0];
     g->pool_words = pool_words(d);
     g->pool = SMEAR_PLACE(d, SMEAR_PART_TRIANGLES, arena_take(a, g->pool_words, 4), g->pool_words * 4);
-    g->segment_limit = min_u32(d->max_draws + 2u + g->pool_words / 50000u, 65536u);    /* 16-bit numbers */
+    const uint32_t pictures = has_lines(d) ? 2 : 1;
+    g->segment_limit = min_u32(pictures * d->max_draws + 2u + g->pool_words / 50000u, 65536u);      /* 16-bit numbers */
     g->segment = SMEAR_PLACE(d, SMEAR_PART_SEGMENTS, arena_take(a, g->segment_limit, sizeof *g->segment),
                              g->segment_limit * sizeof *g->segment);
     g->opaque_last = arena_take(a, rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, rows, sizeof *g->blend_last);
+    g->second_last = has_lines(d) ? arena_take(a, rows, sizeof *g->second_last) : NULL;
     g->moving_rows = has_layers(d) ? 2 : 0;
     g->moving_last = is_temporal(d) || has_layers(d)
                    ? arena_take(a, rows + (size_t)g->moving_rows, sizeof *g->moving_last) : NULL;

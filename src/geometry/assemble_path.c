@@ -250,7 +250,7 @@ static bool is_added(struct path_batch *b)
 
 static bool has_room(struct path_batch *b, bool in_space)
 {
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2, in_space ? SPACE_ROOM : 0);
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, b->a->twice ? 4 : 2, in_space ? SPACE_ROOM : 0);
     if (s == NULL || b->a->path_count == b->a->path_limit)
         return false;
     b->segment = s;
@@ -266,6 +266,17 @@ static void mark_tiles(const struct smear_damaged_tiles *d, const struct smear_p
             tile_mark(&d->tile[row * (d->columns + 1) + column]);
 }
 
+static void add_listed(const struct path_batch *b, uint32_t *list, const struct smear_path_bounds *bounds, const uint16_t vertex[3],
+                       uint32_t color)
+{
+    struct smear_bins *g = b->a->bins;
+    struct smear_triangle *t = bins_add_path(g, &list[bins_row(g, bounds->y0)], bounds);
+    for (int i = 0; i < 3; i++)
+        t->vertex[i] = vertex[i];
+    t->segment = (uint16_t)(b->segment - g->segment);
+    t->color = color;
+}
+
 /* Adds a triangle to its list. There must be room. */
 static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds, const uint16_t vertex[3],
                           const struct smear_face *face)
@@ -279,11 +290,9 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
         bounds->flags |= PATH_FLAT;
     const bool stands = is_static(b, bounds, record);
     uint32_t *list = is_blend(b->d) ? g->blend_last : stands ? g->opaque_last : g->moving_last;
-    struct smear_triangle *t = bins_add_path(g, &list[bins_row(g, bounds->y0)], bounds);
-    for (int i = 0; i < 3; i++)
-        t->vertex[i] = vertex[i];
-    t->segment = (uint16_t)(b->segment - g->segment);
-    t->color = color;
+    add_listed(b, list, bounds, vertex, color);
+    if (stands && b->a->twice && !is_blend(b->d))
+        add_listed(b, g->second_last, bounds, vertex, color);
     b->parts++;
     b->a->path_count++;
     b->a->path_static_count += stands;

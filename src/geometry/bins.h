@@ -138,6 +138,7 @@ struct smear_bins {
     const smear_camera *camera;     /* before which paths in space are cut */
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
+    uint32_t *second_last;          /* of opaque ones in a second picture of the frame; or null */
     uint16_t moving_rows;           /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
     uint16_t margin;                /* with smooth edges 1: so many pixels beyond the centres that it covers, a triangle may be
                                      * seen, and is in lists. Else 0 */

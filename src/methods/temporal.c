@@ -516,6 +516,36 @@ static int finish_along_lines(struct smear_temporal *self, struct smear_rows *ro
     return result;
 }
 
+static void mix_job(void *argument, int job, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    const struct smear_rows *rows = f->row.rows;
+    int32_t x0, x1;
+    (void)worker;
+    smear_job_columns(rows, job, &x0, &x1);
+    for (int32_t y = row_top(rows, f->row.row); x0 < x1 && y < row_bottom(rows, f->row.row); y++)
+        smear_lines_mix(f->self->lines, &rows->window, x0, x1, y);
+}
+
+/* Draws the second picture of a row and mixes it with the first. */
+static void draw_second(struct smear_temporal *self, struct finish *f)
+{
+    struct smear_rows *rows = f->row.rows;
+    struct smear_lines *lines = self->lines;
+    const uint32_t start = stage_start(rows), first = rows->opaque;
+    f->background.color = lines->row;
+    f->background.depth = lines->depth;
+    f->background.color_rows = f->background.window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
+    if (rows->refill == NULL)
+        rows->opaque = lines->opaque = row_advance(rows, rows->bins.second_last, lines->opaque, f->row.row);
+    lines->picture = 1;
+    smear_row_run(rows, background_job, &f->row, FILL_STATIC | FILL_MOVING);
+    lines->picture = 0;
+    rows->opaque = first;
+    smear_jobs_run(&rows->jobs, mix_job, f, rows->jobs.workers);
+    stage_end(rows, &rows->stats->time.raster, start);
+}
+
 static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     int result = SMEAR_OK;
@@ -523,6 +553,8 @@ static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     draw_run(self, &finish);
+    if (self->lines->pictures > 1)
+        draw_second(self, &finish);
     if (row > 0)
         result = finish_along_lines(self, rows, row - 1, end);
     if (row == rows->window.rows - 1 && result == SMEAR_OK)
@@ -569,10 +601,10 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
         min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&self->shutter)
     };
     if (SMEAR_WITH_LINES && self->lines != NULL) {
-        self->lines->on = frame->method == SMEAR_AUTO && frame->target > SMEAR_DRAFT && shot->camera_moves && !shot->cut
-                       && smear_shutter_is_box(&self->shutter);
+        self->lines->on = frame->method == SMEAR_AUTO && shot->camera_moves && !shot->cut && smear_shutter_is_box(&self->shutter)
+                       && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
         if (self->lines->on)
-            smear_lines_begin(self->lines, shot, w, frame_is_linear(&rows->raster));
+            smear_lines_begin(self->lines, shot, w, target_is_sketch(frame->target) ? 1 : 2, frame_is_linear(&rows->raster));
     }
     self->target = frame->target;
     self->budget = frame->budget;

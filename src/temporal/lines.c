@@ -6,7 +6,6 @@
  *         means   of the pixels there (kernels/line_means.h) */
 #include "temporal/lines.h"
 
-#include "geometry/shot.h"
 #include "kernels/line_means.h"
 
 enum { BLOCK = 8 };                 /* pixels that share a displacement are so many wide and high */
@@ -18,24 +17,42 @@ struct taps {
     int32_t left, right, up, down;
 };
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, bool linear)
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear)
 {
+    enum { QUARTER = 32768 };           /* of the exposure, from its middle */
     const struct smear_shutter_order at = smear_shot_order(shot);
     const struct smear_instant middle = smear_instant_middle(shot);
     const bool spans = shot_spans_exposure(shot);
     struct smear_reprojection camera;
     lines->linear = linear;
+    lines->pictures = (uint8_t)pictures;
+    lines->picture = 0;
+    lines->instant[0] = pictures == 1 ? middle : smear_instant_at(shot, -QUARTER);
+    lines->instant[1] = smear_instant_at(shot, QUARTER);
     smear_reproject_make(&camera, &shot->camera[at.middle], &shot->camera[at.open], &shot->camera[at.close],
                          spans ? smear_instant_now.weight : middle.weight, spans, w->width, w->height);
     smear_flow_make(&lines->flow, &camera, spans ? 65536 : shot->half_exposure >> 7);
 }
 
-/* Finds the displacement of a block from open to close, q8 px, no longer along y than lines reach. */
+void smear_lines_mix(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+{
+    uint32_t *const first = w->color + window_ring_row(w, y) * w->width + x0;
+    const uint32_t *const second = lines->row + (y & (w->tile - 1)) * w->width + x0;
+    const struct line_block b = { .in = first, .out = first, .columns = x1 - x0, .rows = 1, .log = 1,
+                                  .offset = { 0, (int32_t)(second - first) } };
+    smear_line_means(&b, lines->linear);
+}
+
+/* Finds the displacement of a block from picture to picture, q8 px, in steps, so that blocks beside each other often have the same,
+ * and no longer along y than lines reach. */
 static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
 {
+    enum { STEP = 64 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
     const uint16_t depth = w->depth[window_ring_row(w, y) * w->width + x];
     smear_flow_at(&lines->flow, x, y, smear_depth_units(depth), out);
+    for (int i = 0; i < 2; i++)
+        out[i] >>= lines->pictures - 1;
     for (int i = 0; i < 2; i++) {
         const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
         if (length <= most)
@@ -43,6 +60,8 @@ static void displacement_of(int32_t out[2], const struct smear_lines *lines, con
         out[1 - i] = (int32_t)((int64_t)out[1 - i] * most / length);
         out[i] = out[i] < 0 ? -most : most;
     }
+    out[0] = (out[0] + STEP / 2) & -STEP;
+    out[1] = (out[1] + STEP / 2) & -STEP;
 }
 
 /* Places two taps per pixel of the way, evenly. */
@@ -120,7 +139,6 @@ static void blur_blocks(const struct smear_lines *lines, const struct smear_wind
 void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
                       int32_t end)
 {
-    enum { STEP = 64 };                 /* displacements are alike that differ by less, q8 px */
     for (int32_t y = y0; y < y1; y += BLOCK) {
         const int32_t bottom = min_i32(y + BLOCK, y1), middle = min_i32(y + BLOCK / 2, y1 - 1);
         int32_t d[2], next[2];
@@ -131,7 +149,7 @@ void smear_lines_blur(const struct smear_lines *lines, const struct smear_window
             d[1] = next[1];
             for (right = x + BLOCK; right < x1; right += BLOCK) {
                 displacement_of(next, lines, w, min_i32(right + BLOCK / 2, x1 - 1), middle);
-                if (abs_i32(next[0] - d[0]) >= STEP || abs_i32(next[1] - d[1]) >= STEP)
+                if (next[0] != d[0] || next[1] != d[1])
                     break;
             }
             right = min_i32(right, x1);

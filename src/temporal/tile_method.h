@@ -47,8 +47,9 @@ struct smear_tile_choice {
     struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
 
-/* A target so coarse that nothing is measured for it. */
-static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target > SMEAR_DRAFT; }
+/* Targets so coarse that lines do; and those for which one picture does and nothing is measured: from 7 codes on. */
+static inline bool target_has_lines(int32_t target) { return SMEAR_WITH_LINES && target > SMEAR_DRAFT; }
+static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_SKETCH - 64; }
 
 struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
