@@ -9,40 +9,41 @@
 #define DAY 0xa9d6efu
 
 /* Of displays that keep their picture and flip no pages: of sharp frames, too, only what changed is drawn. */
-#define DEMO_KEPT (SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_NONE))
+#define DEMO_KEPT (SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH | SMEAR_SET(SMEAR_NONE))
 
 /* Triangle lists have room for every frame of the loop, also with places at three instants: nothing is drawn in parts. Of
  * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips, one for each core.
- * Boards' displays have steps of 4 and 8 codes, and rounding to these errs by some 3 codes: blur aims at no less, SMEAR_DRAFT. */
+ * Boards' displays have steps of 4 and 8 codes, and rounding to these errs by some 3 codes: blur aims at no less, SMEAR_DRAFT;
+ * the slowest sketch. */
 const struct demo_screen demo_screens[] = {
     { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2,
                 .methods = SMEAR_SET(SMEAR_AUTO), .tile = 8, .strip = 64, .max_draws = DEMO_DRAWS,
                 .max_triangles = 256, .vertex_cache = 32, .reuse = { .buffer_age = 1, .one_pose = 1 } },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, 0, "night", SMEAR_PATH_LINE, 0, SMEAR_DRAFT },
     { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555, .bands = 1,
-               .methods = SMEAR_SET(SMEAR_AUTO), .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,
+               .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH, .tile = 16, .max_draws = DEMO_DRAWS, .max_triangles = 300,
                .reuse.buffer_age = 2 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_SKETCH },
     { "gba-full", { .width = 240, .height = 160, .reach = 8, .format = SMEAR_RGB555, .bands = 1,
-                    .methods = DEMO_KEPT, .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
+                    .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_NONE), .tile = 32, .max_draws = DEMO_DRAWS, .max_triangles = 310,
                     .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 32, SMEAR_DRAFT },
     { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                 .methods = DEMO_KEPT, .tile = 16, .strip = 240, .max_draws = DEMO_DRAWS,
                 .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
     { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = DEMO_KEPT, .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
                     .max_triangles = 500, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
     { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = DEMO_KEPT, .tile = 16, .strip = 160, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
                     .methods = DEMO_KEPT, .tile = 16, .strip = 64, .max_draws = DEMO_DRAWS,
                     .max_triangles = 400, .reuse.buffer_age = 1 },
-      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16, SMEAR_DRAFT },
+      SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "small", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
     { "pi-640", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_RGB565, .bands = 1,
                   .methods = SMEAR_SET(SMEAR_AUTO), .tile = 32, .strip = 640, .max_draws = DEMO_DRAWS,
                   .max_triangles = 530, .reuse.buffer_age = 2 },
