@@ -12,7 +12,8 @@
 #define DEMO_KEPT (SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH | SMEAR_SET(SMEAR_NONE))
 
 /* Triangle lists have room for every frame of the loop, also with places at three instants: nothing is drawn in parts. Of
- * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips, one for each core.
+ * what is 240 pixels wide "pico" is for one core; those with a width in their names have two strips or, where memory is short,
+ * four for two cores.
  * Boards' displays have steps of 4 and 8 codes, and rounding to these errs by some 3 codes: blur aims at no less, SMEAR_DRAFT;
  * the slowest sketch. */
 const struct demo_screen demo_screens[] = {
@@ -36,8 +37,8 @@ const struct demo_screen demo_screens[] = {
                     .methods = DEMO_KEPT, .tile = 16, .strip = 128, .max_draws = DEMO_DRAWS,
                     .max_triangles = 500, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
-    { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
-                    .methods = DEMO_KEPT, .tile = 16, .strip = 160, .max_draws = DEMO_DRAWS,
+    { "pico-320", { .width = 320, .height = 240, .reach = 8, .format = SMEAR_RGB565_SWAPPED, .bands = 2,
+                    .methods = DEMO_KEPT, .tile = 16, .strip = 80, .max_draws = DEMO_DRAWS,
                     .max_triangles = 520, .reuse.buffer_age = 1 },
       SMEAR_AUTO, SMEAR_LIGHT_ENCODED, DAY, "large", SMEAR_PATH_CURVE, 16, SMEAR_SKETCH },
     { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2,

@@ -25,7 +25,7 @@
  * what is in view at once. */
 #define SCREEN(name, w, h, pixels, buffers, px, columns, triangles)                                                     \
     { name, { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,                \
-              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .methods = SMEAR_SET(SMEAR_AUTO), .reuse.one_pose = 1 } }
+              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH, .reuse.one_pose = 1 } }
 
 static const struct screen {
     const char *name;
@@ -33,8 +33,8 @@ static const struct screen {
 } screens[] = {
     SCREEN("pico", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
     SCREEN("pico-128", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
-    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 128, 480),
-    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 160, 480),
+    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 96, 480),
+    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 48, 480),
     SCREEN("gba", 120, 80, SMEAR_RGB555, 1, 16, 0, 420),
     SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800),
     SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800),

@@ -219,7 +219,7 @@ int view_submit(smear_context *ctx, const struct race *race, int16_t width, int1
 {
     const smear_camera camera = camera_of(&race->car[0]);
     const smear_frame frame = { .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1,
-                                .target = SMEAR_DRAFT, .overlay = overlay_of(race, width, height), .shutter.path = SMEAR_PATH_LINE };
+                                .target = SMEAR_SKETCH, .overlay = overlay_of(race, width, height), .shutter.path = SMEAR_PATH_LINE };
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);
