@@ -66,14 +66,14 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     if ((d->methods & SMEAR_SET(SMEAR_AUTO)) != 0)
         t->moving.blocks.block = arena_take(a, rows * (size_t)block_columns(d->width) * (size_t)block_rows(d->tile),
                                             sizeof *t->moving.blocks.block);
-    if (has_lines(d))
-        lay_out_lines(t, a, d);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
     rows_set_scratch_end(&c->rows, t->work, (size_t)d->workers * t->work_bytes);
+    if (has_lines(d))               /* not among what cores assemble parts in */
+        lay_out_lines(t, a, d);
 }
 
 static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
