@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* line_means.c - how check_kernels calls kernels/line_means.h: rows of a block whose taps lie up to 21 pixels away, in any order. */
+#include "kernels/line_means.h"
+
+#include "base/pixel.h"
+#include "base/tables.h"
+#include "kernels/packed_sums.h"
+#include "kernels/vector.h"
+#include "tests/kernels/kernels.h"
+
+enum { REACH = 21 };            /* planes go on so far to either side of the pixels */
+enum { IN, OUT };               /* planes */
+enum { LOG, ROWS, GAP_IN, GAP_OUT, OFFSET };    /* words; of each tap from OFFSET on */
+
+static int32_t rows_of(const struct kernel_call *c) { return 1 + (int32_t)(c->word[ROWS] % 3u); }
+static int32_t in_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_IN] % 5u); }
+static int32_t out_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_OUT] % 5u); }
+
+/* Lines cross pixels that are often alike; the fourth channel of a window's pixels is 0. */
+static void prepare(struct kernel_call *c)
+{
+    uint32_t *in = c->plane[IN];
+    const int32_t rows = rows_of(c), pixels = (rows - 1) * in_stride(c) + c->n + 2 * REACH;
+    const uint32_t alike = kernel_random() % 4u;
+    for (int32_t i = 0; i < pixels; i++)
+        in[i] = i > 0 && kernel_random() % 4u < alike ? in[i - 1] : in[i] & 0xffffffu;
+    c->bytes[IN] = pixels * 4;
+    c->bytes[OUT] = ((rows - 1) * out_stride(c) + c->n) * 4;
+}
+
+static void call(struct kernel_call *c, void (*means)(const struct line_block *b, bool linear), bool linear)
+{
+    const uint32_t *in = c->plane[IN];
+    struct line_block b = { .in = in + REACH, .out = c->plane[OUT], .in_stride = in_stride(c), .out_stride = out_stride(c),
+                            .columns = c->n, .rows = rows_of(c), .log = (int32_t)(c->word[LOG] % (LINE_TAPS_LOG_MAX + 1u)) };
+    for (int k = 0; k < LINE_TAPS_MAX; k++)
+        b.offset[k] = (int32_t)(c->word[OFFSET + k] % (2 * REACH + 1u)) - REACH;
+    means(&b, linear);
+}
+
+/* Each channel by itself. */
+static void one_by_one(const struct line_block *b, bool linear)
+{
+    for (int32_t i = 0; i < b->rows * b->columns; i++) {
+        const int32_t x = i % b->columns, y = i / b->columns;
+        uint32_t sum[3] = { 0, 0, 0 }, mean = 0, differs = 0;
+        for (int k = 0; k < 1 << b->log; k++) {
+            const uint32_t c = b->in[y * b->in_stride + x + b->offset[k]];
+            differs |= c ^ b->in[y * b->in_stride + x + b->offset[0]];
+            for (int channel = 0; channel < 3; channel++) {
+                const uint32_t code = c >> 8 * channel & 0xffu;
+                sum[channel] += linear ? smear_srgb_decode[code] : code;
+            }
+        }
+        for (int channel = 0; channel < 3; channel++)
+            mean |= (linear ? (uint32_t)smear_srgb_encode[sum[channel] >> b->log >> 4] : (sum[channel] + (1u << b->log) / 2) >> b->log)
+                 << 8 * channel;
+        b->out[y * b->out_stride + x] = differs != 0 ? mean : b->in[y * b->in_stride + x + b->offset[0]];
+    }
+}
+
+static void codes_reference(struct kernel_call *c) { call(c, smear_line_means_reference, false); }
+static void codes_one_by_one(struct kernel_call *c) { call(c, one_by_one, false); }
+static void codes_best(struct kernel_call *c) { call(c, smear_line_means, false); }
+static void light_reference(struct kernel_call *c) { call(c, smear_line_means_reference, true); }
+static void light_one_by_one(struct kernel_call *c) { call(c, one_by_one, SMEAR_WITH_LINEAR); }
+static void light_best(struct kernel_call *c) { call(c, smear_line_means, true); }
+
+/* Eight taps, as most lines have. */
+static void prepare_eight(struct kernel_call *c)
+{
+    c->word[LOG] = LINE_TAPS_LOG_MAX;
+    prepare(c);
+}
+
+#if SMEAR_VECTORS
+#define BEST "vector"
+#elif PACKED_ASM_ARMV6M
+#define BEST "armv6m"
+#else
+#define BEST "plain"
+#endif
+
+extern const struct kernel kernels_line_means[];
+const struct kernel kernels_line_means[] = {
+    { .name = "line_means", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
+      .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
+    { .name = "line_means (eight taps)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare_eight, .timed = 24,
+      .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
+    { .name = "line_means (light)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
+      .form = { { "reference", light_reference }, { "one by one", light_one_by_one }, { BEST, light_best } } },
+    { .name = NULL }
+};
