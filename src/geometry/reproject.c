@@ -110,6 +110,7 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
         m->offset[i] = offset.e > 30 ? 0
                      : offset.e < 0  ? (offset.e < -31 ? 0 : offset.m >> -offset.e)
                                      : (int64_t)offset.m * ((int64_t)1 << offset.e);
+        m->offset[i] = clamp_i64(m->offset[i], (int64_t)1 << 58);      /* as without a zoom */
     }
 }
 
@@ -338,6 +339,8 @@ void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, i
         aside[i] = change_of(&c, scale_up(p->u[i], p->u_shift), scale_up(q->u[i], q->u_shift), 37);
     }
     f->turn_down = take_units(&f->turn_u, &turn, 1);
+    if (f->turn_down == 0)              /* the sum has room; so near the camera's path the turn is the most anyway */
+        f->turn_u = clamp_i32(f->turn_u, -(1 << 10), 1 << 10);
     f->aside_down = take_units(f->aside, aside, 2);
     const uint32_t length = (uint32_t)max_i32(max_i32(abs_i32(f->aside[0]), abs_i32(f->aside[1])), 1), units = (1u << 20) - 1;
     f->units_most = f->aside_down >= 31 - MOST ? units : min_u32((1u << (MOST + f->aside_down)) / length, units);
