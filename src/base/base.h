@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* base.h - the few words that every file uses. It is the bottom layer and includes only the configuration. */
+/* base.h - the few words that every file uses. It is the bottom room and includes only the configuration. */
 #ifndef SMEAR_BASE_H
 #define SMEAR_BASE_H
 
@@ -7,26 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "smear_config.h"
-
-/* 1 where the compiler has the builtins, attributes and inline assembly of GCC and Clang. 0 is plain C99, with the same
- * bits: what other compilers lack is written out here under the same names. */
-#ifndef SMEAR_GNU
-#ifdef __GNUC__
-#define SMEAR_GNU 1
-#else
-#define SMEAR_GNU 0
-#endif
-#endif
-
-/* 1 where the first byte of a word is its highest. Compilers that do not tell are taken to be little-endian. */
-#ifndef SMEAR_BIG_ENDIAN
-#if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
-#define SMEAR_BIG_ENDIAN (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
-#else
-#define SMEAR_BIG_ENDIAN 0
-#endif
-#endif
+#include "kernels/bind.h"
 
 #if !SMEAR_GNU
 #include <string.h>
@@ -71,66 +52,17 @@ static inline void smear_plain_trap(void)
 #define SMEAR_ASSERT(condition) ((void)0)
 #endif
 
-/* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. Builds that
- * look for faults do without: what a compiler adds for them to hundreds of such loops takes it minutes. */
-#ifndef SMEAR_INLINE_FORCED
-#if SMEAR_CHECK || !defined(__OPTIMIZE__)
-#define SMEAR_INLINE_FORCED 0
-#else
-#define SMEAR_INLINE_FORCED 1
-#endif
-#endif
-#if SMEAR_GNU && SMEAR_INLINE_FORCED
-#define SMEAR_INLINE_ALWAYS static inline __attribute__((always_inline))
-#else
-#define SMEAR_INLINE_ALWAYS static inline
-#endif
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_INLINE static inline
-#else
-#define SMEAR_INLINE SMEAR_INLINE_ALWAYS
-#endif
-
-/* Helpers of fixed.h and fixmath.h take many instructions on cores without wide products: where size counts, fixmath.c
- * has one copy of each; else they are inlined. */
-#if defined(__OPTIMIZE_SIZE__) && !SMEAR_HAS_MUL64
-#define SMEAR_ONE_COPY 1
-#define SMEAR_SHARED
-#else
-#define SMEAR_ONE_COPY 0
-#define SMEAR_SHARED static inline
-#endif
-#if SMEAR_GNU
-#define SMEAR_NOINLINE __attribute__((noinline))
-#else
-#define SMEAR_NOINLINE
-#endif
-
-/* All files of a build agree on what is left out for size. */
-#ifndef SMEAR_SMALL_CODE
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_SMALL_CODE 1
-#else
-#define SMEAR_SMALL_CODE 0
-#endif
-#endif
-
-/* What is rarely called is not inlined into what is called often, unless size counts. */
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_RARE
-#else
-#define SMEAR_RARE SMEAR_NOINLINE
-#endif
-
 /* Hints to the optimizer without an instruction of their own. What stands behind SMEAR_KEEP_BRANCH stays there: it is
  * neither computed in advance nor made of conditional stores. SMEAR_KEEP_VALUE has x computed as it is
  * written, in a register: the compiler doesn't know afterwards where its value came from. */
 #if SMEAR_GNU
 #define SMEAR_KEEP_BRANCH() __asm__ volatile ("")
 #define SMEAR_KEEP_VALUE(x) __asm__("" : "+r"(x))
+#define SMEAR_IS_CONSTANT(x) __builtin_constant_p(x)
 #else
 #define SMEAR_KEEP_BRANCH() ((void)0)
 #define SMEAR_KEEP_VALUE(x) ((void)(x))
+#define SMEAR_IS_CONSTANT(x) 0
 #endif
 
 #if defined(__cplusplus)

@@ -8,6 +8,7 @@
 #define SMEAR_FIXED_H
 
 #include "base/base.h"
+#include "kernels/mulh.h"
 
 typedef int32_t i32q8;      /* [-2^23, 2^23)      step 1/256 px      screen positions (guard band: 4096 px) */
 typedef int32_t i32q11;     /* [-2^20, 2^20)      step 1/2048        depth units, 1/w */
@@ -23,31 +24,6 @@ static inline int32_t sub_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_
 static inline int32_t mul_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 static inline int32_t shl_wrap(int32_t a, int shift) { return (int32_t)((uint32_t)a << shift); }
 
-/* The high word of a product on ARMv6-M, where ASR and LSR take upper halves of signed and unsigned words: 17 instructions, of
- * which compilers make 20 to 26. Takes a and b apart, and three registers more. */
-#if defined(__ARM_ARCH_6M__) && SMEAR_GNU
-#define MULH_ARMV6M(SHIFT, A, B, LOW_A, LOW_B, MIDDLE) \
-    __asm__(".syntax unified\n\t" \
-            "uxth %[al], %[a]\n\t" \
-            SHIFT " %[a], %[a], #16\n\t" \
-            "uxth %[bl], %[b]\n\t" \
-            SHIFT " %[b], %[b], #16\n\t" \
-            "movs %[m], %[al]\n\t" \
-            "muls %[m], %[bl]\n\t" \
-            "lsrs %[m], %[m], #16\n\t" \
-            "muls %[bl], %[a]\n\t" \
-            "adds %[m], %[m], %[bl]\n\t" \
-            "muls %[al], %[b]\n\t" \
-            "uxth %[bl], %[m]\n\t" \
-            "adds %[al], %[al], %[bl]\n\t" \
-            SHIFT " %[al], %[al], #16\n\t" \
-            "muls %[a], %[b]\n\t" \
-            SHIFT " %[m], %[m], #16\n\t" \
-            "adds %[a], %[a], %[m]\n\t" \
-            "adds %[a], %[a], %[al]" \
-            : [a] "+l"(A), [b] "+l"(B), [al] "=&l"(LOW_A), [bl] "=&l"(LOW_B), [m] "=&l"(MIDDLE) : : "cc")
-#endif
-
 #if SMEAR_ONE_COPY
 #define mulh_i32 smear_mulh_i32
 #define mulh_u32 smear_mulh_u32
@@ -61,36 +37,13 @@ int32_t scale_sat(int32_t a, int shift);
 /* Returns the high word of the signed product: floor(a b / 2^32). */
 SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
 {
-#if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)a * b >> 32);
-#elif defined(MULH_ARMV6M)
-    uint32_t low_a, low_b, middle;
-    MULH_ARMV6M("asrs", a, b, low_a, low_b, middle);
-    return a;
-#else
-    /* a = ah 2^16 + al, likewise b. |ah bl| <= 2^15 (2^16 - 1): what is added to it has 16 bits and fits. */
-    const int32_t ah = a >> 16, bh = b >> 16;
-    const uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu;
-    const int32_t middle = ah * (int32_t)bl + (int32_t)(al * bl >> 16);
-    const int32_t other = (int32_t)al * bh + (int32_t)((uint32_t)middle & 0xffffu);
-    return ah * bh + (middle >> 16) + (other >> 16);
-#endif
+    return SMEAR_HAS_MUL64 ? (int32_t)((int64_t)a * b >> 32) : mulh_i32_narrow(a, b);
 }
 
 /* Returns the high word of the unsigned product. */
 SMEAR_SHARED uint32_t mulh_u32(uint32_t a, uint32_t b)
 {
-#if SMEAR_HAS_MUL64
-    return (uint32_t)((uint64_t)a * b >> 32);
-#elif defined(MULH_ARMV6M)
-    uint32_t low_a, low_b, middle;
-    MULH_ARMV6M("lsrs", a, b, low_a, low_b, middle);
-    return a;
-#else
-    const uint32_t ah = a >> 16, bh = b >> 16, al = a & 0xffffu, bl = b & 0xffffu;
-    const uint32_t middle = ah * bl + (al * bl >> 16), other = al * bh + (middle & 0xffffu);
-    return ah * bh + (middle >> 16) + (other >> 16);
-#endif
+    return SMEAR_HAS_MUL64 ? (uint32_t)((uint64_t)a * b >> 32) : mulh_u32_narrow(a, b);
 }
 
 /* Returns a 2^shift for shift in -31 .. 31, rounded to nearest when it shrinks, clamped when it grows. */
@@ -109,11 +62,9 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 /* Returns floor(a b / 2^shift) for shift in 1 .. 31, modulo 2^32. */
 static inline int32_t mul_shift(int32_t a, int32_t b, int shift)
 {
-#if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)a * b >> shift);
-#else
+    if (SMEAR_HAS_MUL64)
+        return (int32_t)((int64_t)a * b >> shift);
     return (int32_t)((uint32_t)mulh_i32(a, b) << (32 - shift) | (uint32_t)mul_wrap(a, b) >> shift);
-#endif
 }
 
 /* Returns |a|, also for the least number. */

@@ -40,31 +40,29 @@ uint32_t sqrt_q3(uint32_t x);
 /* Counts the leading zeros of x > 0. */
 SMEAR_SHARED int count_leading_zeros(uint32_t x)
 {
-#if SMEAR_HAS_CLZ
-    return __builtin_clz(x);
-#else
+    if (SMEAR_HAS_CLZ)
+        return __builtin_clz(x);
     int n = 0;
-#ifdef __ARM_ARCH_6M__
-    uint32_t top = x >> 16;     /* in a register: numbers to compare with take two steps there */
-    SMEAR_KEEP_VALUE(top);
-    if (top == 0) { n += 16; x <<= 16; }
-    top = x >> 24;
-    SMEAR_KEEP_VALUE(top);
-    if (top == 0) { n += 8; x <<= 8; }
-    top = x >> 28;
-    SMEAR_KEEP_VALUE(top);
-    if (top == 0) { n += 4; x <<= 4; }
-    top = x >> 30;
-    SMEAR_KEEP_VALUE(top);
-    if (top == 0) { n += 2; x <<= 2; }
-#else
-    if (x < 0x10000u) { n += 16; x <<= 16; }
-    if (x < 0x1000000u) { n += 8; x <<= 8; }
-    if (x < 0x10000000u) { n += 4; x <<= 4; }
-    if (x < 0x40000000u) { n += 2; x <<= 2; }
-#endif
+    if (SMEAR_ON_ARMV6M) {
+        uint32_t top = x >> 16;     /* in a register: numbers to compare with take two steps there */
+        SMEAR_KEEP_VALUE(top);
+        if (top == 0) { n += 16; x <<= 16; }
+        top = x >> 24;
+        SMEAR_KEEP_VALUE(top);
+        if (top == 0) { n += 8; x <<= 8; }
+        top = x >> 28;
+        SMEAR_KEEP_VALUE(top);
+        if (top == 0) { n += 4; x <<= 4; }
+        top = x >> 30;
+        SMEAR_KEEP_VALUE(top);
+        if (top == 0) { n += 2; x <<= 2; }
+    } else {
+        if (x < 0x10000u) { n += 16; x <<= 16; }
+        if (x < 0x1000000u) { n += 8; x <<= 8; }
+        if (x < 0x10000000u) { n += 4; x <<= 4; }
+        if (x < 0x40000000u) { n += 2; x <<= 2; }
+    }
     return n + (int)(~x >> 31);
-#endif
 }
 
 /* Counts the leading zeros of x > 0, of 64 bits. */
@@ -105,9 +103,8 @@ SMEAR_SHARED int32_t ratio_q30(int64_t a, int64_t c)
     return (int32_t)min_u32(q, 1u << 30);
 }
 
-#ifdef __OPTIMIZE_SIZE__
 /* Returns floor(sqrt(x)), exactly: one bit per step. */
-SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
+static inline uint32_t sqrt_by_bits(uint64_t x)
 {
     uint64_t root = 0, bit = (uint64_t)1 << 62;
     while (bit > x)
@@ -123,12 +120,10 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
     }
     return (uint32_t)root;
 }
-#elif UINTPTR_MAX > 0xffffffffu && SMEAR_HAS_MUL64
-/* Returns floor(sqrt(x)), exactly.
- *
- * Heron's rule, (r + n / r) / 2, for n in [2^62, 2^64): a table is within 2^-7, then errors of 2^-14 and 2^-28. What is left are
+
+/* Does so by Heron's rule, (r + n / r) / 2, for n in [2^62, 2^64): a table is within 2^-7, then errors of 2^-14 and 2^-28. What is left are
  * a few steps of x's own root. By two divisions, half the instructions of what others do. */
-SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
+static inline uint32_t sqrt_by_divisions(uint64_t x)
 {
     if (x == 0)
         return 0;
@@ -144,12 +139,10 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
         r++;
     return (uint32_t)r;
 }
-#else
-/* Returns floor(sqrt(x)), exactly.
- *
- * Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22
+
+/* Does so by Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22
  * and less than what the quotients lack. What is left are a few steps of x's own root. */
-SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
+static inline uint32_t sqrt_by_reciprocals(uint64_t x)
 {
     if (x == 0)
         return 0;
@@ -169,7 +162,14 @@ SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
         r++;
     return r;
 }
-#endif
+
+/* Returns floor(sqrt(x)), exactly. */
+SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
+{
+    if (SMEAR_SMALL_FILE)
+        return sqrt_by_bits(x);
+    return SMEAR_ON_64 && SMEAR_HAS_MUL64 ? sqrt_by_divisions(x) : sqrt_by_reciprocals(x);
+}
 
 /* Returns 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */
 SMEAR_SHARED uint32_t sqrt_q3(uint32_t x)

@@ -11,11 +11,7 @@
 
 /* Words that cores and interrupts share, each written by one of them. Compilers that have no word for the order of loads and
  * stores keep that of volatile ones; a core that does not (ARMv7-A, ARMv8) gets its barrier by -DSMEAR_BARRIER='...' if it
- * shall work beside another. For ARMv6-M Clang would call functions that are nowhere. */
-#if SMEAR_GNU && defined(__clang__) && defined(__ARM_ARCH_6M__) && !defined(SMEAR_BARRIER)
-#define SMEAR_BARRIER __asm__ volatile ("dmb" : : : "memory")
-#endif
-
+ * shall work beside another. */
 #if SMEAR_GNU && !defined(SMEAR_BARRIER)
 static inline unsigned word_read(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
 static inline unsigned word_own(const unsigned *word) { return __atomic_load_n(word, __ATOMIC_RELAXED); }

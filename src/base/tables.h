@@ -3,14 +3,7 @@
 #ifndef SMEAR_TABLES_H
 #define SMEAR_TABLES_H
 
-#include <stdint.h>
-
-/* Elements behind a table of bytes of which lanes read words. */
-#ifdef __x86_64__
-#define SMEAR_TABLE_TAIL 4
-#else
-#define SMEAR_TABLE_TAIL 0
-#endif
+#include "kernels/bind.h"
 
 extern const uint16_t smear_recip_seed[512];    /* fixmath.h */
 extern const uint16_t smear_srgb_decode[256];   /* code to linear light, 65535 is one */

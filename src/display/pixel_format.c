@@ -113,13 +113,7 @@ static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32
     const uint8_t *threshold = thresholds_of(y, dither, &mask);
     if (!is_dithered(dither))
         threshold = NULL;
-#ifndef __OPTIMIZE_SIZE__
-    if (!HAS_BLUE || dither != SMEAR_DITHER_BLUE) {
-        smear_row_l4_blocks(row, in, n, x, threshold);
-        return;
-    }
-#endif
-    row_l4_reference(row, in, n, x, threshold, mask);
+    row_l4_from_eights(row, in, n, x, threshold, mask);
 }
 
 static uint32_t grey_level(uint32_t p, int32_t x, int32_t y, uint32_t levels, smear_dither dither)

@@ -23,13 +23,6 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format);
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                       int32_t y0, smear_format format, smear_dither dither);
 
-/* Where a row's pixels take longer than what there is around them, or size counts, rows are converted one by one. */
-#if !SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__) && !defined(__wasm__) && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565)
-#define SMEAR_ROWS_AT_ONCE 1
-#else
-#define SMEAR_ROWS_AT_ONCE 0
-#endif
-
 #if SMEAR_ROWS_AT_ONCE
 /* Writes `rows` rows of n pixels, `in_stride` pixels apart, into `band`, whose first row is y. False where that is no faster than
  * row by row: then nothing is written. */

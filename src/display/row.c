@@ -96,11 +96,9 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
     for (int32_t y = t->y0; y < t->y1; y++) {
         const int32_t at = target_row(&t->window_rows, t, y) + t->x0;
         int32_t n = width;
-#ifndef __OPTIMIZE_SIZE__
         /* Whole rows lie one behind the other, but at the end of the ring. */
-        for (; y + 1 < t->y1 && target_row(&t->window_rows, t, y + 1) + t->x0 == at + n; y++)
+        for (; !SMEAR_SMALL_FILE && y + 1 < t->y1 && target_row(&t->window_rows, t, y + 1) + t->x0 == at + n; y++)
             n += width;
-#endif
 #if SMEAR_LATE_BLOCKS
         if (t->late) {
             late_clear(t->color + at, color, n / LATE_BLOCK);

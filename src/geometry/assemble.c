@@ -166,7 +166,6 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return add_visible(b, v0, v1, v2, triangle, back, cut);
 }
 
-#if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
 #if VERTEX_LISTS
 SMEAR_STATIC_ASSERT(sizeof(struct listed_vertex) == sizeof(struct smear_cached_vertex)
                         && offsetof(struct listed_vertex, stored) == offsetof(struct smear_cached_vertex, stored)
@@ -210,7 +209,6 @@ static SMEAR_NOINLINE void find_all(struct batch *b, uint32_t tag)
         find_unlisted(b, v + (tag - first), tag);
     }
 }
-#endif
 
 /* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
 static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t tag,
@@ -394,10 +392,8 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         if (a->serial == 0xffffu || a->cache_has_paths)
             forget_all(a);
         b->tag = ++a->serial << 16;
-#if !defined(__OPTIMIZE_SIZE__) && !SMEAR_PLACES
-        if (d->mesh->vertex_count <= a->cache_mask + 1u && first == 0 && a->ranges == NULL)
+        if (!SMEAR_SMALL_FILE && !SMEAR_PLACES && d->mesh->vertex_count <= a->cache_mask + 1u && first == 0 && a->ranges == NULL)
             find_all(b, b->tag);
-#endif
     }
 #if ASSEMBLE_SCANS
     return assemble_scanned(b, first, end);

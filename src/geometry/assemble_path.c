@@ -553,12 +553,10 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     struct path_places places;
     path_places_open(&places, a, d);
     uint32_t first = max_u32(d->first, a->resume.triangle);
-#ifndef __OPTIMIZE_SIZE__
     /* One after the other they cost less. */
-    if (d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
+    if (!SMEAR_SMALL_FILE && d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
             make_vertex(&cache[i], a, d, tag + i, &places);
-#endif
     const struct smear_tile_box filled = ranges_filled(a, !is_blend(d));
     for (uint32_t end = first; end < d->end; first = end) {
         end = ranges_next(a, filled, &first, d->end);

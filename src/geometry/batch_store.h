@@ -15,14 +15,7 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
 {
     if (b->face_color != NULL) {
         const uint8_t *c = b->face_color + 4 * triangle;
-#if SMEAR_ASM_ARMV7EM           /* no compiler makes one word of bytes in another order */
-        uint32_t word;
-        __builtin_memcpy(&word, c, 4);
-        word = __builtin_bswap32(word);
-        return word >> 8 | word << 24;
-#else
-        return pixel_make(c[3], c[0], c[1], c[2]);
-#endif
+        return pixel_of_bytes(c);
     }
     return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }

@@ -93,11 +93,7 @@ static inline bool segment_gouraud(const struct smear_segment *s)
 
 /* Whether draws with vertex colours or normals are looked at for triangles of one colour each: not where size counts, but
  * for fog, in which pixels show whether that was done. */
-#if defined(__OPTIMIZE_SIZE__) && !SMEAR_WITH_FOG
-#define SMEAR_FIND_FLAT 0
-#else
-#define SMEAR_FIND_FLAT SMEAR_WITH_GOURAUD
-#endif
+#define SMEAR_FIND_FLAT (SMEAR_WITH_GOURAUD && (SMEAR_WITH_FOG || !SMEAR_SMALL_FILE))
 
 /* Whether colours come from vertices: of each, or one for all three where they are flat. */
 static inline bool segment_by_vertices(const struct smear_segment *s)
@@ -226,13 +222,6 @@ static inline const struct smear_path_bounds *bins_bounds(const struct smear_bin
 {
     return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
 }
-
-/* Appends a part's rings, whose numbers are larger than all others, to those of the parts before it. */
-void smear_bins_join(const struct smear_bins *g, uint32_t *last, const uint32_t *more);
-
-/* Appends all that another store has, with segments, rings and numbers of its own; its rings are used up. False where
- * there is no room. */
-bool smear_bins_append(struct smear_bins *g, const struct smear_bins *more);
 
 /* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission
  * order. `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the

@@ -117,17 +117,14 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_de
 /* Whether some corner may lie beyond one of the four sides: most polygons stay within. */
 static bool leaves_guard(struct smear_clip_polygon *p, const struct smear_depths *depths)
 {
-#ifndef __OPTIMIZE_SIZE__
+    if (SMEAR_SMALL_FILE)
+        return p->count != 0;
     for (int i = 0; i < p->count; i++) {
         const struct smear_homogeneous *h = &clip_corner(p, i)->now;
         if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> (GUARD_LOG2 - depths->coarse) >= h->w)
             return true;
     }
     return false;
-#else
-    (void)depths;
-    return p->count != 0;
-#endif
 }
 
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool colored)

@@ -264,10 +264,9 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
                           const int16_t c[3])
 {
     const int32_t u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] }, v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
-#ifndef __OPTIMIZE_SIZE__
     const int32_t size = (u[0] ^ u[0] >> 31) | (u[1] ^ u[1] >> 31) | (u[2] ^ u[2] >> 31) | (v[0] ^ v[0] >> 31)
                        | (v[1] ^ v[1] >> 31) | (v[2] ^ v[2] >> 31);
-    if (size < 1 << 15) {       /* cross products have 31 bits */
+    if (!SMEAR_SMALL_FILE && size < 1 << 15) {       /* cross products have 31 bits */
         int32_t n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
         const uint32_t largest = 1u | (uint32_t)abs_i32(n[0]) | (uint32_t)abs_i32(n[1]) | (uint32_t)abs_i32(n[2]);
         const int shift = 32 - count_leading_zeros(largest) - 14;
@@ -282,7 +281,6 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
         }
         return cosine_of_face(s, n);
     }
-#endif
     return light_of_long(s, u, v);
 }
 

@@ -17,14 +17,6 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
-/* On Cortex-M0+ and ARM7 a face's light takes longer than asking whether the face before has the same, and roots of 64 bits take
- * twice as long as those of 48. */
-#if !defined(__OPTIMIZE_SIZE__) && (defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_4T__))
-#define SMEAR_LIGHT_IS_DEAR 1
-#else
-#define SMEAR_LIGHT_IS_DEAR 0
-#endif
-
 #if SMEAR_LIGHT_IS_DEAR
 /* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
 struct smear_lit {
@@ -73,13 +65,6 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
 /* Shades: factor x color (sRGB r g b and alpha; null: white) x (ambient + diffuse x cosine), cosine 0 .. 65536. */
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
-
-/* Cortex-M0+ has a function for faces' colours, without those of vertices. */
-#if SMEAR_LIGHT_IS_DEAR && defined(__ARM_ARCH_6M__)
-#define SMEAR_SHADES_FACES 1
-#else
-#define SMEAR_SHADES_FACES 0
-#endif
 
 #if SMEAR_SHADES_FACES
 /* Shades a face's colour and packs it, as smear_shade and smear_color_pack do. */

@@ -32,10 +32,8 @@ static int32_t scale_to_i32(int64_t a, int shift)
 /* Does what scale_to_i32 does, without a call where the number shrinks, as it mostly does. */
 static inline int32_t scale_inline(int64_t a, int shift)
 {
-#ifndef __OPTIMIZE_SIZE__
-    if (shift < 0 && shift >= -62)
+    if (!SMEAR_SMALL_FILE && shift < 0 && shift >= -62)
         return narrow_sat(scale_down(a, -shift));
-#endif
     return scale_to_i32(a, shift);
 }
 

@@ -5,7 +5,7 @@
 #include "base/arena.h"
 #include "geometry/assemble.h"
 
-#if SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE
+#if SMEAR_WITH_WORKERS
 
 enum {
     POOL_WORDS_LEAST = 1024,
@@ -81,6 +81,68 @@ bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, voi
     return true;
 }
 
+/* Appends a part's rings, whose numbers are larger than all others, to those of the parts before it. */
+static void join_rings(const struct smear_bins *g, uint32_t *last, const uint32_t *more)
+{
+    for (int row = g->row_first; row < g->row_end; row++) {
+        if (more[row] == SMEAR_NO_TRIANGLE)
+            continue;
+        if (last[row] != SMEAR_NO_TRIANGLE) {
+            struct smear_triangle *a = bins_triangle(g, last[row]), *b = bins_triangle(g, more[row]);
+            const uint32_t first = a->next;
+            a->next = b->next;
+            b->next = first;
+        }
+        last[row] = more[row];
+    }
+}
+
+/* Counts the numbers of rings, and their triangles' segments, from those of the store on. */
+static void renumber(const struct smear_bins *g, uint32_t *last)
+{
+    for (int row = g->row_first; row < g->row_end; row++) {
+        if (last[row] == SMEAR_NO_TRIANGLE)
+            continue;
+        const uint32_t end = last[row] += g->triangle_count;
+        for (uint32_t i = end, next;; i = next) {
+            struct smear_triangle *t = bins_triangle(g, i);
+            next = t->next += g->triangle_count;
+            if (t->segment != SMEAR_POINT)
+                t->segment = (uint16_t)(t->segment + g->segment_count);
+            if (next == end)
+                break;
+        }
+    }
+}
+
+/* Appends all that another store has, with segments, rings and numbers of its own; its rings are used up. False where
+ * there is no room. */
+static bool append_store(struct smear_bins *g, const struct smear_bins *more)
+{
+    if (!bins_has_room(g, more->vertex_words, more->triangle_count)
+        || g->segment_count + more->segment_count > min_u32(g->segment_limit, SMEAR_POINT))
+        return false;
+    __builtin_memcpy(g->pool + g->vertex_words, more->pool, (size_t)more->vertex_words * 4);
+    if (more->triangle_count != 0)
+        __builtin_memcpy(bins_triangle(g, g->triangle_count + more->triangle_count - 1),
+                         bins_triangle(more, more->triangle_count - 1), more->triangle_count * sizeof(struct smear_triangle));
+    for (uint32_t i = 0; i < more->segment_count; i++) {
+        g->segment[g->segment_count + i] = more->segment[i];
+        g->segment[g->segment_count + i].base += g->vertex_words;
+    }
+    uint32_t *const from[3] = { more->opaque_last, more->blend_last, more->moving_last };
+    uint32_t *const to[3] = { g->opaque_last, g->blend_last, g->moving_last };
+    for (int i = 0; i < 3; i++)
+        if (to[i] != NULL) {
+            renumber(g, from[i]);
+            join_rings(g, to[i], from[i]);
+        }
+    g->vertex_words += more->vertex_words;
+    g->triangle_count += more->triangle_count;
+    g->segment_count += more->segment_count;
+    return true;
+}
+
 static void add_counts(struct smear_assembler *a, const struct smear_part *p)
 {
     a->path_count += p->as.path_count;
@@ -99,7 +161,7 @@ bool smear_parts_join(struct smear_assembler *a, const struct smear_part *part, 
     a->path_count = 0;
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_part *p = &part[k];
-        done = done && p->done && p->as.path_count <= a->path_limit - a->path_count && (k == 0 || smear_bins_append(g, &p->bins));
+        done = done && p->done && p->as.path_count <= a->path_limit - a->path_count && (k == 0 || append_store(g, &p->bins));
         if (!done)
             return false;
         add_counts(a, p);
@@ -143,10 +205,10 @@ uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_par
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_bins *b = &part[k].bins;
         const uint32_t rest = g->pool_words - b->vertex_words - b->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-        smear_bins_join(g, g->opaque_last, b->opaque_last);
-        smear_bins_join(g, g->blend_last, b->blend_last);
+        join_rings(g, g->opaque_last, b->opaque_last);
+        join_rings(g, g->blend_last, b->blend_last);
         if (g->moving_last != NULL)
-            smear_bins_join(g, g->moving_last, b->moving_last);
+            join_rings(g, g->moving_last, b->moving_last);
         add_counts(a, &part[k]);
         g->parts_listed += b->triangle_count - part[k].number;
         free += rest;

@@ -148,4 +148,15 @@ static inline void edge_sides_armv7em(struct span_side *side, struct edge_walk *
 }
 #endif
 
+/* Both sides of n > 0 rows. */
+static inline void edge_sides(struct span_side *side, struct edge_walk *left, struct edge_walk *right, int32_t n, int32_t width)
+{
+#if SMEAR_ASM_ARMV7EM
+    edge_sides_armv7em(side, left, right, n, width);
+#else
+    edge_left(side, left, n);
+    edge_right(side, right, n, width);
+#endif
+}
+
 #endif

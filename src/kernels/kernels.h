@@ -10,7 +10,7 @@
  *   - its variants, beside the reference: NAME_lanes or NAME_vector where SMEAR_VECTORS is set, NAME_armv6m where
  *     SMEAR_ASM_ARMV6M is, NAME_armv7em where SMEAR_ASM_ARMV7EM is, NAME_arm where SMEAR_ASM_ARM is, NAME_unrolled
  *     where plain C that compilers turn into better code pays on every core;
- *   - NAME itself, which the library calls: the best variant of this build, else the reference.
+ *   - NAME itself, which the library calls: the best variant of this build, else the reference. bind.h says which that is.
  *
  * How to add one
  *   1. src/kernels/FAMILY.h holds related kernels as `static inline` functions (SMEAR_INLINE where callers pass
@@ -27,36 +27,5 @@
 #define SMEAR_KERNELS_H
 
 #include "kernels/vector.h"
-
-/* Assembly for ARMv6-M (Cortex-M0 and M0+), whose eight general registers compilers use badly. It keeps all of
- * them busy, frame pointers included: builds without optimization need those, and Clang sets r7 aside for them. */
-#ifndef SMEAR_ASM_ARMV6M
-#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
-#define SMEAR_ASM_ARMV6M 1
-#else
-#define SMEAR_ASM_ARMV6M 0
-#endif
-#endif
-
-/* Assembly for ARMv7E-M (Cortex-M4, M7), whose products of halves and of words compilers use badly. Not for Clang, which sets r7
- * aside, nor where size counts. */
-#ifndef SMEAR_ASM_ARMV7EM
-#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_7EM__) && defined(__thumb2__) && defined(__ARM_FEATURE_DSP) \
-    && defined(__ARM_FEATURE_UNALIGNED) && !defined(__ARM_BIG_ENDIAN) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
-#define SMEAR_ASM_ARMV7EM 1
-#else
-#define SMEAR_ASM_ARMV7EM 0
-#endif
-#endif
-
-/* Assembly in ARM code for ARM7TDMI and what else runs it without vectors. Not for Clang, which knows another syntax. */
-#ifndef SMEAR_ASM_ARM
-#if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && !defined(__thumb__) && defined(__OPTIMIZE__) && !SMEAR_VECTORS \
-    && !SMEAR_BIG_ENDIAN
-#define SMEAR_ASM_ARM 1
-#else
-#define SMEAR_ASM_ARM 0
-#endif
-#endif
 
 #endif

@@ -216,4 +216,16 @@ static inline void row_l4_reference(uint8_t *row, const uint32_t *in, int32_t n,
 void smear_row_l4_blocks(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold);
 #endif
 
+/* The same from a multiple of eight columns on. */
+static inline void row_l4_from_eights(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold, int32_t mask)
+{
+#ifndef __OPTIMIZE_SIZE__
+    if (mask == 7) {
+        smear_row_l4_blocks(row, in, n, x, threshold);
+        return;
+    }
+#endif
+    row_l4_reference(row, in, n, x, threshold, mask);
+}
+
 #endif

@@ -113,4 +113,14 @@ static inline void shade_run_armv6m(uint32_t *pixels, uint16_t *depth, int32_t n
 }
 #endif
 
+/* The same of codes and wide pixels. */
+static inline void shade_run_codes(uint32_t *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const struct shade *k)
+{
+#if SMEAR_ASM_ARMV6M
+    shade_run_armv6m(pixels, depth, n, z, dz, k);
+#else
+    shade_run_reference(pixels, depth, n, z, dz, k, false, false);
+#endif
+}
+
 #endif

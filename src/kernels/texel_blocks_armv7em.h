@@ -7,15 +7,6 @@
 #include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 
-#if SMEAR_ASM_ARMV7EM
-
-SMEAR_STATIC_ASSERT(offsetof(struct texel_track, q) == 52 && offsetof(struct texel_track, place) == 64
-                        && offsetof(struct texel_track, dq) == 76 && offsetof(struct texel_track, log2) == 88
-                        && offsetof(struct texel_track, seed) == 100 && offsetof(struct texel_track, parabolic) == 104
-                        && offsetof(struct texel_track, n) == 112 && offsetof(struct texel_track, qx) == 116
-                        && offsetof(struct texel_track, last) == 128 && offsetof(struct texel_track, counter) == 132,
-                    "the assembly knows struct texel_track");
-
 /* Draws `count` >= 0 whole blocks, then `rest` pixels that are no more than a block and the one behind them, if there are any. Of
  * the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are anything. */
 static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height)
@@ -31,6 +22,15 @@ static inline void texel_blocks_reference(struct texel_track *k, int32_t count, 
         texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, TEXELS_NARROW);
     }
 }
+
+#if SMEAR_ASM_ARMV7EM
+
+SMEAR_STATIC_ASSERT(offsetof(struct texel_track, q) == 52 && offsetof(struct texel_track, place) == 64
+                        && offsetof(struct texel_track, dq) == 76 && offsetof(struct texel_track, log2) == 88
+                        && offsetof(struct texel_track, seed) == 100 && offsetof(struct texel_track, parabolic) == 104
+                        && offsetof(struct texel_track, n) == 112 && offsetof(struct texel_track, qx) == 116
+                        && offsetof(struct texel_track, last) == 128 && offsetof(struct texel_track, counter) == 132,
+                    "the assembly knows struct texel_track");
 
 /* The place of planes r1, r2 and r3, which become the track's, whose q is at r12: 1/q into r1, coordinates into r2 and r3, the leading
  * zeros of q less one into lr. */

@@ -4,12 +4,9 @@
 #define SMEAR_KERNELS_TEXEL_CURVE_ROWS_H
 
 #include "kernels/span_side.h"
+#include "kernels/texel_places.h"
 #include "kernels/texels_draw.h"
 
-/* For assembly alone: compilers have no registers for what rows have in common. */
-#define TEXEL_CURVES_ASM (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
-
-#if TEXEL_CURVES_ASM
 /* A polynomial of x and y, modulo 2^32. */
 struct texel_polynomial {
     uint32_t at, dx, dy, dxx, dxy, dyy;
@@ -31,10 +28,12 @@ struct texel_curve_rows {
     const void *texels;
 };
 
+#if TEXEL_CURVE_ROWS
 SMEAR_STATIC_ASSERT(offsetof(struct texel_curve_rows, u) == 32 && offsetof(struct texel_curve_rows, dz) == 80
                         && sizeof(struct texel_polynomial) == 24 && sizeof(struct span_side) == 12
                         && offsetof(struct span_side, right) == 4,
                     "the assembly knows struct texel_curve_rows and struct span_side");
+#endif
 
 static inline uint32_t texel_polynomial_at(const struct texel_polynomial *p, uint32_t x, uint32_t y, uint32_t *step)
 {
@@ -56,9 +55,12 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
 {
     for (int32_t row = 0; row < r->count; row++) {
         const int32_t left = r->side[row].left, n = r->side[row].right - left, bytes = row * r->stride + 2 * left;
-        struct texel_run run = { .dz = r->dz, .ddu = r->ddu, .ddv = r->ddv, .texels = r->texels };
-        run.u = texel_polynomial_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &run.du);
-        run.v = texel_polynomial_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &run.dv);
+        struct texel_run run = { .dz = r->dz, .texels = r->texels };
+        struct texcoord c = { .curvature_u = 0u - r->ddu, .curvature_v = 0u - r->ddv };
+        c.u = texel_polynomial_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.du);
+        c.v = texel_polynomial_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.dv);
+        texcoord_run(&run, c);
+        texel_run_start(&run, log2_width, log2_height);
         run.z = r->z + r->dz_down * (uint32_t)row + r->dz * (uint32_t)left;
         run.depth = (uint16_t *)((uintptr_t)r->depth + (uintptr_t)bytes);
         run.color = (void *)((uintptr_t)run.depth - (uintptr_t)r->to_depth);
@@ -66,6 +68,5 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
             texels_draw_reference(&run, n, log2_width, log2_height, TEXELS_NARROW);
     }
 }
-#endif
 
 #endif

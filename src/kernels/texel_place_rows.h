@@ -6,10 +6,6 @@
 #include "kernels/span_side.h"
 #include "kernels/texel_places.h"
 
-/* For assembly alone, where size does not count. */
-#define TEXEL_PLACES_ASM ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
-
-#if TEXEL_PLACES_ASM
 /* Rows one below the other, and planes whose quotients are coordinates. */
 struct texel_place_rows {
     const struct span_side *side;
@@ -28,10 +24,12 @@ struct texel_place_rows {
     int32_t to_color;           /* bytes from a depth to its pixel */
 };
 
+#if TEXEL_PLACE_ROWS
 SMEAR_STATIC_ASSERT(offsetof(struct texel_place_rows, dz) == 32 && offsetof(struct texel_place_rows, v) == 60
                         && offsetof(struct texel_place_rows, to_color) == 96 && sizeof(struct texel_plane) == 12
                         && sizeof(struct span_side) == 12 && offsetof(struct span_side, right) == 4,
                     "the assembly knows struct texel_place_rows and struct span_side");
+#endif
 
 /* Assembly begins each row by going on to the next one. */
 static inline void texel_place_rows_before(struct texel_place_rows *r)
@@ -58,6 +56,5 @@ static inline void texel_place_rows_reference(struct texel_place_rows *r)
         }
     }
 }
-#endif
 
 #endif

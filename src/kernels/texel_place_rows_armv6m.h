@@ -6,7 +6,7 @@
 #include "kernels/texel_place_rows.h"
 #include "kernels/texel_track.h"
 
-#if TEXEL_PLACES_ASM && SMEAR_ASM_ARMV6M
+#if TEXEL_PLACE_ROWS && SMEAR_ASM_ARMV6M
 
 /* A plane's value at column r1 of row r2, of the three words at r0, into r4. */
 #define ARMV6M_PLACE_PLANE \

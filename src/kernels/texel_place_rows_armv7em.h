@@ -6,7 +6,7 @@
 
 #include "kernels/texel_place_rows.h"
 
-#if TEXEL_PLACES_ASM && SMEAR_ASM_ARMV7EM
+#if TEXEL_PLACE_ROWS && SMEAR_ASM_ARMV7EM
 
 /* A plane's value at column r9 of row r3, of the three words at r2, into VALUE. */
 #define ARMV7EM_PLANE(VALUE) \

@@ -57,9 +57,6 @@ static inline void texel_track_part_reference(struct texel_track *k, int32_t n)
     texcoord_run(&k->run, places_between(from, k->place, n, k->up, k->parabolic, true));
 }
 
-/* Whether the assembly starts rows, too: where size counts, what the compiler makes of it is shorter. */
-#define TRACK_ROWS_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
-
 #if SMEAR_ASM_ARMV6M
 SMEAR_STATIC_ASSERT(sizeof(struct texel_run) == 52 && offsetof(struct texel_track, q) == 52
                         && offsetof(struct texel_track, place) == 64 && offsetof(struct texel_track, dq) == 76
@@ -268,7 +265,7 @@ static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_
         ARMV6M_TRACK("116", "120", "124", "", "", "", ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
 }
 
-#if TRACK_ROWS_ARMV6M
+#if TEXEL_TRACK_STARTS
 /* A plane's value, of at, dx and dy at r1, into the track. */
 #define ARMV6M_PLANE \
         "ldm r1!, {r4, r5, r6}\n\t" \
@@ -331,6 +328,37 @@ static inline void texel_track_part(struct texel_track *k, int32_t n)
     texel_track_part_armv6m(k, n);
 #else
     texel_track_part_reference(k, n);
+#endif
+}
+
+/* Functions of their own where registers are few: the loops over pixels take them all. The assembly is a function. */
+#if SMEAR_ON_64
+#define TRACK_FUNCTION SMEAR_INLINE
+#else
+#define TRACK_FUNCTION static SMEAR_NOINLINE
+#endif
+#if SMEAR_ASM_ARMV6M
+#define TRACK_BLOCK static inline
+#else
+#define TRACK_BLOCK TRACK_FUNCTION
+#endif
+
+/* Where assembly starts rows and divides, the choice between its function and another is not worth one. */
+#if TEXEL_TRACK_STARTS
+#define TRACK_GO static SMEAR_NOINLINE
+#define TRACK_NEXT SMEAR_INLINE
+#else
+#define TRACK_GO SMEAR_INLINE
+#define TRACK_NEXT TRACK_FUNCTION
+#endif
+
+/* Takes the length of whole blocks, 2^log2 pixels. */
+static inline void texel_track_length(struct texel_track *k, int log2)
+{
+    k->log2 = log2;
+#if SMEAR_ASM_ARMV7EM
+    k->last = (1 << log2) - 1;
+    k->counter = 256 - (1 << log2);
 #endif
 }
 

@@ -6,14 +6,6 @@
 
 #include "base/base.h"
 
-#ifndef SMEAR_VECTORS
-#if SMEAR_GNU && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
-#define SMEAR_VECTORS 1
-#else
-#define SMEAR_VECTORS 0
-#endif
-#endif
-
 #if SMEAR_VECTORS && defined(__SSE2__)
 #include <emmintrin.h>
 #endif

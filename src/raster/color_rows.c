@@ -14,11 +14,7 @@
 static SMEAR_NOINLINE void shade_codes(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
                                        const struct shade *k)
 {
-#if SMEAR_ASM_ARMV6M
-    shade_run_armv6m((uint32_t *)pixels, depth, n, z, dz, k);
-#else
-    shade_run_reference(pixels, depth, n, z, dz, k, false, false);
-#endif
+    shade_run_codes((uint32_t *)pixels, depth, n, z, dz, k);
 }
 
 static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint16_t *depth, int32_t n, uint32_t z,

@@ -50,11 +50,7 @@ struct few_texels {
 enum few_kind { FEW_NARROW, FEW_WIDE, FEW_ANY };
 
 /* Loops of their own for copied texels: not where size counts, or flash has no room for them. */
-#if defined(__OPTIMIZE_SIZE__) || defined(__ARM_ARCH_6M__)
-#define FEW_COPIES 0
-#else
-#define FEW_COPIES 1
-#endif
+enum { FEW_COPIES = !SMEAR_SMALL_FILE && !SMEAR_ON_ARMV6M };
 
 /* ------------------------------------------------------------------ vertices */
 
@@ -276,9 +272,8 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
     const bool turns = !SMEAR_SMALL_CODE && load_turns(&k, m);
     if (!SMEAR_SMALL_CODE && !turns)
         k.from_v = -1;
-#if FEW_COPIES
     const bool narrow = target_is_direct(s->target);
-    if (turns && k.kind == LIGHT_NONE && !k.in_fog && draw_is_opaque(s->draw)
+    if (FEW_COPIES && turns && k.kind == LIGHT_NONE && !k.in_fog && draw_is_opaque(s->draw)
         && m->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888)) {
         if (narrow)
             draw_few(s, &k, area, box, FEW_NARROW);
@@ -286,7 +281,6 @@ bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_
             draw_few(s, &k, area, box, FEW_WIDE);
         return true;
     }
-#endif
     draw_few(s, &k, area, box, FEW_ANY);
     return true;
 }

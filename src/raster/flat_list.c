@@ -9,8 +9,6 @@
 #include "raster/gradient.h"
 #include "raster/kept_found.h"
 
-#if !SMEAR_SMALL_CODE
-
 /* Columns of its box. */
 struct columns {
     int32_t left, right;
@@ -94,44 +92,6 @@ static inline void depth_make(struct flat_lines *l, const int32_t *const v[3], i
 
 /* ------------------------------------------------------------------ rows */
 
-/* Starts a side so many rows below its first one, whatever it is. */
-static SMEAR_NOINLINE void line_start_any(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
-{
-    struct edge_fine e;
-    edge_fine_start(&e, a, b, rows);
-    flat_lines_side(l, side, &e);
-}
-
-#if SMEAR_ASM_ARMV6M
-/* Goes on by fewer rows than 65536, like edge_fine_pass. */
-static SMEAR_NOINLINE void line_pass(struct flat_lines *l, int side, uint32_t rows)
-{
-    const uint32_t step = l->step[side][0], low = step * rows;
-    const uint32_t high = ((step >> 16) * rows + ((step & 0xffffu) * rows >> 16)) >> 16;
-    l->x[side][0] += low;
-    l->x[side][1] += l->step[side][1] * rows + high + (l->x[side][0] < low);
-}
-
-/* Usual ones without what the others take of the stack and of registers. */
-static SMEAR_NOINLINE bool line_usual(struct flat_lines *l, int side, const int32_t *a, const int32_t *b)
-{
-    return flat_lines_side_armv6m(l, side, a, b);
-}
-
-static inline void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
-{
-    if (!line_usual(l, side, a, b))
-        line_start_any(l, side, a, b, rows);
-    else if (rows != 0)
-        line_pass(l, side, (uint32_t)rows);
-}
-#else
-static inline void line_start(struct flat_lines *l, int side, const int32_t *a, const int32_t *b, int32_t rows)
-{
-    line_start_any(l, side, a, b, rows);
-}
-#endif
-
 static inline uintptr_t to_pixels_of(const struct smear_raster_target *t, bool narrow)
 {
     return narrow ? (uintptr_t)t->direct - (uintptr_t)t->depth : (uintptr_t)t->color - 2 * (uintptr_t)t->depth;
@@ -152,17 +112,8 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->to_pixels = to_pixels_of(t, l->narrow);
 }
 
-#if SMEAR_ASM_ARM
-/* One copy of each loop: fast memory has no room for more. */
-#define FLAT_COPY SMEAR_NOINLINE
-#define FLAT_ROWS_COPY static SMEAR_NOINLINE
-#else
-#define FLAT_COPY inline
-#define FLAT_ROWS_COPY SMEAR_INLINE
-#endif
-
 #if SMEAR_LATE_BLOCKS
-static FLAT_COPY void draw_late_lines(struct flat_lines *l, int32_t n) { flat_lines_late_arm(l, n); }
+static SMEAR_COPY void draw_late_lines(struct flat_lines *l, int32_t n) { flat_lines_late_arm(l, n); }
 
 void smear_target_settle(const struct smear_raster_target *t, int32_t at, int32_t a, int32_t b)
 {
@@ -170,7 +121,7 @@ void smear_target_settle(const struct smear_raster_target *t, int32_t at, int32_
 }
 #endif
 
-static FLAT_COPY void draw_lines(struct flat_lines *l, int32_t n)
+static SMEAR_COPY void draw_lines(struct flat_lines *l, int32_t n)
 {
 #if SMEAR_LATE_BLOCKS
     if (l->late) {
@@ -194,8 +145,8 @@ static SMEAR_NOINLINE void draw_around(struct flat_lines *l, int32_t n, int32_t 
 
 /* Draws rows [y, end), of which those before the knee lie at one short side. `on`: the sides are those of row y already, as rows above
  * have left them; but a side that begins with it is new. */
-FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
-                              int32_t end, bool on)
+SMEAR_INLINE_COPY void draw_rows(const struct smear_raster_target *t, struct flat_lines *l, const struct corners *c, int32_t y,
+                                 int32_t end, bool on)
 {
     const struct smear_plane_rows *const w = &t->window_rows;
     const int whole = c->whole_is_left ? 0 : 1;
@@ -204,14 +155,14 @@ FLAT_ROWS_COPY void draw_rows(const struct smear_raster_target *t, struct flat_l
         left += w->ring;
     l->depth = t->depth + ((w->ring - left) * w->stride - w->x0);
     if (!on)
-        line_start(l, whole, c->top, c->bottom, y - c->first);
+        flat_lines_start(l, whole, c->top, c->bottom, y - c->first);
     for (on = on && y != c->knee; y < end; on = false) {
         const bool upper = y < c->knee;
         const int32_t n = (upper ? min_i32(c->knee, end) : end) - y;
         if (!on && upper)
-            line_start(l, 1 - whole, c->top, c->middle, y - c->first);
+            flat_lines_start(l, 1 - whole, c->top, c->middle, y - c->first);
         else if (!on)
-            line_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
+            flat_lines_start(l, 1 - whole, c->middle, c->bottom, y - c->knee);
         y += n;
         if (left >= n) {
             draw_lines(l, n);
@@ -321,5 +272,3 @@ void smear_flat_cover(const struct setup *s)
     codes_make(&l, s->slope, plane_at(&s->depth, 0, y), s->depth.dx, s->depth.dy);
     draw_rows(t, &l, &c, y, end, false);
 }
-
-#endif

@@ -5,6 +5,7 @@
 #ifndef SMEAR_RASTER_KEPT_H
 #define SMEAR_RASTER_KEPT_H
 
+#include "kernels/fill.h"
 #include "raster/flat_list.h"
 
 /* Before the words of a setup. In memory of its own, between the pool's vertices and triangles (draws.c). */
@@ -49,27 +50,6 @@ static inline size_t kept_bytes(const struct smear_segment *s)
     return bytes;
 }
 
-#if SMEAR_ASM_ARMV6M
-/* A call takes longer than most copies, and so do single words. */
-SMEAR_INLINE void kept_words(uint32_t *to, const uint32_t *from, size_t bytes)
-{
-    size_t fours = bytes / 16;
-    if (fours != 0)
-        __asm__ volatile(".syntax unified\n"
-                         "1: ldmia %[from]!, {r3, r4, r5, r6}\n\t"
-                         "stmia %[to]!, {r3, r4, r5, r6}\n\t"
-                         "subs %[n], #1\n\t"
-                         "bne 1b"
-                         : [from] "+l"(from), [to] "+l"(to), [n] "+l"(fours)
-                         :
-                         : "r3", "r4", "r5", "r6", "cc", "memory");
-    for (size_t i = 0; i < bytes % 16 / 4; i++)
-        ((pixel_word *)to)[i] = ((const pixel_word *)from)[i];
-}
-#else
-SMEAR_INLINE void kept_words(uint32_t *to, const uint32_t *from, size_t bytes) { __builtin_memcpy(to, from, bytes); }
-#endif
-
 /* All parts are whole words. */
 SMEAR_STATIC_ASSERT(offsetof(struct setup, depth) % 4 == 0 && offsetof(struct setup, texture) % 4 == 0
                         && offsetof(struct setup, texture.q) % 4 == 0 && offsetof(struct setup, channel) % 4 == 0
@@ -81,9 +61,9 @@ SMEAR_INLINE uint32_t *kept_part(struct setup *s, size_t from, size_t n, uint32_
 {
     uint32_t *const member = (uint32_t *)(void *)((uint8_t *)s + from);
     if (back)
-        kept_words(member, kept, n);
+        words_copy(member, kept, n);
     else
-        kept_words(kept, member, n);
+        words_copy(kept, member, n);
     return kept + n / 4;
 }
 

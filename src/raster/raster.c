@@ -262,7 +262,7 @@ void smear_raster_list(const struct smear_raster_frame *frame, const struct smea
     }
 }
 
-#if SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE
+#if SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                           const uint32_t *number, uint32_t count)
 {

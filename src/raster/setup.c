@@ -292,17 +292,16 @@ struct depth_change {
 SMEAR_INLINE void turns_make(int32_t value[6], int up, int32_t step)
 {
     const int32_t half = step >> 1;
-#if SMEAR_SMALL_CODE
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; SMEAR_SMALL_CODE && i < 6; i++)
         value[i] = add_wrap(shl_wrap(value[i], up), half) & -step;
-#else
+    if (SMEAR_SMALL_CODE)
+        return;
     value[0] = add_wrap(shl_wrap(value[0], up), half) & -step;
     value[1] = add_wrap(shl_wrap(value[1], up), half) & -step;
     value[2] = add_wrap(shl_wrap(value[2], up), half) & -step;
     value[3] = add_wrap(shl_wrap(value[3], up), half) & -step;
     value[4] = add_wrap(shl_wrap(value[4], up), half) & -step;
     value[5] = add_wrap(shl_wrap(value[5], up), half) & -step;
-#endif
 }
 
 /* One coordinate's polynomial. False where it is steep. */
@@ -332,10 +331,8 @@ static bool curve_make(struct setup *s, const struct weights *w, const struct de
 /* a over the larger of a texture's sizes, rounded down. */
 static inline uint32_t over_size(uint32_t a, const struct smear_sampler *m)
 {
-#if !SMEAR_SMALL_CODE
-    if (m->turns)
+    if (!SMEAR_SMALL_CODE && m->turns)
         return a >> max_u32(m->log2_width, m->log2_height);
-#endif
     return a / (uint32_t)max_i32(m->width, m->height);
 }
 

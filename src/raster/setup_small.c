@@ -202,17 +202,12 @@ static int32_t light_value(const struct setup *s, int vertex, int c)
 /* Whether green and blue are as red, as light without a colour is. */
 static inline bool light_is_white(const struct setup *s)
 {
-#ifndef __OPTIMIZE_SIZE__
     for (int i = 0; i < 3; i++) {
         const uint32_t red_green = (uint32_t)s->v[i][s->segment->color], blue = (uint32_t)s->v[i][s->segment->color + 1];
         if (red_green != (red_green << 16 | (blue & 0xffffu)))
             return false;
     }
     return true;
-#else
-    (void)s;
-    return false;
-#endif
 }
 
 static bool light_make(struct setup *s, const struct slopes *g, const struct depth_change *k)
@@ -232,7 +227,7 @@ static bool light_make(struct setup *s, const struct slopes *g, const struct dep
         p->dx = weigh(b, g->x1, g->x2) >> 7;
         p->dy = weigh(b, g->y1, g->y2) >> 7;
         place(p, s, value << 8);
-        if (c == 0 && light_is_white(s)) {
+        if (!SMEAR_SMALL_FILE && c == 0 && light_is_white(s)) {
             p[1] = p[2] = *p;
             c = 2;
         }

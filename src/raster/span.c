@@ -8,11 +8,7 @@
 #include "kernels/flat_run.h"
 
 /* Loops of their own for what is common. */
-#ifdef __OPTIMIZE_SIZE__
-#define SPAN_SPECIALIZED 0
-#else
-#define SPAN_SPECIALIZED 1
-#endif
+enum { SPAN_SPECIALIZED = !SMEAR_SMALL_FILE };
 
 void smear_span_flat(const struct setup *s, const struct span *p)
 {

@@ -15,23 +15,6 @@ struct smear_plane_rows {
     int32_t ring_row, ring, x0;
 };
 
-/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
-#ifndef SMEAR_RASTER_CACHE
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_RASTER_CACHE 0
-#else
-#define SMEAR_RASTER_CACHE 1
-#endif
-#endif
-
-/* Textured triangles are drawn from the front (front_order.h): not in a page or in the
- * GBA's fast memory, where size counts. */
-#if !SMEAR_RASTER_CACHE || !SMEAR_WITH_TEXTURE || defined(__wasm__) || defined(__ARM_ARCH_4T__)
-#define SMEAR_FRONT_ORDER 0
-#else
-#define SMEAR_FRONT_ORDER 1
-#endif
-
 /* Memory for what was found out about triangles that reach beyond a
  * target's rows, for the rows after them, and for orders of lists: raster_cache.c. */
 struct smear_raster_cache {
@@ -60,15 +43,6 @@ struct smear_raster_target {
     uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
     bool late;                      /* the window's pixels are late blocks: where there are such */
 };
-
-/* Sharp frames without dither are drawn as the display's pixels, where that pays: 0.9 kB. */
-#ifndef SMEAR_DIRECT
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_DIRECT 0
-#else
-#define SMEAR_DIRECT 1
-#endif
-#endif
 
 /* Tests and tools look at velocities. */
 static inline bool target_is_inspected(const struct smear_raster_target *t)

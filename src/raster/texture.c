@@ -6,11 +6,7 @@
 #include "base/pixel.h"
 
 /* A loop of its own for wraps: a third of the instructions, for machines that have room. */
-#if UINTPTR_MAX > 0xffffffffu && !defined(__OPTIMIZE_SIZE__)
-#define SMEAR_SAMPLE_WRAPPED 1
-#else
-#define SMEAR_SAMPLE_WRAPPED 0
-#endif
+enum { SAMPLE_WRAPPED = SMEAR_ON_64 && !SMEAR_SMALL_FILE };
 
 static int log2_exact(uint32_t x)
 {
@@ -165,7 +161,6 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
 }
 
 /* Sizes that are no powers of two, or other wraps. */
-#if SMEAR_SAMPLE_WRAPPED
 /* Coordinates of an axis that wrap alike: those below `period` beyond `from`. */
 struct wrapped {
     int32_t from, period, size;
@@ -203,22 +198,20 @@ static void sample_wrapped(uint32_t *out, const struct smear_sampler *s, const s
         *out++ = fetch(s, (uint32_t)(row * s->width + wrapped_at(&u, (int32_t)at >> 16)));
     }
 }
-#endif
 
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
                   int first, int n)
 {
-#ifdef __OPTIMIZE_SIZE__
-    sample_run(out, s, run, first, n, s->turns, s->format);
-#else
+    if (SMEAR_SMALL_FILE) {
+        sample_run(out, s, run, first, n, s->turns, s->format);
+        return;
+    }
     /* In registers: `out` might be any of its words. */
     const struct smear_sampler sampler = *s;
-#if SMEAR_SAMPLE_WRAPPED
-    if (!sampler.turns && !sampler.bilinear) {
+    if (SAMPLE_WRAPPED && !sampler.turns && !sampler.bilinear) {
         sample_wrapped(out, &sampler, run, first, n);
         return;
     }
-#endif
     if (!sampler.turns)
         sample_run(out, s, run, first, n, false, 0);
     else if (sampler.format == SMEAR_TEXEL_8888)
@@ -227,5 +220,4 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
     else
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);
-#endif
 }

@@ -66,9 +66,7 @@ static SMEAR_NOINLINE void curves_run(const struct curves *k, int32_t x, int32_t
     r->v = curve_value(&k->v, (uint32_t)x, (uint32_t)y, &r->dv);
 }
 #endif
-#endif
 
-#if TEXEL_CURVES_ASM
 static inline struct texel_polynomial polynomial_of(const struct curve *c)
 {
     return (struct texel_polynomial){ (uint32_t)c->at, (uint32_t)c->dx, (uint32_t)c->dy, (uint32_t)c->dxx, (uint32_t)c->dxy,
@@ -89,11 +87,7 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
     };
     rows.ddu = 2 * rows.u.dxx;
     rows.ddv = 2 * rows.v.dxx;
-#if SMEAR_ASM_ARMV6M
-    texel_curve_rows_armv6m(&rows, log2_width, log2_height);
-#else
-    texel_curve_rows_armv7em(&rows, log2_width, log2_height);
-#endif
+    texel_curve_rows_draw(&rows, log2_width, log2_height);
 }
 #endif
 

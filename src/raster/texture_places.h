@@ -7,7 +7,6 @@
 #include "kernels/texel_place_rows_armv7em.h"
 #include "raster/texture_rows.h"
 
-#if TEXEL_PLACES_ASM
 static inline struct texel_plane plane_of(const struct plane *p)
 {
     return (struct texel_plane){ p->at, p->dx, p->dy };
@@ -19,7 +18,7 @@ static inline bool draw_whole_places(const struct setup *s, const struct span_ro
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = &s->texture;
     const struct smear_sampler *m = &s->draw->sampler;
-    if (t->mode != TEXTURE_DIVIDED)
+    if (!TEXEL_PLACE_ROWS || t->mode != TEXTURE_DIVIDED)
         return false;
     struct texel_place_rows rows = {
         .side = r->side, .count = r->count, .y = r->y, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
@@ -29,15 +28,8 @@ static inline bool draw_whole_places(const struct setup *s, const struct span_ro
         .v = plane_of(&t->uv[1]), .seed = smear_recip_seed, .up = t->up, .from_u = 32 - m->log2_width, .from_v = 32 - m->log2_height,
         .to_v = m->log2_width, .texels = m->texels, .to_color = (int32_t)((uintptr_t)target->direct - (uintptr_t)target->depth)
     };
-#if SMEAR_ASM_ARMV6M
-    texel_place_rows_armv6m(&rows);
-#else
-    texel_place_rows_armv7em(&rows);
-#endif
+    texel_place_rows_draw(&rows);
     return true;
 }
-#else
-#define draw_whole_places(S, R) false
-#endif
 
 #endif

@@ -230,17 +230,15 @@ static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, in
     return true;
 }
 
-#if SMEAR_ASM_ARMV7EM
 /* Blocks of narrow texels of a run, of which `rest` pixels and the last are to come: all where the row ends in it, else whole ones of
  * which no less than `least` come behind. Returns the rest. */
 SMEAR_INLINE int32_t draw_run_blocks(struct texel_track *k, int32_t rest, int32_t least, bool is_last, int log2_width, int log2_height)
 {
     const int32_t blocks = (rest - least) >> k->log2, behind = rest - (blocks << k->log2);
     if (blocks > 0 || is_last)
-        texel_blocks_armv7em(k, blocks, is_last ? behind : 0, log2_width, log2_height);
+        texel_blocks(k, blocks, is_last ? behind : 0, log2_width, log2_height);
     return is_last ? 0 : behind;
 }
-#endif
 
 /* A row's run and track from pixel x on. */
 SMEAR_INLINE void row_start(struct texel_track *k, const struct setup *s, const struct span_rows *r, int32_t row,
@@ -256,23 +254,17 @@ SMEAR_INLINE void row_start(struct texel_track *k, const struct setup *s, const 
 }
 
 /* Rows of one run whose places are quotients have a loop of their own; on a page size counts. */
-#ifdef __wasm__
-#define DIVIDED_ROWS 0
-#else
-#define DIVIDED_ROWS 1
-#endif
+enum { DIVIDED_ROWS = !SMEAR_ON_WASM };
 
 /* Draws such a row from its first pixel on, where the track and its run have come to: `rest` pixels and the last. */
 SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
 {
     const int32_t block = 1 << k->log2;
-#if SMEAR_ASM_ARMV7EM
-    if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width)) {
+    if (TEXEL_BLOCKS && kind == TEXELS_NARROW && SMEAR_IS_CONSTANT(log2_width)) {
         const int32_t blocks = (rest - 1) >> k->log2;
-        texel_blocks_armv7em(k, blocks, rest - (blocks << k->log2), log2_width, log2_height);
+        texel_blocks(k, blocks, rest - (blocks << k->log2), log2_width, log2_height);
         return;
     }
-#endif
 #if TEXELS_LANES
     if (!texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
         texels_row_lanes(k, rest, log2_width, log2_height, kind);
@@ -307,14 +299,12 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
     bool is_in_run = p->a == x;
     do {
         int32_t count = block, more = 0;
-#if SMEAR_ASM_ARMV7EM
-        if (kind == TEXELS_NARROW && __builtin_constant_p(log2_width) && is_in_run && rest >= least) {
+        if (TEXEL_BLOCKS && kind == TEXELS_NARROW && SMEAR_IS_CONSTANT(log2_width) && is_in_run && rest >= least) {
             const int32_t before = rest;
             rest = draw_run_blocks(k, rest, least, p->b == right, log2_width, log2_height);
             if (rest != before)
                 continue;
         }
-#endif
         if (is_in_run && rest - block >= least) {       /* as most are: whole, in the run, and not the last */
             track_block(k);
             rest -= block;
@@ -507,35 +497,27 @@ static bool rows_are_many(const struct span_rows *r)
 #define ANY_HEIGHT s->draw->sampler.log2_height
 
 /* Loops of their own for pictures of 32 bits a texel; not for cores whose flash has no room for such. */
-#ifdef __ARM_ARCH_6M__
-#define WIDE_SIZES 0
-#else
-#define WIDE_SIZES 1
-#endif
+enum { WIDE_SIZES = !SMEAR_ON_ARMV6M };
 
 ROWS(wide_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_WIDE)
-#if WIDE_SIZES
 ROWS(wide_64, 6, 6, TEXELS_WIDE)
 ROWS(wide_128, 7, 7, TEXELS_WIDE)
 ROWS(wide_256, 8, 8, TEXELS_WIDE)
-#endif
 LIT_ROWS(lit, TEXELS_LIT)
 #if SMEAR_DIRECT
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
-#if TEXEL_CURVES_ASM
-/* Rows that are not whole are few. */
+/* Of whole rows there may be a kernel; others are few then. */
 #define NARROW_ROWS(NAME, LOG2_SIZE) \
     BLOCK_ROWS(NAME, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW) \
     static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
-        if (rows_are_whole(s, r)) \
+        if (!TEXEL_CURVE_ROWS) \
+            draw_curves(s, r, NULL, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW); \
+        else if (rows_are_whole(s, r)) \
             draw_whole_curves(s, r, LOG2_SIZE, LOG2_SIZE); \
         else \
             curves_narrow_any(s, r); \
     }
-#else
-#define NARROW_ROWS(NAME, LOG2_SIZE) ROWS(NAME, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW)
-#endif
 NARROW_ROWS(narrow_64, 6)
 NARROW_ROWS(narrow_128, 7)
 NARROW_ROWS(narrow_256, 8)
@@ -570,10 +552,8 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
 #endif
-#if WIDE_SIZES
+    if (!WIDE_SIZES)
+        return is_curved ? curves_wide_any : rows_wide_any;
     return is_curved ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
-#else
-    return is_curved ? curves_wide_any : rows_wide_any;
-#endif
 }
 #endif

@@ -7,16 +7,6 @@
 
 #include "kernels/span_side.h"
 
-/* Flat colours and copied texels in rows of their own: twice to four times as
- * fast, of the same bits, and 3.4 kB larger. */
-#ifndef SMEAR_SPAN_ROWS
-#ifdef __OPTIMIZE_SIZE__
-#define SMEAR_SPAN_ROWS 0
-#else
-#define SMEAR_SPAN_ROWS 1
-#endif
-#endif
-
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 32 };
 
@@ -34,15 +24,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 
 /* Interpolated colours without a texture, opaque: color_rows.c. */
 smear_rows_fn smear_rows_shade;
-
-/* Interpolated light over a texture has rows of its own, of the same bits: not on cores whose flash has no room for them. */
-#ifndef SMEAR_SHADED_ROWS
-#ifdef __ARM_ARCH_6M__
-#define SMEAR_SHADED_ROWS 0
-#else
-#define SMEAR_SHADED_ROWS (SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD && SMEAR_WITH_TEXTURE)
-#endif
-#endif
 
 /* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
 smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);

@@ -12,27 +12,10 @@
 static inline const struct texture_setup *texture_of(const struct setup *s)
 {
     const struct texture_setup *t = &s->texture;
-#if defined(__ARM_ARCH_6M__)
-    SMEAR_KEEP_VALUE(t);
-#endif
+    if (SMEAR_ON_ARMV6M)
+        SMEAR_KEEP_VALUE(t);
     return t;
 }
-
-/* With few registers functions of their own: the loops over pixels take them all. */
-#if UINTPTR_MAX > 0xffffffffu
-#define TRACK_FUNCTION SMEAR_INLINE
-#else
-#define TRACK_FUNCTION static SMEAR_NOINLINE
-#endif
-
-/* Where assembly divides, the choice is not worth a function. */
-#if TRACK_ROWS_ARMV6M
-#define TRACK_GO static SMEAR_NOINLINE
-#define TRACK_NEXT SMEAR_INLINE
-#else
-#define TRACK_GO SMEAR_INLINE
-#define TRACK_NEXT TRACK_FUNCTION
-#endif
 
 /* Goes on by n pixels, at most a block, where no places are divided. */
 TRACK_GO void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
@@ -53,27 +36,14 @@ TRACK_NEXT void track_next(struct texel_track *k, const struct texture_setup *t,
         track_go(k, t, n);
 }
 
-/* A whole block where places are quotients. The assembly is a function. */
-#if SMEAR_ASM_ARMV6M
-#define track_block texel_track_next
-#define track_part texel_track_part
-#else
-TRACK_FUNCTION void track_block(struct texel_track *k)
-{
-    texel_track_next(k);
-}
-
-/* n of its pixels. */
-TRACK_FUNCTION void track_part(struct texel_track *k, int32_t n)
-{
-    texel_track_part(k, n);
-}
-#endif
+/* A whole block where places are quotients, and n of its pixels. */
+TRACK_BLOCK void track_block(struct texel_track *k) { texel_track_next(k); }
+TRACK_BLOCK void track_part(struct texel_track *k, int32_t n) { texel_track_part(k, n); }
 
 /* What a triangle's tracks have in common. */
 SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setup *t)
 {
-    k->log2 = 31 - count_leading_zeros(t->block);
+    texel_track_length(k, 31 - count_leading_zeros(t->block));
     k->dq = shl_wrap(t->q.dx, k->log2);
     k->du = shl_wrap(t->uv[0].dx, k->log2);
     k->dv = shl_wrap(t->uv[1].dx, k->log2);
@@ -84,10 +54,6 @@ SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setu
     k->slope = t->slope;
     k->seed = smear_recip_seed;
     k->parabolic = t->parabolic;
-#if SMEAR_ASM_ARMV7EM
-    k->last = t->block - 1;
-    k->counter = 256 - t->block;
-#endif
     texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
 }
 
@@ -96,12 +62,10 @@ SMEAR_STATIC_ASSERT(offsetof(struct texture_setup, uv) == offsetof(struct textur
 /* At pixel (x, y). */
 TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setup *t, int32_t x, int32_t y)
 {
-#if TRACK_ROWS_ARMV6M
-    if (t->mode == TEXTURE_DIVIDED) {
-        texel_track_start_armv6m(k, &t->q.at, x, y);
+    if (TEXEL_TRACK_STARTS && t->mode == TEXTURE_DIVIDED) {
+        texel_track_start(k, &t->q.at, x, y);
         return;
     }
-#endif
     k->q = plane_at(&t->q, x, y);
     k->u = plane_at(&t->uv[0], x, y);
     k->v = plane_at(&t->uv[1], x, y);

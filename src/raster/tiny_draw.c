@@ -62,7 +62,6 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
     }
 }
 
-#if !SMEAR_SMALL_CODE
 bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color)
 {
     struct tiny_span s;
@@ -75,4 +74,3 @@ bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, c
     smear_tiny_box(l, t, v, color, &box, &depths, NULL);
     return true;
 }
-#endif

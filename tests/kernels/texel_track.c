@@ -84,7 +84,7 @@ SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, c
     }
 }
 
-#if SMEAR_ASM_ARMV6M && !TRACK_ROWS_ARMV6M
+#if SMEAR_ASM_ARMV6M && !TEXEL_TRACK_STARTS
 #define texel_track_start_armv6m texel_track_start_reference
 #endif
 
@@ -99,7 +99,7 @@ CALL(reference)
 CALL(armv6m)
 #endif
 
-#if SMEAR_ASM_ARMV7EM || TEXEL_PLACES_ASM || TEXELS_LANES
+#if SMEAR_ASM_ARMV7EM || TEXEL_PLACE_ROWS || TEXELS_LANES
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END };       /* words from Z on */
 #endif
 
@@ -194,7 +194,7 @@ static void row_square(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDT
 static void row_square_lanes(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDTH, texels_row_lanes); }
 #endif
 
-#if TEXEL_PLACES_ASM
+#if TEXEL_PLACE_ROWS
 enum { STRIDE = 11 };
 
 static struct span_side sides[4];
@@ -252,7 +252,7 @@ const struct kernel kernels_texel_track[] = {
     { .name = "texels_row (square)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
       .form = { { "reference", row_square }, { "lanes", row_square_lanes } } },
 #endif
-#if TEXEL_PLACES_ASM
+#if TEXEL_PLACE_ROWS
     { .name = "texel_place_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 2 }, .prepare = places_prepare,
       .form = { { "reference", places_reference }, { PLACES, places_assembly } } },
 #endif

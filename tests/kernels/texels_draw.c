@@ -135,7 +135,7 @@ CALLS(armv7em)
 #define ARMV7EM(CALL)
 #endif
 
-#if TEXEL_CURVES_ASM
+#if TEXEL_CURVE_ROWS
 enum { STRIDE = 35 };
 
 static struct span_side sides[4];
@@ -183,7 +183,7 @@ const struct kernel kernels_texels_draw[] = {
     KERNEL("texels_draw (any size, narrow)", narrow_any, 2),
     KERNEL("texels_draw (lit)", lit, 4),
     KERNEL("texels_draw (lit, narrow)", lit_narrow, 2),
-#if TEXEL_CURVES_ASM
+#if TEXEL_CURVE_ROWS
     { .name = "texel_curve_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 4 }, .prepare = curves_prepare,
       .form = { { "reference", curves_reference } ARMV6M(curves_armv6m) ARMV7EM(curves_armv7em) } },
 #endif

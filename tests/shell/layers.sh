@@ -4,6 +4,7 @@
 # Checks that includes run one way. FOLDER... are the rooms that hold sources, the lowest first. A file includes files of
 # its own room and of rooms below it, and nothing includes itself by way of others. The public headers include nothing
 # but each other. An include names a file from the root, from src/, from include/, or beside the file that includes it.
+# src/kernels/bind.h and mulh.h lie below all rooms; no file of src/ but kernels asks the preprocessor for a CPU or for small code.
 # What includes headers of other libraries (platform/examples, examples of tools/dist, and stand-ins for these) is in no room.
 # With --order it prints the files instead, each after all that it includes: headers first, then sources.
 set -u
@@ -14,6 +15,11 @@ if grep -n '^#include "' include/*.h | grep -v -e '"smear[a-z_]*\.h"'; then
     exit 1
 fi
 if [ $mode = check ]; then
+    if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*(__ARM|SMEAR_ASM|__thumb|__wasm__|OPTIMIZE_SIZE|SMALL_(CODE|FILE)|SMEAR_ON_|__SSE|__NEON|__x86|__arm)" src |
+        grep -v '^src/kernels/'; then
+        echo "layers: above src/kernels a plain if asks for what bind.h says of the machine"
+        exit 1
+    fi
     for folder in $(find src tools platform tests -name '*.[ch]' ! -path 'platform/examples/*' ! -path 'tools/dist/*/*' ! -path '*/stand_ins/*' \
         -exec dirname {} + | sort -u); do
         case " $* " in
@@ -28,6 +34,9 @@ awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
     function room_of(path) {
         sub(/\/[^\/]*$/, "", path)
         return path
+    }
+    function floor_of(path) {
+        return path ~ /^src\/kernels\/(bind|mulh)\.h$/ ? 0 : floor[room_of(path)]
     }
     function complain(text) {
         print "layers: " text
@@ -72,7 +81,7 @@ awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
             complain(FILENAME " includes " header ", which is not there")
         else if (place !~ /^include\//) {
             include[FILENAME, ++count[FILENAME]] = place
-            if (floor[room_of(place)] > floor[room_of(FILENAME)])
+            if (floor_of(place) > floor_of(FILENAME))
                 complain(FILENAME " includes " place ", which is not below it")
         }
     }

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+/* bind.h - names the machine of this build once: the only file outside of kernels that asks for a CPU, or whether size counts. Others
+ * ask by a plain `if` for the constants below, each 0 or 1, and call kernels by names that are bound here to their form. It lies below
+ * all rooms and includes the configuration alone. */
+#ifndef SMEAR_KERNELS_BIND_H
+#define SMEAR_KERNELS_BIND_H
+
+#include <stdint.h>
+
+#include "smear_config.h"
+
+/* ------------------------------------------------------------------ the compiler */
+
+/* 1 where the compiler has the builtins, attributes and inline assembly of GCC and Clang. 0 is plain C99, with the same
+ * bits: what other compilers lack is written out in base.h under the same names. */
+#ifndef SMEAR_GNU
+#ifdef __GNUC__
+#define SMEAR_GNU 1
+#else
+#define SMEAR_GNU 0
+#endif
+#endif
+
+/* 1 where the first byte of a word is its highest. Compilers that do not tell are taken to be little-endian. */
+#ifndef SMEAR_BIG_ENDIAN
+#if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
+#define SMEAR_BIG_ENDIAN (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
+#else
+#define SMEAR_BIG_ENDIAN 0
+#endif
+#endif
+
+/* ------------------------------------------------------------------ the core */
+
+/* Four words or eight halves at once. */
+#ifndef SMEAR_VECTORS
+#if SMEAR_GNU && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
+#define SMEAR_VECTORS 1
+#else
+#define SMEAR_VECTORS 0
+#endif
+#endif
+
+/* Assembly for ARMv6-M (Cortex-M0 and M0+), whose eight general registers compilers use badly. It keeps all of
+ * them busy, frame pointers included: builds without optimization need those, and Clang sets r7 aside for them. */
+#ifndef SMEAR_ASM_ARMV6M
+#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__)
+#define SMEAR_ASM_ARMV6M 1
+#else
+#define SMEAR_ASM_ARMV6M 0
+#endif
+#endif
+
+/* Assembly for ARMv7E-M (Cortex-M4, M7), whose products of halves and of words compilers use badly. Not for Clang, which sets r7
+ * aside, nor where size counts. */
+#ifndef SMEAR_ASM_ARMV7EM
+#if SMEAR_GNU && !defined(__clang__) && defined(__ARM_ARCH_7EM__) && defined(__thumb2__) && defined(__ARM_FEATURE_DSP) \
+    && defined(__ARM_FEATURE_UNALIGNED) && !defined(__ARM_BIG_ENDIAN) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define SMEAR_ASM_ARMV7EM 1
+#else
+#define SMEAR_ASM_ARMV7EM 0
+#endif
+#endif
+
+/* Assembly in ARM code for ARM7TDMI and what else runs it without vectors. Not for Clang, which knows another syntax. */
+#ifndef SMEAR_ASM_ARM
+#if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && !defined(__thumb__) && defined(__OPTIMIZE__) && !SMEAR_VECTORS \
+    && !SMEAR_BIG_ENDIAN
+#define SMEAR_ASM_ARM 1
+#else
+#define SMEAR_ASM_ARM 0
+#endif
+#endif
+
+/* ARMv6-M: no wide products, eight registers, constants and offsets of few bits. Its flash has no room for a loop of each kind. */
+#ifdef __ARM_ARCH_6M__
+#define SMEAR_ON_ARMV6M 1
+#else
+#define SMEAR_ON_ARMV6M 0
+#endif
+
+/* ARM7TDMI: fast memory of a few kB. */
+#ifdef __ARM_ARCH_4T__
+#define SMEAR_ON_ARMV4T 1
+#else
+#define SMEAR_ON_ARMV4T 0
+#endif
+
+/* A page, which is loaded before it is seen. */
+#ifdef __wasm__
+#define SMEAR_ON_WASM 1
+#else
+#define SMEAR_ON_WASM 0
+#endif
+
+/* 1 where words of 64 bits are those of the core. */
+#define SMEAR_ON_64 (UINTPTR_MAX > 0xffffffffu)
+
+/* Bytes behind a table of bytes of which lanes read words. */
+#ifdef __x86_64__
+#define SMEAR_TABLE_TAIL 4
+#else
+#define SMEAR_TABLE_TAIL 0
+#endif
+
+/* Clang would call functions that are nowhere for atomic words of ARMv6-M (jobs.h). */
+#if SMEAR_GNU && defined(__clang__) && defined(__ARM_ARCH_6M__) && !defined(SMEAR_BARRIER)
+#define SMEAR_BARRIER __asm__ volatile ("dmb" : : : "memory")
+#endif
+
+/* ------------------------------------------------------------------ size */
+
+/* 1 where this file is compiled to be small. */
+#ifdef __OPTIMIZE_SIZE__
+#define SMEAR_SMALL_FILE 1
+#else
+#define SMEAR_SMALL_FILE 0
+#endif
+
+/* All files of a build agree on what is left out for size. */
+#ifndef SMEAR_SMALL_CODE
+#define SMEAR_SMALL_CODE SMEAR_SMALL_FILE
+#endif
+
+/* Setups of triangles are kept from row to row, where there is memory: 0.2 kB of code. */
+#ifndef SMEAR_RASTER_CACHE
+#define SMEAR_RASTER_CACHE (!SMEAR_SMALL_FILE)
+#endif
+
+/* Sharp frames without dither are drawn as the display's pixels, where that pays: 0.9 kB. */
+#ifndef SMEAR_DIRECT
+#define SMEAR_DIRECT (!SMEAR_SMALL_FILE)
+#endif
+
+/* Flat colours and copied texels have rows of their own: twice to four times as fast, of the same bits, and 3.4 kB larger. */
+#ifndef SMEAR_SPAN_ROWS
+#define SMEAR_SPAN_ROWS (!SMEAR_SMALL_FILE)
+#endif
+
+/* Interpolated light over a texture has rows of its own, of the same bits. */
+#ifndef SMEAR_SHADED_ROWS
+#define SMEAR_SHADED_ROWS (SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD && SMEAR_WITH_TEXTURE && !SMEAR_ON_ARMV6M)
+#endif
+
+/* Textured triangles are drawn from the front (front_order.h): not in a page or in the GBA's fast memory. */
+#define SMEAR_FRONT_ORDER (SMEAR_RASTER_CACHE && SMEAR_WITH_TEXTURE && !SMEAR_ON_WASM && !SMEAR_ON_ARMV4T)
+
+/* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. Builds that
+ * look for faults do without: what a compiler adds for them to hundreds of such loops takes it minutes. */
+#ifndef SMEAR_INLINE_FORCED
+#if SMEAR_CHECK || !defined(__OPTIMIZE__)
+#define SMEAR_INLINE_FORCED 0
+#else
+#define SMEAR_INLINE_FORCED 1
+#endif
+#endif
+#if SMEAR_GNU && SMEAR_INLINE_FORCED
+#define SMEAR_INLINE_ALWAYS static inline __attribute__((always_inline))
+#else
+#define SMEAR_INLINE_ALWAYS static inline
+#endif
+#if SMEAR_GNU
+#define SMEAR_NOINLINE __attribute__((noinline))
+#else
+#define SMEAR_NOINLINE
+#endif
+
+/* SMEAR_RARE: what is rarely called is not inlined into what is called often, unless size counts. */
+#if SMEAR_SMALL_FILE
+#define SMEAR_INLINE static inline
+#define SMEAR_RARE
+#else
+#define SMEAR_INLINE SMEAR_INLINE_ALWAYS
+#define SMEAR_RARE SMEAR_NOINLINE
+#endif
+
+/* Helpers of fixed.h and fixmath.h take many instructions on cores without wide products: where size counts, fixmath.c
+ * has one copy of each; else they are inlined. */
+#if SMEAR_SMALL_FILE && !SMEAR_HAS_MUL64
+#define SMEAR_ONE_COPY 1
+#define SMEAR_SHARED
+#else
+#define SMEAR_ONE_COPY 0
+#define SMEAR_SHARED static inline
+#endif
+
+/* ------------------------------------------------------------------ what pays on this core */
+
+/* A face's light takes longer than asking whether the face before has the same, and roots of 64 bits take twice as long as those of
+ * 48. SMEAR_SHADES_FACES: faces' colours have a function without those of vertices. */
+#define SMEAR_LIGHT_IS_DEAR (!SMEAR_SMALL_FILE && (SMEAR_ON_ARMV6M || SMEAR_ON_ARMV4T))
+#define SMEAR_SHADES_FACES (SMEAR_LIGHT_IS_DEAR && SMEAR_ON_ARMV6M)
+
+/* Rows of pixels are converted several at once: not where a row's pixels take longer than what there is around them. */
+#define SMEAR_ROWS_AT_ONCE \
+    (!SMEAR_VECTORS && !SMEAR_SMALL_FILE && !SMEAR_ON_WASM && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565))
+
+/* Functions that have one copy where fast memory has no room for more. */
+#if SMEAR_ASM_ARM
+#define SMEAR_COPY SMEAR_NOINLINE
+#define SMEAR_INLINE_COPY static SMEAR_NOINLINE
+#else
+#define SMEAR_COPY inline
+#define SMEAR_INLINE_COPY SMEAR_INLINE
+#endif
+
+/* ------------------------------------------------------------------ kernels */
+
+#if SMEAR_ON_ARMV6M && SMEAR_GNU
+#define mulh_i32_narrow mulh_i32_armv6m
+#define mulh_u32_narrow mulh_u32_armv6m
+#else
+#define mulh_i32_narrow mulh_i32_reference
+#define mulh_u32_narrow mulh_u32_reference
+#endif
+
+#if SMEAR_ASM_ARMV6M
+#define words_copy words_copy_armv6m
+#else
+#define words_copy words_copy_reference
+#endif
+
+/* Of a track along textured rows: TEXEL_TRACK_STARTS where starting a row is a kernel, too: where size counts, what compilers make of it
+ * is shorter. TEXEL_BLOCKS: several blocks of narrow texels are one. */
+#define TEXEL_TRACK_STARTS (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+#define TEXEL_BLOCKS SMEAR_ASM_ARMV7EM
+#if TEXEL_TRACK_STARTS
+#define texel_track_start texel_track_start_armv6m
+#else
+#define texel_track_start texel_track_start_reference
+#endif
+#if TEXEL_BLOCKS
+#define texel_blocks texel_blocks_armv7em
+#else
+#define texel_blocks texel_blocks_reference
+#endif
+
+/* Rows of narrow texels, one below the other: TEXEL_PLACE_ROWS where short ones of single places are a kernel, TEXEL_CURVE_ROWS where those
+ * of polynomials are. Compilers have no registers for what rows have in common. */
+#define TEXEL_PLACE_ROWS ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
+#define TEXEL_CURVE_ROWS (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
+#if TEXEL_PLACE_ROWS && SMEAR_ASM_ARMV6M
+#define texel_place_rows_draw texel_place_rows_armv6m
+#elif TEXEL_PLACE_ROWS
+#define texel_place_rows_draw texel_place_rows_armv7em
+#else
+#define texel_place_rows_draw texel_place_rows_reference
+#endif
+#if SMEAR_ASM_ARMV6M
+#define texel_curve_rows_draw texel_curve_rows_armv6m
+#elif SMEAR_ASM_ARMV7EM
+#define texel_curve_rows_draw texel_curve_rows_armv7em
+#else
+#define texel_curve_rows_draw texel_curve_rows_reference
+#endif
+
+#endif
