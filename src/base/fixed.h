@@ -8,7 +8,6 @@
 #define SMEAR_FIXED_H
 
 #include "base/base.h"
-#include "kernels/mulh.h"
 
 typedef int32_t i32q8;      /* [-2^23, 2^23)      step 1/256 px      screen positions (guard band: 4096 px) */
 typedef int32_t i32q11;     /* [-2^20, 2^20)      step 1/2048        depth units, 1/w */

@@ -3,6 +3,7 @@
 #include "display/row.h"
 
 #include "kernels/fill.h"
+#include "kernels/late_blocks.h"
 
 #if SMEAR_RASTER_CACHE
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes)

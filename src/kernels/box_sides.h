@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_BOX_SIDES_H
 #define SMEAR_KERNELS_BOX_SIDES_H
 
-#include "kernels/span_side.h"
+#include "kernels/kernels.h"
 
 /* Edge functions at a row's first column; what they change by from column to column and from row to row. */
 struct box_sides {

@@ -4,7 +4,7 @@
 #define SMEAR_KERNELS_EDGE_SIDES_H
 
 #include "kernels/edge_walk.h"
-#include "kernels/span_side.h"
+#include "kernels/kernels.h"
 
 /* Left sides of n > 0 rows, 0 at least. The edge goes on by so many rows. */
 SMEAR_INLINE void edge_left_reference(struct span_side *side, struct edge_walk *edge, int32_t n)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* kernels.h - inner loops that have more than one form, and how to add one.
+/* kernels.h - inner loops that have more than one form, how to add one, and what other rooms hand to them by value.
  *
  * Every loop that has a vector or assembly form stands in this room. Kernels take pointers, strides, counts
  * and small structs, never a context, a target or a window; they know nothing of the stages that call them.
@@ -26,6 +26,79 @@
 #ifndef SMEAR_KERNELS_H
 #define SMEAR_KERNELS_H
 
-#include "kernels/vector.h"
+#include "base/base.h"
+
+/* Where a triangle's row begins and ends. */
+struct span_side {
+    int32_t left, right;        /* as the frame shows them; there may be none */
+    int32_t edge;               /* right, wherever that is */
+};
+
+/* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
+enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
+
+/* Coordinates u and v count turns: 2^32 are the texture's width or height. They change from pixel to pixel by du and dv,
+ * and these by ddu and ddv. */
+
+/* Two coordinates in one word: v above u. */
+static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)v << 32 | u; }
+
+/* Two changes in one word: u has a sign of its own, which it borrows from v. */
+static inline uint64_t packed_step(uint32_t du, uint32_t dv)
+{
+    return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
+}
+
+/* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
+ * rounds codes (tiny_pixel). */
+struct tiny_channel {
+    int32_t to1, to2;
+    uint32_t base;
+};
+
+/* A box of columns x rows > 0 pixels, which lie in rows of `stride` pixels; `depth` and `pixels` are those of the first. Its edge
+ * functions e1 and e2 are the weights of v[1] and v[2], the third is sum - e1 - e2; all stay within 31 bits in the box and one
+ * column and row beyond. */
+struct tiny_box {
+    int32_t e1, e2, down1, down2; /* at the first pixel, one row further down */
+    int32_t columns, stride;
+    uint16_t *depth;
+    int32_t rows;
+    int32_t up; /* weights: tiny_scale */
+    uint32_t recip;
+    uint32_t units; /* units of v[0], with what makes them codes by a shift: tiny_codes */
+    int32_t code_shift;
+#if SMEAR_ASM_ARMV7EM
+    int32_t twice1, twice2; /* units of v[1] and of v[2] less those of v[0], below 2^30, times two */
+#else
+    int32_t to1_low, to1_high, to2_low, to2_high; /* units of v[1] and of v[2] less those of v[0]: 16 bits each */
+#endif
+    uint32_t to_pixel;                            /* for assembly: pixels - depth, or where pixels are wide - 2 depth */
+    uint32_t color;                               /* where it is not shaded */
+    struct tiny_channel channel[3];               /* red, blue, green */
+    int32_t right1, right2, sum;                  /* one column further right */
+    uint32_t round;                               /* for assembly: of red and blue, rgb565_nearest */
+    void *pixels;
+    bool shaded, linear, narrow;
+};
+
+/* An entry of a list: entry i lies i entries before `top`. */
+struct point_entry {
+    uint16_t x, y, depth, kind;     /* kind: POINT_ENTRY, or it is no point */
+    uint32_t next;                  /* or UINT32_MAX */
+    uint32_t color;                 /* 0x??RRGGBB */
+};
+enum { POINT_ENTRY = 0xffff };
+
+/* Where they are drawn: x in [x0, x0 + width), y in [y0, y0 + height), which are not empty; pixel (x0, y0) is the planes' first. All
+ * is below 2^15. */
+struct points_plane {
+    const void *top;
+    uint32_t x0, width, y0, height;
+    int32_t stride;
+    uint16_t *depth;
+    void *pixels;
+    uint32_t pair, round;           /* for assembly: rgb565_nearest */
+};
 
 #endif

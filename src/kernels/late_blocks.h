@@ -10,9 +10,6 @@
 
 #include "kernels/fill.h"
 
-/* Where assembly draws and converts them. */
-#define SMEAR_LATE_BLOCKS SMEAR_ASM_ARM
-
 #if SMEAR_LATE_BLOCKS
 enum { LATE_BLOCK = 8 };
 #define LATE_COLOR 0x80000000u

@@ -5,6 +5,7 @@
 
 #include "base/fixmath.h"
 #include "kernels/kernels.h"
+#include "kernels/vector.h"
 
 struct smear_screen {
     i32q8 x, y;                 /* from the top left corner of the frame */

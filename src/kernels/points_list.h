@@ -6,25 +6,6 @@
 #include "base/pixel.h"
 #include "kernels/kernels.h"
 
-/* An entry of a list: entry i lies i entries before `top`. */
-struct point_entry {
-    uint16_t x, y, depth, kind;     /* kind: POINT_ENTRY, or it is no point */
-    uint32_t next;                  /* or UINT32_MAX */
-    uint32_t color;                 /* 0x??RRGGBB */
-};
-enum { POINT_ENTRY = 0xffff };
-
-/* Where they are drawn: x in [x0, x0 + width), y in [y0, y0 + height), which are not empty; pixel (x0, y0) is the planes' first. All
- * is below 2^15. */
-struct points_plane {
-    const void *top;
-    uint32_t x0, width, y0, height;
-    int32_t stride;
-    uint16_t *depth;
-    void *pixels;
-    uint32_t pair, round;           /* for assembly: rgb565_nearest */
-};
-
 /* Draws points from entry `head` on, where they are nearer. Returns the first entry that is no point, or UINT32_MAX. Pixels are
  * RGB565 where they are narrow. */
 SMEAR_INLINE uint32_t points_list_reference(const struct points_plane *p, uint32_t head, bool narrow)

@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_TEXEL_CURVE_ROWS_H
 #define SMEAR_KERNELS_TEXEL_CURVE_ROWS_H
 
-#include "kernels/span_side.h"
+#include "kernels/kernels.h"
 #include "kernels/texel_places.h"
 #include "kernels/texels_draw.h"
 

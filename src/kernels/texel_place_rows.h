@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_TEXEL_PLACE_ROWS_H
 #define SMEAR_KERNELS_TEXEL_PLACE_ROWS_H
 
-#include "kernels/span_side.h"
+#include "kernels/kernels.h"
 #include "kernels/texel_places.h"
 
 /* Rows one below the other, and planes whose quotients are coordinates. */

@@ -14,26 +14,11 @@ enum texel_kind {
     TEXELS_LIT_NARROW       /* to RGB565 */
 };
 
-/* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
-enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
-
 SMEAR_INLINE bool texels_are_lit(enum texel_kind kind) { return kind >= TEXELS_LIT; }
 
 SMEAR_INLINE bool texels_are_narrow(enum texel_kind kind)
 {
     return kind == TEXELS_NARROW || kind == TEXELS_LIT_NARROW;
-}
-
-/* Coordinates u and v count turns: 2^32 are the texture's width or height. They change from pixel to pixel by du and dv,
- * and these by ddu and ddv. */
-
-/* Two coordinates in one word: v above u. */
-static inline uint64_t packed_uv(uint32_t u, uint32_t v) { return (uint64_t)v << 32 | u; }
-
-/* Two changes in one word: u has a sign of its own, which it borrows from v. */
-static inline uint64_t packed_step(uint32_t du, uint32_t dv)
-{
-    return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
 }
 
 /* The texel at coordinates. */

@@ -17,39 +17,6 @@
 #define TINY_ONE_LOOP (SMEAR_SMALL_CODE || SMEAR_ASM_ARM)
 #endif
 
-/* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
- * rounds codes (tiny_pixel). */
-struct tiny_channel {
-    int32_t to1, to2;
-    uint32_t base;
-};
-
-/* A box of columns x rows > 0 pixels, which lie in rows of `stride` pixels; `depth` and `pixels` are those of the first. Its edge
- * functions e1 and e2 are the weights of v[1] and v[2], the third is sum - e1 - e2; all stay within 31 bits in the box and one
- * column and row beyond. */
-struct tiny_box {
-    int32_t e1, e2, down1, down2; /* at the first pixel, one row further down */
-    int32_t columns, stride;
-    uint16_t *depth;
-    int32_t rows;
-    int32_t up; /* weights: tiny_scale */
-    uint32_t recip;
-    uint32_t units; /* units of v[0], with what makes them codes by a shift: tiny_codes */
-    int32_t code_shift;
-#if SMEAR_ASM_ARMV7EM
-    int32_t twice1, twice2; /* units of v[1] and of v[2] less those of v[0], below 2^30, times two */
-#else
-    int32_t to1_low, to1_high, to2_low, to2_high; /* units of v[1] and of v[2] less those of v[0]: 16 bits each */
-#endif
-    uint32_t to_pixel;                            /* for assembly: pixels - depth, or where pixels are wide - 2 depth */
-    uint32_t color;                               /* where it is not shaded */
-    struct tiny_channel channel[3];               /* red, blue, green */
-    int32_t right1, right2, sum;                  /* one column further right */
-    uint32_t round;                               /* for assembly: of red and blue, rgb565_nearest */
-    void *pixels;
-    bool shaded, linear, narrow;
-};
-
 /* Makes what turns units into codes: (units + bias) >> shift where all of a triangle's are on one side of the codes' break, no shift
  * where they are on both, or size counts. Weights are rounded down: what they weigh is up to 2 less than its least corner. */
 static inline void tiny_codes(struct tiny_box *b, int32_t q0, int32_t low, int32_t high)

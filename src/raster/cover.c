@@ -7,6 +7,7 @@
  * or missed. Small triangles use edge functions instead, which say the same without a division. */
 #include "raster/cover.h"
 
+#include "geometry/tiny.h"
 #include "kernels/box_sides.h"
 #include "kernels/edge_sides.h"
 #include "raster/flat_list.h"
@@ -207,6 +208,12 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
     }
 }
 
+/* Edge functions of a small triangle, whose edges are shorter than 17 px. */
+static inline void box_edges(struct tiny_edges *e, const struct setup *s, int32_t x, int32_t y)
+{
+    tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, s->x1 * s->y2 - s->x2 * s->y1, x, y);
+}
+
 #if SMEAR_SPAN_ROWS
 /* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
 struct gather {
@@ -274,7 +281,7 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
     const int32_t left = box->left, right = box->right, width = s->frame->width;
     struct tiny_edges e;
     struct gather g;
-    edges_start(&e, s, s->x1 * s->y2 - s->x2 * s->y1, left, box->top);
+    box_edges(&e, s, left, box->top);
     struct box_sides b = { { e.e0, e.e1, e.e2 }, { e.right0, e.right1, e.right2 }, { e.down0, e.down1, e.down2 },
                            left, right - left, width };
     gather_start(&g, s, box->top);
@@ -293,11 +300,10 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
 
 static void cover_small(const struct setup *s, const struct pixel_box *box, smear_span_fn *write)
 {
-    const int32_t area = s->x1 * s->y2 - s->x2 * s->y1;     /* edges are shorter than 9 px */
     const int32_t left = box->left, right = box->right;
     struct tiny_edges e;
     struct row r;
-    edges_start(&e, s, area, left, box->top);
+    box_edges(&e, s, left, box->top);
     row_start(&r, s, box->top);
     for (;;) {
         int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;

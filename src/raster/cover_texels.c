@@ -6,7 +6,10 @@
  * (1 + e), nearly a (1 + e_vertex - e). Where 1/w changes by a part c of that at v[0], and coordinates by t texels,
  * they are off by less than c^2 t / 3: c is at most 1/8 here, and c^2 t at most 1/8. Light is not corrected: it is off by half
  * a code at most, a quarter of its range times c. */
-#include "raster/cover_texels.h"
+#include "raster/cover.h"
+
+#include "geometry/tiny.h"
+#include "kernels/texel_light.h"
 
 #include "raster/fog.h"
 #include "raster/span.h"
@@ -187,7 +190,7 @@ static inline uint32_t index_at(const struct few_texels *k, int32_t u, int32_t v
 static inline uint32_t texel_at(const struct few_texels *k, const struct smear_sampler *m, int32_t u, int32_t v)
 {
     if (!SMEAR_SMALL_CODE && k->from_v >= 0)
-        return sampler_fetch(m, index_at(k, u, v), m->format);
+        return texel_fetch(m->texels, m->palette, index_at(k, u, v), m->format);
     return smear_sample_at(m, smear_sampler_texel(m, 0, u >> 1), smear_sampler_texel(m, 1, v >> 1));
 }
 
@@ -229,7 +232,7 @@ SMEAR_INLINE void draw_few(const struct setup *s, const struct few_texels *k, in
     const int32_t x0 = max_i32(box->left, t->x0), x1 = min_i32(box->right, t->x1), bottom = box->bottom;
     const struct tiny_scale scale = tiny_scale_make(area);
     struct tiny_edges e;
-    edges_start(&e, s, area, x0, box->top);
+    tiny_start(&e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, area, x0, box->top);
     int32_t ring_row = t->window_rows.ring_row + (box->top - t->y0);
     for (int32_t y = box->top; y < bottom; y++, ring_row++, e.e0 += e.down0, e.e1 += e.down1, e.e2 += e.down2) {
         int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = x0;

@@ -7,7 +7,7 @@
 #include "kernels/gradient.h"
 #include "raster/cover.h"
 #include "raster/gradient.h"
-#include "raster/kept_found.h"
+#include "raster/kept.h"
 
 /* Columns of its box. */
 struct columns {
@@ -176,7 +176,17 @@ SMEAR_INLINE_COPY void draw_rows(const struct smear_raster_target *t, struct fla
 
 /* ------------------------------------------------------------------ triangles */
 
-#if SMEAR_FLAT_KEPT
+/* Of triangles of one colour that assembly draws in all of a row, the lines that it goes on from are kept. */
+struct kept_flat {
+    struct kept kept;
+    struct flat_lines lines;    /* of the next row */
+    int32_t row;                /* that row */
+    int32_t knee;               /* struct corners */
+    uint8_t middle, bottom;     /* corners' numbers */
+    bool whole_is_left;
+};
+size_t smear_flat_kept_bytes(void) { return sizeof(struct kept_flat); }
+
 /* In numbers of triangles that are kept: as a struct kept_flat. */
 #define FLAT_KEPT 0x80000000u
 
@@ -222,19 +232,14 @@ static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, 
     k->whole_is_left = c->whole_is_left;
     return &k->lines;
 }
-#endif
 
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
                          bool whole, uint32_t number)
 {
     struct corners c;
     struct flat_lines own, *l = &own;
-#if SMEAR_FLAT_KEPT
-    if (number != SMEAR_NO_TRIANGLE && draw_kept_rows(t, v, number))
+    if (SMEAR_RASTER_CACHE && number != SMEAR_NO_TRIANGLE && draw_kept_rows(t, v, number))
         return true;
-#else
-    (void)number;
-#endif
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
     const bool low = c.end - c.first <= SMALL_PX;
@@ -247,12 +252,10 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     }
     if (y >= end)
         return true;
-#if SMEAR_FLAT_KEPT
-    if (number != SMEAR_NO_TRIANGLE && c.end > t->y1) {
+    if (SMEAR_RASTER_CACHE && number != SMEAR_NO_TRIANGLE && c.end > t->y1) {
         struct flat_lines *const kept = keep_rows(t, &c, v, number);
         l = kept != NULL ? kept : l;
     }
-#endif
     lines_start(l, t, color);
     depth_make(l, v, y);
     draw_rows(t, l, &c, y, end, false);

@@ -3,7 +3,6 @@
 #ifndef SMEAR_RASTER_FLAT_LIST_H
 #define SMEAR_RASTER_FLAT_LIST_H
 
-#include "kernels/flat_lines.h"
 #include "raster/setup.h"
 
 /* Where size counts, draw_any has all but points. */
@@ -18,5 +17,8 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 
 /* Draws the target's rows of one that is ready: not small, without velocity. */
 void smear_flat_cover(const struct setup *s);
+
+/* Returns the bytes that one takes that is kept. */
+size_t smear_flat_kept_bytes(void);
 
 #endif

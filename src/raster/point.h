@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* point.h - a triangle that was finished as one pixel. */
+/* point.h - triangles that were finished as one pixel. */
 #ifndef SMEAR_RASTER_POINT_H
 #define SMEAR_RASTER_POINT_H
 
-#include "raster/setup.h"
-#include "raster/velocity.h"
+#include "kernels/kernels.h"
+#include "raster/span.h"
 
 /* A finished pixel; in fog there are none. */
 static inline void draw_point(const struct smear_raster_frame *frame,
@@ -26,5 +26,11 @@ static inline void draw_point(const struct smear_raster_frame *frame,
     if (moved && target_has_velocity(target))
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }
+
+/* Takes what points of a list are drawn by at once. False where rows of the plane go round, or pixels say more than colour and depth. */
+bool smear_raster_points_make(struct points_plane *p, const struct smear_raster_frame *frame, const struct smear_raster_target *t);
+
+/* Draws points from entry `head` on; returns the first entry that is no point. */
+uint32_t smear_raster_points(const struct points_plane *p, uint32_t head, bool narrow);
 
 #endif

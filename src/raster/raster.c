@@ -4,14 +4,12 @@
  * go on in the next rows. */
 #include "raster/raster.h"
 
-#include "kernels/points_list.h"
-#include "raster/cover_texels.h"
+#include "raster/cover.h"
 #include "raster/flat_list.h"
 #include "raster/fog.h"
 #include "raster/front_order.h"
-#include "raster/kept_found.h"
+#include "raster/kept.h"
 #include "raster/point.h"
-#include "raster/span.h"
 
 /* ------------------------------------------------------------------ a triangle */
 
@@ -114,7 +112,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     const uint64_t area = !known || small ? setup_edges(&s) : 1;   /* large ones are covered without edge vectors */
     SMEAR_ASSERT((int64_t)area > 0);
     if (known) {
-        kept_take(kept, &s);
+        smear_kept_take(kept, &s);
         leave_kept(kept, goes_on);
     } else {
         s.bounds = bounds;
@@ -135,7 +133,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
         smear_cover_choose(&s, small);
     const bool is_new = make_velocity(&s) || !known;
     if (is_new && kept != NULL && goes_on)
-        kept_keep(kept, &s, number, bottom);
+        smear_kept_keep(kept, &s, number, bottom);
     smear_cover(&s, &box, small);
 }
 
@@ -185,24 +183,6 @@ void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segme
     draw_triangle(p, segment, color, SMEAR_NO_TRIANGLE, v, bounds, true);
 }
 
-SMEAR_STATIC_ASSERT(sizeof(struct point_entry) == sizeof(struct smear_triangle) && POINT_ENTRY == SMEAR_POINT
-                        && offsetof(struct point_entry, kind) == offsetof(struct smear_triangle, segment)
-                        && offsetof(struct point_entry, depth) == 2 * POINT_DEPTH
-                        && offsetof(struct point_entry, next) == offsetof(struct smear_triangle, next)
-                        && offsetof(struct point_entry, color) == offsetof(struct smear_triangle, color),
-                    "points are entries of lists");
-
-/* Where points of a list are drawn at once. False where rows of the plane go round, or pixels say more than colour and depth. */
-static inline bool points_make(struct points_plane *p, const struct smear_raster_frame *frame, const struct smear_raster_target *t)
-{
-    const struct smear_plane_rows *rows = &t->window_rows;
-    const int32_t at = rows->ring_row * rows->stride + t->x0 - rows->x0;
-    *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
-                                (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
-                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, 0, 0 };
-    return !SMEAR_LATE_BLOCKS && rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
-}
-
 /* Numbers of triangles of a list, of 16 or of 32 bits. */
 struct numbers {
     const uint16_t *narrow;
@@ -219,7 +199,7 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
     struct points_plane points;
     uint32_t i = 0, hidden = 0;
     smear_raster_begin(&p, frame, target);
-    const bool at_once = points_make(&points, frame, target) && given == NULL && !SMEAR_SMALL_CODE;
+    const bool at_once = !SMEAR_SMALL_CODE && given == NULL && smear_raster_points_make(&points, frame, target);
     for (;; i++) {
         uint32_t number = head;
         if (given != NULL) {
@@ -233,7 +213,7 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
         head = t->next;
         if (t->segment == SMEAR_POINT) {
             if (at_once)
-                head = points_list(&points, number, target_is_direct(target));
+                head = smear_raster_points(&points, number, target_is_direct(target));
             else
                 draw_point(frame, target, t, p.moved);
             continue;

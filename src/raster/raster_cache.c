@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* raster_cache.c - memory for what is found out about a frame's triangles: setups of those that go on in the next rows, and orders
  * of lists. */
+#include "kernels/fill.h"
+#include "raster/flat_list.h"
 #include "raster/front_order.h"
 #include "raster/kept.h"
 #include "raster/raster.h"
@@ -13,11 +15,73 @@ enum {
 /* What is kept of rows of one colour has pointers. */
 #define ALIGN ((uint32_t)sizeof(uintptr_t))
 
+static inline uint32_t *kept_setup(struct kept *k) { return (uint32_t *)(void *)(k + 1); }
+
+/* Bytes of a setup's members from one to just before another. */
+#define KEPT_BYTES(from, end) (offsetof(struct setup, end) - offsetof(struct setup, from))
+
+/* All parts are whole words. */
+SMEAR_STATIC_ASSERT(offsetof(struct setup, depth) % 4 == 0 && offsetof(struct setup, texture) % 4 == 0
+                        && offsetof(struct setup, texture.q) % 4 == 0 && offsetof(struct setup, channel) % 4 == 0
+                        && offsetof(struct setup, area_recip) % 4 == 0 && sizeof(struct setup) % 4 == 0,
+                    "setups are kept by words");
+
+/* Copies n bytes, back to the setup or to what is kept of it. Returns what follows there. */
+SMEAR_INLINE uint32_t *kept_part(struct setup *s, size_t from, size_t n, uint32_t *kept, bool back)
+{
+    uint32_t *const member = (uint32_t *)(void *)((uint8_t *)s + from);
+    if (back)
+        words_copy(member, kept, n);
+    else
+        words_copy(kept, member, n);
+    return kept + n / 4;
+}
+
+/* Copies a setup whose segment is known, either way. */
+SMEAR_INLINE void kept_copy(struct setup *s, uint32_t *kept, bool back)
+{
+    kept = kept_part(s, offsetof(struct setup, depth), KEPT_BYTES(depth, texture), kept, back);
+    if (segment_textured(s->segment)) {
+        kept = kept_part(s, offsetof(struct setup, texture), KEPT_BYTES(texture, texture.q), kept, back);
+        if (s->texture.mode == TEXTURE_CURVED)
+            kept = kept_part(s, offsetof(struct setup, texture.x0), KEPT_BYTES(texture.x0, channel), kept, back);
+        else
+            kept = kept_part(s, offsetof(struct setup, texture.q), KEPT_BYTES(texture.q, texture.x0), kept, back);
+    }
+    if (segment_gouraud(s->segment))
+        kept = kept_part(s, offsetof(struct setup, channel), KEPT_BYTES(channel, area_recip), kept, back);
+    if (segment_moves(s->segment) != 0)
+        kept_part(s, offsetof(struct setup, area_recip), sizeof *s - offsetof(struct setup, area_recip), kept, back);
+}
+
+void smear_kept_keep(struct kept *k, struct setup *s, uint32_t triangle, int32_t end)
+{
+    k->triangle = triangle;
+    k->end = end;
+    kept_copy(s, kept_setup(k), false);
+}
+
+void smear_kept_take(struct kept *k, struct setup *s) { kept_copy(s, kept_setup(k), true); }
+
+/* Returns how many bytes triangles of a segment need; `flat`: those of one colour. */
+static inline size_t kept_bytes(const struct smear_segment *s, size_t flat)
+{
+    size_t bytes = sizeof(struct kept) + KEPT_BYTES(depth, texture);
+    if (segment_textured(s))
+        bytes += KEPT_BYTES(texture, texture.q) + KEPT_BYTES(texture.x0, channel);      /* which is more than planes take */
+    if (segment_gouraud(s))
+        bytes += KEPT_BYTES(channel, area_recip);
+    if (segment_moves(s) != 0)
+        bytes += sizeof(struct setup) - offsetof(struct setup, area_recip);
+    return bytes < flat ? flat : bytes;
+}
+
 static uint32_t entry_bytes_of(const struct smear_bins *bins)
 {
+    const size_t flat = SMEAR_RASTER_CACHE ? smear_flat_kept_bytes() : 0;
     uint32_t entry_bytes = sizeof(struct kept);
     for (uint32_t i = 0; i < bins->segment_count; i++)
-        entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i]));
+        entry_bytes = max_u32(entry_bytes, (uint32_t)kept_bytes(&bins->segment[i], flat));
     return (entry_bytes + ALIGN - 1u) & ~(ALIGN - 1u);
 }
 

@@ -5,7 +5,6 @@
 
 #include "geometry/bins.h"
 #include "base/pixel.h"
-#include "kernels/late_blocks.h"
 #include "raster/texture.h"
 
 /* One plane of pixels of which some rows exist, in a ring: the target's row `y0` is row `ring_row` of the

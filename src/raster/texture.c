@@ -4,6 +4,7 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
+#include "kernels/texel_light.h"
 
 /* A loop of its own for wraps: a third of the instructions, for machines that have room. */
 enum { SAMPLE_WRAPPED = SMEAR_ON_64 && !SMEAR_SMALL_FILE };
@@ -77,7 +78,7 @@ int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t rat
 
 static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
 {
-    return sampler_fetch(s, at, s->format);
+    return texel_fetch(s->texels, s->palette, at, s->format);
 }
 
 /* Any integer texel coordinate into 0 .. size - 1. */
@@ -134,7 +135,7 @@ uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v)
 SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
 {
     if (turns)
-        return sampler_fetch(s, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
+        return texel_fetch(s->texels, s->palette, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
     return smear_sample_at(s, (int32_t)at, (int32_t)(at >> 32));
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/fixed.h"
 #include "base/pixel.h"
-#include "kernels/texel_run.h"
+#include "kernels/kernels.h"
 
 /* A texture as the raster reads it. */
 struct smear_sampler {
@@ -56,12 +56,6 @@ static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, 
 {
     /* Shifts by 32 would not do: sizes of one. */
     return (v >> 1 >> (31 - s->log2_height)) << s->log2_width | u >> 1 >> (31 - s->log2_width);
-}
-
-/* Texel number `at` in memory, as 0xAARRGGBB; of the sampler's format. */
-SMEAR_INLINE uint32_t sampler_fetch(const struct smear_sampler *s, uint32_t at, int format)
-{
-    return texel_fetch(s->texels, s->palette, at, format);
 }
 
 /* The texel at u and v, q16 texels, as 0xAARRGGBB. Any format, size, wrap. */

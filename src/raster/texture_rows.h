@@ -5,7 +5,7 @@
 
 #include "raster/span.h"
 
-#include "kernels/span_side.h"
+#include "kernels/kernels.h"
 
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 32 };

@@ -2,6 +2,7 @@
 /* tiny_draw.c - see tiny_draw.h. */
 #include "raster/tiny_draw.h"
 
+#include "kernels/tiny_corners.h"
 #include "raster/fog.h"
 
 /* Takes colours on to the fog's, by the one part that a triangle has of it. */

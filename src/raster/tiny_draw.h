@@ -4,7 +4,7 @@
 #ifndef SMEAR_TINY_DRAW_H
 #define SMEAR_TINY_DRAW_H
 
-#include "kernels/tiny_corners.h"
+#include "kernels/kernels.h"
 #include "raster/setup.h"
 
 /* Boxes of at most SMALL_PX columns and rows, and TINY_PIXELS pixels. */

@@ -7,7 +7,7 @@
 # A function runs from its first line to its closing brace; a branch is an if, for, while, case, ?, && or ||.
 set -u
 FUNCTION_LINES=60 FUNCTION_BRANCHES=25 FILE_LINES=700 FRAME_LINES=250 TOP_SWITCHES=30 CONTEXT_SOURCES=4 OTHER_SOURCES=6 SWITCHES=27
-CORE_LINES=39500
+CORE_LINES=39500 RASTER_HEADERS=30
 list=0
 [ "${1:-}" != -l ] || list=1
 
@@ -87,6 +87,8 @@ count "lines of the core" "$(echo "$core" | xargs cat | wc -l)" "$CORE_LINES"
 count "sources of the core that see the whole context" "$(echo "$core" | xargs grep -l '^#include "context.h"' | wc -l)" "$CONTEXT_SOURCES"
 count "sources of other methods that see it" "$(echo "$others" | xargs grep -lE '^#include "(context|draws|frame)\.h"' | wc -l)" "$OTHER_SOURCES"
 count "files of tools/, tests/ and platform/ that see it" "$(grep -lr '^#include ".*context.h"' tools tests platform | wc -l)" 0
+count "headers of raster.c, with those of these" "$(${CC:-cc} -std=c11 -Iinclude -Isrc -MM src/raster/raster.c | tr ' ' '\n' | sed 's|[a-z]*/\.\./||' |
+    grep -E '^(src|include)/.*\.h$' | sort -u | wc -l)" "$RASTER_HEADERS"
 count "lines of frame.c" "$(wc -l <src/frame.c)" "$FRAME_LINES"
 count "switches" "$(grep "^#ifndef SMEAR_WITH_" include/smear_config.h | grep -vc _ALL)" "$SWITCHES"
 exit $status

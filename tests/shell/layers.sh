@@ -4,7 +4,7 @@
 # Checks that includes run one way. FOLDER... are the rooms that hold sources, the lowest first. A file includes files of
 # its own room and of rooms below it, and nothing includes itself by way of others. The public headers include nothing
 # but each other. An include names a file from the root, from src/, from include/, or beside the file that includes it.
-# src/kernels/bind.h and mulh.h lie below all rooms; no file of src/ but kernels asks the preprocessor for a CPU or for small code.
+# src/kernels/bind.h lies below all rooms; no file of src/ but kernels asks the preprocessor for a CPU or for small code.
 # What includes headers of other libraries (platform/examples, examples of tools/dist, and stand-ins for these) is in no room.
 # With --order it prints the files instead, each after all that it includes: headers first, then sources.
 set -u
@@ -36,7 +36,7 @@ awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
         return path
     }
     function floor_of(path) {
-        return path ~ /^src\/kernels\/(bind|mulh)\.h$/ ? 0 : floor[room_of(path)]
+        return path ~ /^src\/kernels\/bind\.h$/ ? 0 : floor[room_of(path)]
     }
     function complain(text) {
         print "layers: " text
