@@ -5,7 +5,7 @@
 
 #include "base/fixmath.h"
 #include "base/pixel.h"
-#include "raster/window.h"
+#include "filter/filter.h"
 
 /* ------------------------------------------------------------------ vectors */
 
@@ -50,9 +50,9 @@ struct even_sum {
     uint32_t all, red_blue;     /* codes */
 };
 
-SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, bool linear)
+SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, const struct smear_blur_settings *settings)
 {
-    if (linear) {
+    if (settings->linear) {
         s->r += smear_srgb_decode[pixel_red(pixel)];
         s->g += smear_srgb_decode[pixel_green(pixel)];
         s->b += smear_srgb_decode[pixel_blue(pixel)];
@@ -64,9 +64,9 @@ SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, bool linear)
 
 /* Returns the mean of n pixels, n at most 256; `over` is 2^24 / n, rounded up: sums stay below 2^24 n, and equal pixels
  * keep their value. */
-SMEAR_INLINE uint32_t even_mean(const struct even_sum *s, uint32_t over, bool linear)
+SMEAR_INLINE uint32_t even_mean(const struct even_sum *s, uint32_t over, const struct smear_blur_settings *settings)
 {
-    if (linear)
+    if (settings->linear)
         return pixel_make(0, smear_srgb_encode[mulh_u32(s->r << 8, over) >> 4],
                           smear_srgb_encode[mulh_u32(s->g << 8, over) >> 4],
                           smear_srgb_encode[mulh_u32(s->b << 8, over) >> 4]);

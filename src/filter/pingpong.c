@@ -104,12 +104,12 @@ static int32_t gather(const struct passing *p, const struct place *at, uint32_t 
     for (int32_t i = 0; i < n; i++, x += 2 * dx, y += 2 * dy) {
         const uint32_t tap = p->row[y >> 16] + (uint32_t)clamp_i32(x >> 16, 0, w->width - 1);
         if (w->depth[tap] <= limit) {
-            even_add(&s, p->in[tap], p->settings->linear);
+            even_add(&s, p->in[tap], p->settings);
             count++;
         }
     }
     if (count != 0)
-        *out = even_mean(&s, share_of(count), p->settings->linear);
+        *out = even_mean(&s, share_of(count), p->settings);
     return n;
 }
 
@@ -136,9 +136,9 @@ static uint32_t gather_spread(const struct passing *p, const struct place *here,
         int32_t square = dx * dx + dy * dy;
         bool comes = w->depth[tap] >= behind && v.x * v.x + v.y * v.y >= square;
         bool goes = w->depth[tap] <= limit && own_square >= square;
-        even_add(&s, p->in[comes || goes ? tap : here->at], p->settings->linear);
+        even_add(&s, p->in[comes || goes ? tap : here->at], p->settings);
     }
-    return even_mean(&s, share_of(p->pass->taps), p->settings->linear);
+    return even_mean(&s, share_of(p->pass->taps), p->settings);
 }
 
 /* ------------------------------------------------------------------ a tile */

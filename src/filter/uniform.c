@@ -25,20 +25,21 @@ struct uniform_taps {
 /* Takes the mean of n taps. Where things that move with the camera may be in front (`held`), a tap that meets one, static and nearer,
  * counts as the pixel itself. */
 static uint32_t mean_along(const struct smear_window *w, const uint32_t *row_offset, uint32_t at, int32_t x, int32_t y,
-                           const struct uniform_taps *taps, int32_t n, uint32_t over, bool linear, bool held)
+                           const struct uniform_taps *taps, int32_t n, uint32_t over, const struct smear_blur_settings *settings)
 {
     int32_t dx = -taps->first_x - (n / 2 - 1) * taps->step_x,
             dy = -taps->first_y - (n / 2 - 1) * taps->step_y;
+    const bool held = SMEAR_WITH_FILTERS && settings->held;
     struct even_sum sum = { 0, 0, 0, 0, 0 };
     for (int32_t i = n; i > 0; i--, dx += taps->step_x, dy += taps->step_y) {
         const int32_t column = clamp_i32(((x << 16) + 0x8000 + dx) >> 16, 0, w->width - 1);
         uint32_t tap = row_offset[((y << 16) + 0x8000 + dy) >> 16] + (uint32_t)column;
         if (held && w->depth[tap] > w->depth[at] && window_velocity_word(w, tap) == 0)
             tap = at;
-        even_add(&sum, w->color[tap], linear);
+        even_add(&sum, w->color[tap], settings);
     }
-    if (linear || !held)
-        return even_mean(&sum, over, linear);
+    if (!held || settings->linear)
+        return even_mean(&sum, over, settings);
     const uint32_t red = sum.red_blue >> 16, green = (sum.all - sum.red_blue) >> 8 & 0xffffu, blue = sum.red_blue & 0xffffu;
     return pixel_make(0, (mulh_u32(red << 16, over) + 128u) >> 8, (mulh_u32(green << 16, over) + 128u) >> 8,
                       (mulh_u32(blue << 16, over) + 128u) >> 8);
@@ -70,8 +71,7 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w, const s
             struct uniform_taps taps = { .step_x = v.x * (int32_t)(over >> 8) >> 2, .step_y = v.y * (int32_t)(over >> 8) >> 2 };
             taps.first_x = taps.step_x >> 1;
             taps.first_y = taps.step_y >> 1;
-            out[x - x0] = mean_along(w, rows->offset, at, x, y - rows->first, &taps, n, over, settings->linear,
-                                     SMEAR_WITH_FILTERS && settings->held);
+            out[x - x0] = mean_along(w, rows->offset, at, x, y - rows->first, &taps, n, over, settings);
             taken += (uint32_t)n;
         }
     }

@@ -18,12 +18,12 @@ struct wide_sum {
     uint32_t weight;
 };
 
-static void wide_add(struct wide_sum *s, uint32_t pixel, uint32_t weight, bool linear)
+static void wide_add(struct wide_sum *s, uint32_t pixel, uint32_t weight, const struct smear_blur_settings *settings)
 {
     uint32_t r = pixel_red(pixel), g = pixel_green(pixel), b = pixel_blue(pixel);
-    s->r += (uint64_t)(linear ? smear_srgb_decode[r] : r) * weight;
-    s->g += (uint64_t)(linear ? smear_srgb_decode[g] : g) * weight;
-    s->b += (uint64_t)(linear ? smear_srgb_decode[b] : b) * weight;
+    s->r += (uint64_t)(settings->linear ? smear_srgb_decode[r] : r) * weight;
+    s->g += (uint64_t)(settings->linear ? smear_srgb_decode[g] : g) * weight;
+    s->b += (uint64_t)(settings->linear ? smear_srgb_decode[b] : b) * weight;
     s->weight += weight;
 }
 
@@ -35,10 +35,10 @@ static uint32_t quotient(uint64_t a, uint32_t weight)
     return (mulh_u32(top, recip_norm_precise(weight << zeros)) + (1u << 12)) >> 13;
 }
 
-static uint32_t wide_mean(const struct wide_sum *s, bool linear)
+static uint32_t wide_mean(const struct wide_sum *s, const struct smear_blur_settings *settings)
 {
     uint32_t r = quotient(s->r, s->weight), g = quotient(s->g, s->weight), b = quotient(s->b, s->weight);
-    if (linear)
+    if (settings->linear)
         return pixel_make(0, smear_srgb_encode[min_u32(r, 65535u) >> 4],
                           smear_srgb_encode[min_u32(g, 65535u) >> 4],
                           smear_srgb_encode[min_u32(b, 65535u) >> 4]);
@@ -140,7 +140,7 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
     struct wide_sum sum = { 0, 0, 0, 0 };
     int32_t taps = g->taps | 1;         /* one of them is the pixel itself */
     wide_add(&sum, g->w->color[at], (uint32_t)max_i32(65536 / max_i32(here.speed, 128), 1),
-             g->settings->linear);
+             g->settings);
     for (int32_t i = 0; i < taps; i++) {
         if (2 * i == taps - 1)
             continue;
@@ -151,9 +151,9 @@ static uint32_t gather_mcguire(const struct gathering *g, uint32_t at, int32_t x
         int32_t weight = (front * cone(d, max_i32(tap.speed, 128)) + back * cone(d, max_i32(here.speed, 128))
                           + 2 * cylinder(d, max_i32(tap.speed, 128)) * cylinder(d, max_i32(here.speed, 128)))
                       >> 8;
-        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
+        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings);
     }
-    return wide_mean(&sum, g->settings->linear);
+    return wide_mean(&sum, g->settings);
 }
 
 /* Returns the second direction, as long as the first: from its perpendicular on the side of the pixel's own velocity
@@ -178,7 +178,7 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
     int32_t own_alike[2] = { 0, 256 }, speed = max_i32(here.speed, 128);
     struct wide_sum sum = { 0, 0, 0, 0 };
     own_alike[0] = alike(top, length, second, length);
-    wide_add(&sum, g->w->color[at], (uint32_t)max_i32(g->taps * 65536 / (40 * speed), 1), g->settings->linear);
+    wide_add(&sum, g->w->color[at], (uint32_t)max_i32(g->taps * 65536 / (40 * speed), 1), g->settings);
     for (int32_t i = 0; i < g->taps; i++) {
         /* 0.95 of a tap to either side */
         int32_t t = ((i + 1) * 8192 + (noise * 243 >> 10)) / (g->taps + 1) - 4096;
@@ -192,9 +192,9 @@ static uint32_t gather_guertin(const struct gathering *g, uint32_t at, int32_t x
                           + 2 * cylinder(distance, min_i32(tap_speed, speed))
                                 * max_i32(tap_alike, here_alike))
                       >> 8;
-        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings->linear);
+        wide_add(&sum, g->w->color[tap.at], (uint32_t)weight, g->settings);
     }
-    return wide_mean(&sum, g->settings->linear);
+    return wide_mean(&sum, g->settings);
 }
 
 /* Returns how much a tap counts by its depth and its streak or the pixel's, q8. */
@@ -225,14 +225,14 @@ static uint32_t gather_jimenez(const struct gathering *g, uint32_t at, int32_t x
         bool is_behind = one.units < other.units, is_slower = other.speed > one.speed;
         int32_t first = is_behind && is_slower ? other_weight : one_weight;
         int32_t second = is_behind || is_slower ? other_weight : one_weight;
-        wide_add(&sum, g->w->color[one.at], (uint32_t)first, g->settings->linear);
-        wide_add(&sum, g->w->color[other.at], (uint32_t)second, g->settings->linear);
+        wide_add(&sum, g->w->color[one.at], (uint32_t)first, g->settings);
+        wide_add(&sum, g->w->color[other.at], (uint32_t)second, g->settings);
     }
     /* The weights are an alpha: what they leave is the pixel's own. */
     int32_t rest = pairs * 512 - (int32_t)sum.weight;
     if (rest > 0)
-        wide_add(&sum, g->w->color[at], (uint32_t)rest, g->settings->linear);
-    return wide_mean(&sum, g->settings->linear);
+        wide_add(&sum, g->w->color[at], (uint32_t)rest, g->settings);
+    return wide_mean(&sum, g->settings);
 }
 
 uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,

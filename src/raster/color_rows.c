@@ -78,7 +78,7 @@ static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t 
 static inline void find_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct setup *s)
 {
     if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
-        smear_fog_steps(step, from, to, n, frame_is_linear(s->frame));
+        smear_fog_steps(step, from, to, n, s->frame);
         return;
     }
     for (int i = 0; i < 3; i++)

@@ -205,7 +205,7 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 {
     if (!segment_gouraud(s->segment)) {
         for (int i = 0; i < 3; i++)
-            c[i] = channel_of_code(s->color >> (16 - 8 * i) & 255u, true);
+            c[i] = channel_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
         return;
     }
     const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
@@ -239,9 +239,9 @@ uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right,
     return fog_pixel(s->frame, s->color, part_at(s, (left + right) >> 1, y));
 }
 
-void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear)
+void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct smear_raster_frame *frame)
 {
-    const int32_t little = linear ? 0 : 3 << 15;        /* a code and a half */
+    const int32_t little = frame_is_linear(frame) ? 0 : 3 << 15;        /* a code and a half */
     int32_t most = 0;
     for (int i = 0; i < 3; i++)
         most = max_i32(most, abs_i32(to[i] - from[i]));

@@ -18,7 +18,7 @@ int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units);
 /* A working pixel in so much of fog. */
 static inline uint32_t fog_pixel(const struct smear_raster_frame *frame, uint32_t pixel, int32_t part)
 {
-    return pixel_mix_part(pixel, frame_fog(frame)->color, part, frame_is_linear(frame));
+    return frame_mix(frame, pixel, frame_fog(frame)->color, part);
 }
 
 /* The part of fog that is near enough for all depths from low to high, units q11, of a colour or, where that is null, of
@@ -38,7 +38,7 @@ static inline int32_t fog_even_part(const struct setup *s) { return (s->fog - FO
 static inline int32_t fog_channel(const struct smear_raster_frame *frame, int32_t value, int channel, int32_t part)
 {
     const uint32_t code = frame_fog(frame)->color >> (16 - 8 * channel) & 255u;
-    return value + (((channel_of_code(code, frame_is_linear(frame)) - value) >> 9) * part >> 7);
+    return value + (((channel_of_code(frame, code) - value) >> 9) * part >> 7);
 }
 
 /* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */
@@ -49,7 +49,7 @@ uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right,
 
 /* The steps of channels from one end of a block of n > 0 pixels to the other. Where codes hardly change they have none, and
  * `from` becomes the mean: one colour is drawn faster. */
-void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, bool linear);
+void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct smear_raster_frame *frame);
 
 /* Whether a triangle that is textured or not opaque has one part of fog in each row. */
 static inline bool fog_is_by_rows(const struct setup *s) { return s->fog - FOG_VARIES == FOG_LEVEL; }

@@ -523,7 +523,7 @@ static bool is_flat(struct setup *s)
     uint32_t code[3];
     for (int c = 0; c < 3; c++) {
         uint32_t value = (uint32_t)value_in_fog(s, 0, c);
-        code[c] = frame_is_linear(s->frame) ? smear_srgb_encode[value >> 12] : value >> 16;
+        code[c] = code_of_channel(s->frame, value);
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
     return true;

@@ -155,9 +155,15 @@ static inline int32_t channel_value(const struct setup *s, int vertex, int c)
 }
 
 /* A code as channel_value has it. */
-static inline int32_t channel_of_code(uint32_t code, bool linear)
+static inline int32_t channel_of_code(const struct smear_raster_frame *frame, uint32_t code)
 {
-    return linear ? clamp_i32((int32_t)smear_srgb_decode[code] << 8, 0x400, 0xffe000) : (int32_t)(code << 16) + 0x8000;
+    return frame_is_linear(frame) ? clamp_i32((int32_t)smear_srgb_decode[code] << 8, 0x400, 0xffe000) : (int32_t)(code << 16) + 0x8000;
+}
+
+/* The code of what channel_value has. */
+static inline uint32_t code_of_channel(const struct smear_raster_frame *frame, uint32_t value)
+{
+    return frame_is_linear(frame) ? smear_srgb_encode[value >> 12] : value >> 16;
 }
 
 static inline int fog_of(const struct setup *s)

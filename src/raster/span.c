@@ -109,7 +109,7 @@ static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct s
     if (fog_row_is_even(s, left, right)) {
         const uint32_t color = smear_fog_row_color(s, left, right, p->y);
         for (int i = 0; i < 3; i++) {
-            c[i] = (uint32_t)channel_of_code(color >> (16 - 8 * i) & 255u, frame_is_linear(s->frame));
+            c[i] = (uint32_t)channel_of_code(s->frame, color >> (16 - 8 * i) & 255u);
             d[i] = 0;
         }
         return;
@@ -117,7 +117,7 @@ static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct s
     smear_fog_channels(a, s, k->start, p->y);
     smear_fog_channels(b, s, k->end, p->y);
     if (k->end > k->start)
-        smear_fog_steps(step, a, b, k->end - k->start, frame_is_linear(s->frame));
+        smear_fog_steps(step, a, b, k->end - k->start, s->frame);
     for (int i = 0; i < 3; i++) {
         c[i] = (uint32_t)(a[i] + step[i] * (k->x - k->start));
         d[i] = (uint32_t)step[i];

@@ -169,6 +169,12 @@ static inline bool frame_is_linear(const struct smear_raster_frame *f)
     return SMEAR_WITH_LINEAR && f->linear;
 }
 
+/* A working pixel with `over` mixed into it by a part of 65536. */
+static inline uint32_t frame_mix(const struct smear_raster_frame *f, uint32_t pixel, uint32_t over, int32_t part)
+{
+    return pixel_mix_part(pixel, over, part, frame_is_linear(f));
+}
+
 static inline bool draw_is_opaque(const struct smear_raster_draw *d)
 {
     return !SMEAR_WITH_ALPHA || d->alpha == SMEAR_OPAQUE;
