@@ -101,62 +101,11 @@ static inline void edge_right(struct span_side *side, struct edge_walk *edge, in
 #endif
 }
 
-#if SMEAR_ASM_ARMV7EM
-SMEAR_STATIC_ASSERT(sizeof(struct span_side) == 12 && offsetof(struct span_side, right) == 4 && offsetof(struct span_side, edge) == 8
-                        && sizeof(struct edge_walk) == 20 && offsetof(struct edge_walk, step_rest) == 12,
-                    "the assembly knows edges and sides");
-
-/* An edge goes on by a row: its place X and REST, the numbers of which it is made. */
-#define EDGE_SIDES_STEP(X, REST, STEP, STEP_REST, DY) \
-    "add " X ", " X ", " STEP "\n\t"                  \
-    "adds " REST ", " REST ", " STEP_REST "\n\t"      \
-    "itt gt\n\t"                                      \
-    "subgt " REST ", " REST ", " DY "\n\t"            \
-    "addgt " X ", " X ", #1\n\t"
-
-/* Both edges in registers: half of the instructions that compilers take. */
-static inline void edge_sides_armv7em(struct span_side *side, struct edge_walk *left, struct edge_walk *right, int32_t n, int32_t width)
-{
-    register struct edge_walk *r0 __asm__("r0") = left;
-    register struct edge_walk *r1 __asm__("r1") = right;
-    register struct span_side *r10 __asm__("r10") = side;
-    register struct span_side *r11 __asm__("r11") = side + n;
-    register int32_t r12 __asm__("r12") = width;
-    __asm__ volatile(".syntax unified\n\t"
-                     "push {r0, r1}\n\t"
-                     "mov lr, r1\n\t"
-                     "ldm r0, {r0, r1, r2, r3, r4}\n\t"
-                     "ldm lr, {r5, r6, r7, r8, r9}\n"
-                     "1: usat lr, #24, r0, asr #8\n\t"
-                     "str lr, [r10], #12\n\t"
-                     "asr lr, r5, #8\n\t"
-                     "str lr, [r10, #-4]\n\t"
-                     "cmp lr, r12\n\t"
-                     "it gt\n\t"
-                     "movgt lr, r12\n\t"
-                     "str lr, [r10, #-8]\n\t"
-                     EDGE_SIDES_STEP("r0", "r1", "r2", "r3", "r4")
-                     EDGE_SIDES_STEP("r5", "r6", "r7", "r8", "r9")
-                     "cmp r10, r11\n\t"
-                     "bne 1b\n\t"
-                     "pop {r2, r3}\n\t"
-                     "strd r0, r1, [r2]\n\t"
-                     "strd r5, r6, [r3]"
-                     : "+r"(r0), "+r"(r1), "+r"(r10)
-                     : "r"(r11), "r"(r12)
-                     : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "lr", "cc", "memory");
-}
-#endif
-
 /* Both sides of n > 0 rows. */
 static inline void edge_sides(struct span_side *side, struct edge_walk *left, struct edge_walk *right, int32_t n, int32_t width)
 {
-#if SMEAR_ASM_ARMV7EM
-    edge_sides_armv7em(side, left, right, n, width);
-#else
     edge_left(side, left, n);
     edge_right(side, right, n, width);
-#endif
 }
 
 #endif

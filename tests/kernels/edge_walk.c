@@ -98,12 +98,7 @@ static void sides_by(struct kernel_call *c, bool best)
     edge_start(&e, a, b, word(c, Y));
     f = e;
     if (best) {
-#if SMEAR_ASM_ARMV7EM
-        edge_sides_armv7em(c->plane[0], &e, &f, rows, width);
-#else
-        edge_left(c->plane[0], &e, rows);
-        edge_right(c->plane[0], &f, rows, width);
-#endif
+        edge_sides(c->plane[0], &e, &f, rows, width);
     } else {
         edge_left_reference(c->plane[0], &e, rows);
         edge_right_reference(c->plane[0], &f, rows, width);
