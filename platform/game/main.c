@@ -25,7 +25,8 @@
  * what is in view at once. */
 #define SCREEN(name, w, h, pixels, buffers, px, columns, triangles)                                                     \
     { name, { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,                \
-              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH, .reuse.one_pose = 1 } }
+              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .reuse.one_pose = 1,                                 \
+              .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH } }
 
 static const struct screen {
     const char *name;
