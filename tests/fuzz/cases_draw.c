@@ -32,12 +32,14 @@ static void require(bool ok, const char *what)
 /* ------------------------------------------------------------------ a context and its display */
 
 enum { AGE_MAX = 7,
-       FILTER_WIDTH = 2048 };
+       FILTER_WIDTH = 2048,
+       GUARD = 64,
+       PATTERN = 0xa5 };
 
 struct rig {
     smear_context *ctx;
     smear_desc desc;
-    uint8_t *block;                 /* the context's memory ends where it does */
+    uint8_t *block;                 /* the context's memory ends where it does, or before GUARD bytes where nobody else watches */
     size_t bytes;                   /* of the context */
     uint8_t *shown[AGE_MAX], *into; /* bytes of buffers that are shown, rows from top to bottom */
     size_t pitch, rows;
@@ -78,6 +80,7 @@ static int take_band(void *user, const smear_band *band)
         require(band->y > r->next_row || (band->y == r->next_row && band->x >= r->next_column), "bands are out of order");
     else
         require(band->y == r->next_row && band->x == 0 && band->width == columns, "bands are out of order");
+    require(r->fail_at < 0 || r->band <= r->fail_at, "a band comes after one that was refused");
     r->next_row = r->desc.reuse.buffer_age ? band->y : band->y + band->height;
     r->next_column = band->x + band->width;
     if (__msan_check_mem_is_initialized != NULL)
@@ -105,7 +108,7 @@ static void look_at_row(void *user, int y, const uint32_t *color, const uint16_t
     struct rig *r = user;
     require(y >= 0 && y < r->desc.height, "a row lies beside the frame");
     for (int x = 0; x < r->desc.width; x++)
-        r->seen += color[x] + depth[x] + (uint32_t)velocity[2 * x] + (uint32_t)velocity[2 * x + 1];
+        r->seen = ((r->seen ^ color[x]) * 16777619u + depth[x] * 3u + (uint32_t)velocity[2 * x]) * 5u + (uint32_t)velocity[2 * x + 1];
 }
 
 static uint32_t ticks(void *user)
@@ -114,8 +117,27 @@ static uint32_t ticks(void *user)
     return (uint32_t)r->band;
 }
 
+/* The address sanitizer is there: it knows where blocks end. */
+void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
+
+static size_t guard_size(void)
+{
+    return __sanitizer_set_death_callback == NULL ? GUARD : 0;
+}
+
+static void check_guards(const struct rig *r)
+{
+    const uint8_t *begin = (const uint8_t *)r->ctx, *end = begin + r->bytes;
+    bool intact = true;
+    for (const uint8_t *b = r->block; b < begin; b++)
+        intact = intact && *b == PATTERN;
+    for (size_t i = 0; i < guard_size(); i++)
+        intact = intact && end[i] == PATTERN;
+    require(intact, "bytes beside the context have changed");
+}
+
 /* False where the desc is refused, or takes more than a test has. `offset`: of the memory, in steps of 8 bytes. */
-static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offset)
+static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offset, bool inspects)
 {
     *r = (struct rig){ .desc = *desc, .fail_at = -1 };
     r->desc.flush = take_band;
@@ -123,7 +145,7 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     r->desc.user = r;
     if (offset & 1)
         r->desc.debug.clock = ticks;
-    if (offset == 2)
+    if (inspects)
         r->desc.debug.inspect = look_at_row;
     const size_t bytes = smear_memory_size(&r->desc);
     smear_context *none = NULL;
@@ -135,11 +157,11 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     if (bytes > 48u << 20)
         return false;
     r->bytes = bytes;
-    r->block = malloc(bytes + 8 * (size_t)offset);
+    r->block = malloc(8 * (size_t)offset + bytes + guard_size());
     uint8_t *memory = r->block + 8 * offset;
     require(r->block != NULL, "out of memory");
     if (__msan_check_mem_is_initialized == NULL)
-        memset(memory, 0xa5, bytes);
+        memset(r->block, PATTERN, 8 * (size_t)offset + bytes + guard_size());
     require(smear_init(&r->ctx, &r->desc, memory, bytes - 1) == -(int)bytes, "a byte too little is taken");
     require(smear_init(&r->ctx, &r->desc, memory, bytes) == SMEAR_OK, "smear_init fails");
     r->pitch = pitch_of(desc);
@@ -213,6 +235,7 @@ static int rig_frame(struct rig *r, const struct fuzz_case *c)
 {
     const int age = r->desc.reuse.buffer_age > 1 ? r->desc.reuse.buffer_age : 1;
     r->next_row = r->band = r->next_column = 0;
+    r->seen = 0;
     r->into = r->shown[r->frame++ % age];
     keep_bytes(r, c);
     int result = compare_bytes(r, c, smear_begin(r->ctx, &c->frame)), error = SMEAR_OK;
@@ -224,6 +247,8 @@ static int rig_frame(struct rig *r, const struct fuzz_case *c)
         error = error == SMEAR_OK ? submitted : error;
     }
     result = render(r);
+    if (__msan_check_mem_is_initialized == NULL)
+        check_guards(r);
     return error != SMEAR_OK ? error : result;
 }
 
@@ -237,6 +262,9 @@ static void check_stats(const struct rig *r, const struct fuzz_case *c, struct c
     require(s.pixels == (uint32_t)(r->desc.width * r->desc.height), "statistics count other pixels");
     if (!c->wild)
         require(s.triangles_dropped == 0, "triangles were dropped");
+    require(s.fill.segments.used <= s.fill.segments.room && s.fill.geometry.used <= s.fill.geometry.room
+                && s.fill.draws.used <= s.fill.draws.room,
+            "more is used than there is room for");
 }
 
 /* Whether another arena may draw another picture: a budget is shared among parts. */
@@ -254,6 +282,21 @@ static bool same_picture(const struct rig *a, const struct rig *b)
             return false;
         }
     return true;
+}
+
+/* What two contexts say of the same frame. */
+static void check_same(const struct rig *a, const struct rig *b)
+{
+    smear_stats s, t;
+    smear_get_stats(a->ctx, &s);
+    smear_get_stats(b->ctx, &t);
+    const bool whole = s.parts_added == 0 && t.parts_added == 0;
+    const bool keeps = a->desc.reuse.cache_static || a->desc.reuse.buffer_age || b->desc.reuse.cache_static || b->desc.reuse.buffer_age;
+    require(a->seen == b->seen || !a->desc.debug.inspect, "another desc inspects another frame");
+    require(memcmp(s.tiles, t.tiles, sizeof s.tiles) == 0 && s.tiles_complex == t.tiles_complex, "another desc counts other tiles");
+    require(s.triangles_in == t.triangles_in, "another desc is given other triangles");
+    require(s.samples == t.samples || !whole, "another desc takes other samples");
+    require(s.crc32 == t.crc32 || keeps, "another desc has another sum");
 }
 
 static void explain(const struct fuzz_case *c, const struct rig *r, int result)
@@ -341,6 +384,8 @@ static smear_desc in_parts(struct fuzz_case *c)
     smear_desc other = c->desc;
     other.max_triangles = (uint32_t)source_range(&c->source, 1, source_chance(&c->source, 2) ? 12 : 400);
     c->desc.max_triangles = 20000;
+    if (c->mesh[0].vertex_count > 1000) /* minutes, else */
+        other.max_triangles += 2000;
     if (source_chance(&c->source, 2))
         other.reuse.cache_static = other.reuse.buffer_age = 0;
     return other;
@@ -368,8 +413,10 @@ static uint32_t draw_case(struct fuzz_case *c, struct counts *counts, uint64_t n
     smear_desc other = many ? case_many_other(c) : mode == MODE_PARTS ? in_parts(c) : case_other_desc(c);
     if (threads)
         other.workers = (uint8_t)source_range(&c->source, 2, 8);
-    const bool open = rig_open(&a, &c->desc, wild, source_range(&c->source, 0, 5));
-    const bool two = open && !wild && mode != MODE_SUMS && rig_open(&b, &other, false, source_range(&c->source, 0, 5));
+    const int offset = source_range(&c->source, 0, 5);
+    const bool inspects = offset == 2;
+    const bool open = rig_open(&a, &c->desc, wild, offset, inspects);
+    const bool two = open && !wild && mode != MODE_SUMS && rig_open(&b, &other, false, source_range(&c->source, 0, 5), inspects);
     counts->cases++;
     counts->refused += !open;
     bool lost = false;
@@ -405,6 +452,7 @@ static uint32_t draw_case(struct fuzz_case *c, struct counts *counts, uint64_t n
                 check_stats(&b, c, counts);
             if (result == SMEAR_OK && again == SMEAR_OK && !has_budget(c)) {
                 require(same_picture(&a, &b), "another desc draws another picture");
+                check_same(&a, &b);
                 counts->compared++;
             }
         }
