@@ -88,6 +88,15 @@ sanitized_briefly() {
     fi
 }
 
+# Frames of the generator: what other workers, room, bands, caches and displays that keep their picture draw is the same.
+frames() {
+    suite frames-valid build/host/frames valid 1 2500
+    suite frames-parts build/host/frames parts 1 590
+    suite frames-threads build/host/frames threads 1 800
+    suite frames-many build/host/frames many 1 150
+    suite frames-wild build/host/frames wild 1 2500
+}
+
 # That nothing is called that a small core lacks shows at any level of optimization.
 symbols() {
     if needs arm-none-eabi-gcc "gcc-arm-none-eabi"; then
@@ -125,7 +134,9 @@ programs() {
 
 sanitized() {
     sanitizers || return 0
-    suite build-sanitized $make -s SAN=1 CHECK=1 build/host-san-check/smear build/host-san-check/run
+    suite build-sanitized $make -s SAN=1 CHECK=1 build/host-san-check/smear build/host-san-check/run build/host-san-check/frames
+    suite frames-valid-sanitized build/host-san-check/frames valid 1 600
+    suite frames-wild-sanitized build/host-san-check/frames wild 1 1000
     for name in $($make -s print-san-suites); do
         suite "sanitized-$name" env SMEAR_ASSETS="$assets" build/host-san-check/run --suite "$name"
     done
@@ -315,11 +326,11 @@ CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
 export SMEAR_OBJECTS CMAKE_C_COMPILER_LAUNCHER
 rm -rf "$SMEAR_OBJECTS"
 one_file=build/one-file/single/smear.c
-built="all build/host/run build/smear-demo build/host/target_golden build/demo/props.c"
+built="all build/host/run build/host/frames build/smear-demo build/host/target_golden build/demo/props.c"
 [ "$level" = check ] || built="$built build/host/demo build/host/game build/tapes/small.c build/demo/target_screen build/host/jpeg-files $one_file"
 case $level in
 # Warnings of the optimizer are errors here.
-all) suite build $make -s CC="sh $PWD/tests/shell/launch_cached.sh ${CC:-cc} -Werror" $built build/host/frames build/host/tiny ;;
+all) suite build $make -s CC="sh $PWD/tests/shell/launch_cached.sh ${CC:-cc} -Werror" $built build/host/tiny ;;
 *) suite build $make -s $built ;;
 esac
 suites=
@@ -330,9 +341,9 @@ for name in $($make -s print-suites); do
     esac
 done
 # The longest first, by what suites print.
-tests="sanitized packages cortex_m0plus gba s390x objects programs documents firmware_here demo format golden $suites"
+tests="sanitized packages cortex_m0plus gba s390x objects programs documents firmware_here demo format golden frames $suites"
 case $level in
-check) groups="sanitized_briefly documents symbols format golden $suites" ;;
+check) groups="sanitized_briefly documents symbols format golden frames $suites" ;;
 test) groups="portable $tests" ;;
 all)
     groups="one_file coverage boards generated switches web files linux_arm cortex_m3 linux raspi0 cortex_m7 cortex_m4 cortex_m33"

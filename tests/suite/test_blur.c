@@ -338,85 +338,6 @@ static void test_still_scenes_stay_as_they_are_by_any_method(void)
     }
 }
 
-/* Every method, by 1, 2 and 3 workers, whole and in parts. */
-static void check_workers(struct subject *s)
-{
-    static const struct { smear_method method; int flags; smear_light_space light; } cases[] = {
-        {SMEAR_NONE, 0, SMEAR_LIGHT_LINEAR},
-        {SMEAR_ACCUMULATE, 0, SMEAR_LIGHT_LINEAR},
-        {SMEAR_RECONSTRUCT, 0, SMEAR_LIGHT_LINEAR},
-        {SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM,
-          SMEAR_LIGHT_ENCODED},
-    };
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        struct shot one;
-        struct present_options present = method_options(s, cases[k].method, cases[k].flags,
-                                                        cases[k].light);
-        if (!shot_take(s, &present, &(struct shot_options){0}, &one))
-            continue;
-        check_same(s, &present, &(struct shot_options){.workers = 2}, &one, "2 workers");
-        check_same(s, &present, &(struct shot_options){.workers = 3}, &one, "3 workers");
-        CHECK_EQ(one.stats.parts_added, 0);
-        shot_free(&one);
-    }
-}
-
-static void test_pictures_do_not_depend_on_the_number_of_workers(void)
-{
-    for (int i = 0; i < SUITE_KINDS + TRIAL_KINDS; i++) {
-        struct subject s;
-        if (!subject_open(&s, i < SUITE_KINDS ? suite_kind[i] : trial_kind[i - SUITE_KINDS]))
-            continue;
-        check_workers(&s);
-        subject_close(&s);
-    }
-}
-
-/* Less and less room, until the frame is drawn in parts: as long as a row of tiles fits, nobody
- * sees it. */
-static void check_parts(struct subject *s, const struct present_options *present,
-                        const struct shot *whole)
-{
-    for (int room = 4 * (int)whole->stats.triangles_drawn; room > 8; room = room * 4 / 5) {
-        struct shot parts;
-        if (!shot_take(s, present, &(struct shot_options){.triangles = room}, &parts))
-            return;
-        uint32_t split = parts.stats.parts_added, dropped = parts.stats.triangles_dropped;
-        int differing, pixels = parts.width * parts.height;
-        picture_difference(parts.rgb, whole->rgb, pixels, &differing);
-        shot_free(&parts);
-        if (split == 0 || dropped > 0)
-            continue;
-        say("    %-16s room for %d of %u triangles, split %u times: %d pixels differ\n", s->name,
-            room, whole->stats.triangles_drawn, split, differing);
-        CHECK_EQ(differing, 0);
-        check_same(s, present, &(struct shot_options){.triangles = room, .workers = 2}, whole,
-                   "in parts by 2 workers");
-        return;
-    }
-    bool some_room_makes_parts_and_drops_nothing = false;
-    CHECK(some_room_makes_parts_and_drops_nothing);
-}
-
-static void test_pictures_do_not_depend_on_the_room_for_triangles(void)
-{
-    static const char *const scene[] = {"suite/swarm", "suite/arena", "suite/roll", "test/leaves",
-                                        "test/soup"};
-    for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {
-        struct subject s;
-        struct shot whole;
-        if (!subject_open(&s, scene[i]))
-            continue;
-        struct present_options present =
-            method_options(&s, SMEAR_RECONSTRUCT, 0, SMEAR_LIGHT_LINEAR);
-        if (shot_take(&s, &present, &(struct shot_options){0}, &whole)) {
-            check_parts(&s, &present, &whole);
-            shot_free(&whole);
-        }
-        subject_close(&s);
-    }
-}
-
 /* ------------------------------------------------------------------ the filter and the truth */
 
 enum { TRUTH_INSTANTS = 256 };
@@ -514,8 +435,6 @@ void suite_blur(void)
     RUN(test_filter_is_its_port_with_every_option);
     RUN(test_filter_is_its_port_at_every_size);
     RUN(test_still_scenes_stay_as_they_are_by_any_method);
-    RUN(test_pictures_do_not_depend_on_the_number_of_workers);
-    RUN(test_pictures_do_not_depend_on_the_room_for_triangles);
     RUN(test_filter_is_as_close_to_the_truth_as_the_study);
     truth_forget();
 }

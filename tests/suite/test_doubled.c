@@ -186,30 +186,6 @@ static void test_a_display_that_keeps_its_picture_is_doubled(void)
         }
 }
 
-/* What a row leaves to the next goes from band to band. */
-static void test_diffused_bits_do_not_depend_on_bands(void)
-{
-    static struct shown one, other;
-    for (int format = SMEAR_L4; format <= SMEAR_L1_PAGES; format++)
-        for (int rows = 8; rows <= 40; rows += 16)
-            for (int bands = 1; bands <= 2; bands++) {
-                smear_desc whole = desc_of(format, SMEAR_SET(SMEAR_NONE)), parts = whole;
-                whole.display.dither = parts.display.dither = SMEAR_DITHER_DIFFUSE;
-                whole.band_rows = 40;
-                parts.band_rows = (int16_t)rows;
-                parts.bands = (uint8_t)bands;
-                const bool made = shown_begin(&one, whole);
-                if (shown_begin(&other, parts) && made)
-                    for (int frame = 0; frame < FRAMES; frame++) {
-                        draw(&one, frame, SMEAR_NONE);
-                        draw(&other, frame, SMEAR_NONE);
-                        CHECK(memcmp(one.panel.word, other.panel.word, sizeof one.panel.word) == 0);
-                    }
-                shown_end(&one, &whole);
-                shown_end(&other, &parts);
-            }
-}
-
 static void test_diffusion_is_refused_where_it_cannot_be(void)
 {
     for (int format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++) {
@@ -228,6 +204,5 @@ void suite_doubled(void)
     RUN(test_pictures_of_every_method_are_doubled);
     RUN(test_bands_of_any_height_are_doubled);
     RUN(test_a_display_that_keeps_its_picture_is_doubled);
-    RUN(test_diffused_bits_do_not_depend_on_bands);
     RUN(test_diffusion_is_refused_where_it_cannot_be);
 }

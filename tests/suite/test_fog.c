@@ -218,57 +218,6 @@ static void test_what_is_nearer_than_fog_stays_as_it_is(void)
 
 /* ------------------------------------------------------------------ the same bits */
 
-/* The third frame of the busy scene in fog; the caller frees it. */
-static uint8_t *moving_picture(const smear_desc *desc, int method, bool linear)
-{
-    struct rig r;
-    struct failure f;
-    uint8_t *picture = NULL;
-    const smear_fog fog = fog_between(2, 7);
-    if (!rig_begin(&r, desc, false))
-        return NULL;
-    struct crew *crew = crew_start(desc->workers, &f);
-    for (int i = 0; i < 3 && CHECK(crew != NULL || desc->workers < 2); i++) {
-        struct scene s;
-        make_scene(&s, 0.1 * i, method);
-        s.frame.fog = &fog;
-        s.frame.target = SMEAR_BALANCED;
-        s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
-        rig_forget_output(&r);
-        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-        for (int d = 0; d < SCENE_DRAWS; d++)
-            CHECK_EQ(smear_submit(r.ctx, &s.draw[d]), SMEAR_OK);
-        CHECK_EQ(crew_render(crew, r.ctx), SMEAR_OK);
-    }
-    crew_stop(crew);
-    CHECK(guards_intact(&r));
-    picture = malloc(PIXELS * 4);
-    if (picture != NULL)
-        memcpy(picture, r.picture, PIXELS * 4);
-    rig_end(&r);
-    return picture;
-}
-
-static void test_workers_and_parts_draw_the_same_fog(void)
-{
-    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
-        for (int linear = 0; linear < 2; linear++) {
-            smear_desc desc = desc_of(ALL_METHODS);
-            uint8_t *want = moving_picture(&desc, method, linear != 0);
-            for (int k = 0; k < 3; k++) {
-                desc = desc_of(ALL_METHODS);
-                desc.idle = crew_idle;
-                desc.workers = (uint8_t)(k == 0 ? 4 : k == 1 ? 2 : 1);
-                if (k == 2 && method != SMEAR_TIMEMASK)         /* drawn in parts */
-                    desc.max_triangles = 14;
-                uint8_t *got = moving_picture(&desc, method, linear != 0);
-                CHECK(want != NULL && got != NULL && memcmp(want, got, PIXELS * 4) == 0);
-                free(got);
-            }
-            free(want);
-        }
-}
-
 enum { TINY = 1500 };
 
 /* Triangles of a pixel or two. */
@@ -284,31 +233,6 @@ static smear_mesh tiny_triangles(void)
             index[i] = (uint16_t)i;
         }
     return (smear_mesh){ .position = place, .index = index, .vertex_count = TINY * 3, .triangle_count = TINY, .shift = STEP };
-}
-
-/* Those that bands cut have one part of fog each. */
-static void test_bands_cut_no_fog(void)
-{
-    uint8_t *picture = NULL;
-    const smear_mesh mesh = tiny_triangles();
-    const smear_material material = { .color = { 255, 255, 255, 255 }, .double_sided = 1, .unlit = 1 };
-    const smear_draw draw = { .mesh = &mesh, .material = &material };
-    const smear_camera camera = camera_at(0, 0, 0, 0);
-    const smear_fog fog = fog_between(fog_near, fog_far);
-    const smear_frame frame = { .camera = &camera, .samples = 1, .fog = &fog };
-    for (int rows = 3; rows <= 40; rows += 37) {
-        struct rig r;
-        smear_desc desc = desc_of(SMEAR_SET_ACCUMULATE_BANDS);
-        desc.band_rows = (int16_t)rows;
-        if (rig_begin(&r, &desc, false)) {
-            if (picture == NULL)
-                picture = rig_copy(&r, &frame, &draw, 1);
-            else if (CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK))
-                same_picture(&r, picture);
-        }
-        rig_end(&r);
-    }
-    free(picture);
 }
 
 /* White texels in grey light and grey fog are grey, and as triangles without a texture. */
@@ -406,69 +330,13 @@ static void test_walls_that_recede_have_their_fog(void)
     }
 }
 
-/* A panel that keeps what it is sent shows the same as one that does not, whatever of the fog changes. */
-static void test_what_is_kept_is_drawn_again_in_other_fog(void)
-{
-    struct rig r[2];
-    for (int i = 0; i < 2; i++) {
-        smear_desc desc = desc_of(SMEAR_SET(SMEAR_AUTO));
-        desc.reuse.cache_static = i == 0;
-        CHECK(rig_begin(&r[i], &desc, false));
-    }
-    for (int k = 0; k < 8; k++) {
-        const smear_fog fog[] = { fog_between(2, 7), fog_between(2.5, 7), fog_between(2.5, 6), { 0x405060, q16(2), q16(6) } };
-        uint8_t *picture[2];
-        for (int i = 0; i < 2; i++) {
-            struct scene s;
-            make_scene(&s, 0, SMEAR_AUTO);
-            s.frame.fog = k == 7 ? NULL : &fog[k / 2];
-            picture[i] = rig_copy(&r[i], &s.frame, s.draw, SCENE_DRAWS);
-        }
-        CHECK(picture[0] != NULL && picture[1] != NULL && memcmp(picture[0], picture[1], PIXELS * 4) == 0);
-        free(picture[0]);
-        free(picture[1]);
-    }
-    rig_end(&r[0]);
-    rig_end(&r[1]);
-}
-
 /* ------------------------------------------------------------------ what is refused */
-
-static void test_the_text_of_bad_fog_names_the_field(void)
-{
-    static const struct {
-        int32_t near_plane, far_plane;
-        bool good;
-    } fog[] = {
-        { 0, 65536, true }, { -1, 65536, false }, { 65536, 65536, false }, { 131072, 65536, false }, { 65536, 65536 + 257, false },
-        { 65536, 65536 + 300, true }, { 0, 0, false }, { 0, 1000, false }, { INT32_MAX - 1, INT32_MAX, false },
-        { 0, INT32_MAX, true }, { 0, INT32_MIN, false }
-    };
-    struct rig r;
-    const smear_desc desc = small_desc(32, 32);
-    if (!rig_begin(&r, &desc, false))
-        return;
-    for (size_t i = 0; i < sizeof fog / sizeof *fog; i++) {
-        struct scene s;
-        const smear_fog bad = { .near_plane = fog[i].near_plane, .far_plane = fog[i].far_plane };
-        make_scene(&s, 0, SMEAR_NONE);
-        s.frame.fog = &bad;
-        const int result = smear_begin(r.ctx, &s.frame);
-        CHECK_EQ(result == SMEAR_OK, fog[i].good);
-        CHECK(fog[i].good || strstr(smear_error_text(result), "frame.fog: ") == smear_error_text(result));
-    }
-    rig_end(&r);
-}
 
 void suite_fog(void)
 {
     RUN(test_each_pixel_has_the_fog_of_its_depth);
     RUN(test_what_lies_beyond_is_left_out);
     RUN(test_what_is_nearer_than_fog_stays_as_it_is);
-    RUN(test_workers_and_parts_draw_the_same_fog);
-    RUN(test_bands_cut_no_fog);
     RUN(test_tiny_triangles_with_texels_have_their_fog);
     RUN(test_walls_that_recede_have_their_fog);
-    RUN(test_what_is_kept_is_drawn_again_in_other_fog);
-    RUN(test_the_text_of_bad_fog_names_the_field);
 }

@@ -117,25 +117,6 @@ static void test_layered_errs_two_thirds_of_reconstruct(void)
     CHECK(exp(sum / n) <= 2.0 / 3.0);
 }
 
-static void test_pictures_do_not_depend_on_the_number_of_workers(void)
-{
-    static const char *const scene[] = { "suite/cross", "suite/swarm", "suite/enter", "suite/near", "suite/textured" };
-    for (int i = 0; i < 5 * 4; i++) {
-        struct take take = take_of(scene[i >> 2], i & 1 ? SMEAR_OBJECT : SMEAR_LAYERED, 0);
-        struct image one, other;
-        take.linear = i & 2;
-        if (!draw_take(&take, &one, NULL))
-            return;
-        for (take.workers = 2; take.workers <= 7; take.workers += 5) {
-            if (draw_take(&take, &other, NULL)) {
-                CHECK(memcmp(one.rgba, other.rgba, (size_t)one.width * (size_t)one.height * 4) == 0);
-                image_free(&other);
-            }
-        }
-        image_free(&one);
-    }
-}
-
 /* ------------------------------------------------------------------ a scene of plates */
 
 enum { W = 96, H = 64, REACH = 10, TILE = 16 };
@@ -915,32 +896,6 @@ static void test_memory_of_layers_is_small(void)
     CHECK(need > 0 && need <= 209u * 1024u);
 }
 
-/* Any size, any velocity. */
-static void test_small_frames_and_wild_velocities_are_drawn(void)
-{
-    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 1 }, { 1, 40 }, { 96, 17 } };
-    static const double way[] = { 0, 0.1, 3, 40, -300, 5000 };
-    for (int i = 0; i < 5 * 6 * 6 * 2; i++) {
-        struct mover m;
-        const int16_t *s = size[i % 5];
-        mover_make(&m, 0, 0, 10, 12, 9, way[i / 5 % 6], way[i / 30 % 6]);
-        smear_draw draw = draw_of(&m, &red);
-        smear_frame frame = frame_of(both[i / 180]);
-        smear_desc desc = desc_of(picture);
-        desc.width = s[0];
-        desc.height = s[1];
-        desc.tile = (int16_t)(8 << i % 4);
-        desc.reach = (int16_t)(1 + i % 8);
-        frame.light_space = (uint8_t)(i & 1 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED);
-        desc.flush = keep_band;
-        static uint32_t small[2048];
-        desc.user = small;
-        if (!render_with(&desc, &frame, &draw, 1))
-            return;
-        CHECK_EQ(stats.pixels, (uint32_t)(s[0] * s[1]));
-    }
-}
-
 void suite_layers(void)
 {
     RUN(test_a_streak_is_a_ramp_over_the_way);
@@ -968,8 +923,6 @@ void suite_layers(void)
     RUN(test_blended_draws_are_over_the_blur_and_behind_movers);
     RUN(test_bad_layers_are_refused);
     RUN(test_memory_of_layers_is_small);
-    RUN(test_small_frames_and_wild_velocities_are_drawn);
-    RUN(test_pictures_do_not_depend_on_the_number_of_workers);
     RUN(test_object_is_within_1_8_codes_of_the_truth);
     RUN(test_layered_errs_two_thirds_of_reconstruct);
 }

@@ -99,71 +99,6 @@ static void test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels(
     rig_end(&r);
 }
 
-/* Ground that runs to the horizon and a cube: many levels in a frame. */
-static uint8_t *picture_of(smear_desc desc, const smear_texture *t, int method, size_t *size)
-{
-    struct rig r;
-    const smear_material material = { .texture = t, .unlit = 1, .double_sided = 1 };
-    uint8_t *picture = NULL;
-    if (!rig_begin(&r, &desc, false))
-        return NULL;
-    for (int n = 0; n < 2; n++) {
-        const smear_camera camera = camera_at(0.2 * n, 0.4, 1.5, 0.05 * n);
-        const smear_frame frame = { .camera = &camera, .method = (uint8_t)method, .clear = 0x203040, .shutter = { .degrees = 360 } };
-        smear_transform pose[6];
-        smear_draw draw[6];
-        for (int i = 0; i < 6; i++) {
-            pose[i] = pose_at(i % 2 - 0.5, -0.4 + 0.1 * i, -2.0 - 2.5 * i, 0.3 * i + 0.1 * n, i < 3 ? 1.2 : 0.2);
-            draw[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &material, .now = &pose[i] };
-        }
-        rig_forget_output(&r);
-        if (!CHECK_EQ(rig_frame(&r, &frame, draw, 6), SMEAR_OK))
-            break;
-    }
-    CHECK(guards_intact(&r));
-    *size = r.picture_size;
-    if ((picture = malloc(r.picture_size)) != NULL)
-        memcpy(picture, r.picture, r.picture_size);
-    rig_end(&r);
-    return picture;
-}
-
-static void test_the_level_is_the_same_however_the_frame_is_cut(void)
-{
-    static uint32_t texels[TEXELS], palette[256];
-    static const int methods[] = { SMEAR_NONE, SMEAR_SUBFRAMES, SMEAR_AUTO, SMEAR_RECONSTRUCT };
-    smear_texture t;
-    make_texture(&t, texels, palette, SMEAR_TEXEL_8888, true);
-    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-        smear_desc desc = desc_of();
-        size_t size, other;
-        uint8_t *whole = picture_of(desc, &t, methods[i], &size);
-        smear_texture plain = t;
-        plain.levels = 0;
-        uint8_t *without = picture_of(desc, &plain, methods[i], &other);
-        if (CHECK(whole != NULL && without != NULL && size == other))
-            CHECK(memcmp(whole, without, size) != 0);
-        free(without);
-        for (int cut = 0; cut < 3; cut++) {
-            smear_desc small = desc;
-            small.max_triangles = cut == 0 ? 6 : 0;
-            small.vertex_cache = cut == 1 ? 16 : 0;
-            if (cut == 2) {
-                if (methods[i] != SMEAR_NONE)
-                    continue;
-                small.methods = SMEAR_SET(SMEAR_NONE);
-                small.tile = small.reach = 0;
-                small.band_rows = 6;
-            }
-            uint8_t *parts = picture_of(small, &t, methods[i], &other);
-            if (CHECK(whole != NULL && parts != NULL && size == other) && !CHECK(memcmp(whole, parts, size) == 0))
-                printf("    method %d, cut %d\n", methods[i], cut);
-            free(parts);
-        }
-        free(whole);
-    }
-}
-
 static void test_levels_that_cannot_be_are_refused(void)
 {
     static uint32_t texels[TEXELS], palette[256];
@@ -194,6 +129,5 @@ static void test_levels_that_cannot_be_are_refused(void)
 void suite_mipmaps(void)
 {
     RUN(test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels);
-    RUN(test_the_level_is_the_same_however_the_frame_is_cut);
     RUN(test_levels_that_cannot_be_are_refused);
 }

@@ -265,52 +265,10 @@ static void test_a_panel_is_sent_the_tiles_over_which_something_else_lies(void)
 
 /* ------------------------------------------------------------------ what is refused */
 
-static bool is_refused(smear_context *ctx, const smear_overlay_item *item, const char *field)
-{
-    struct scene s;
-    const smear_overlay overlay = { item, 1, NULL };
-    make_scene(&s, 0, SMEAR_NONE);
-    s.frame.overlay = &overlay;
-    const int result = smear_begin(ctx, &s.frame);
-    const char *text = smear_error_text(result);
-    return smear_error_kind(result) == SMEAR_ERR_ARG && strstr(text, field) == text;
-}
-
-static void test_the_text_of_a_bad_item_names_the_field(void)
-{
-    struct rig r;
-    const smear_desc desc = small_desc(32, 32);
-    smear_image image = images[1];
-    smear_font font = smear_font_8x8;
-    if (rig_begin(&r, &desc, false)) {
-        CHECK(is_refused(r.ctx, NULL, "frame.overlay"));
-        CHECK(is_refused(r.ctx, &(smear_overlay_item){ .scale = 9 }, "overlay.item.scale"));
-        CHECK(is_refused(r.ctx, &(smear_overlay_item){ .text = "" }, "overlay.item.font"));
-        CHECK(is_refused(r.ctx, &(smear_overlay_item){ .image = &image, .cell = 2 }, "overlay.item.cell"));
-        font.glyph.height = 0;
-        CHECK(is_refused(r.ctx, &(smear_overlay_item){ .text = "", .font = &font }, "overlay.item.font"));
-        const smear_overlay_item sprite = { .image = &image };
-        CHECK(!is_refused(r.ctx, &sprite, ""));
-        image.palette = NULL;
-        CHECK(is_refused(r.ctx, &sprite, "overlay.item.image"));
-        image = images[2];
-        image.format = SMEAR_IMAGE_PALETTE8 + 1;
-        CHECK(is_refused(r.ctx, &sprite, "overlay.item.image"));
-        image = images[2];
-        image.width = 2049;
-        CHECK(is_refused(r.ctx, &sprite, "overlay.item.image"));
-        image = images[0];
-        image.pixels = NULL;
-        CHECK(is_refused(r.ctx, &sprite, "overlay.item.image"));
-    }
-    rig_end(&r);
-}
-
 void suite_overlay(void)
 {
     RUN(test_items_lie_over_the_picture_of_every_method);
     RUN(test_items_are_converted_as_the_picture_is);
     RUN(test_frames_of_the_displays_own_pixels_have_items);
     RUN(test_a_panel_is_sent_the_tiles_over_which_something_else_lies);
-    RUN(test_the_text_of_a_bad_item_names_the_field);
 }

@@ -156,57 +156,11 @@ static void make_points(smear_point point[POINTS], double t)
     }
 }
 
-static void yield(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
 struct helper {
     smear_context *ctx;
     int worker;
     pthread_t thread;
 };
-
-static void *help(void *argument)
-{
-    const struct helper *h = argument;
-    for (int i = 0; i < 2; i++)
-        smear_work(h->ctx, h->worker);
-    return NULL;
-}
-
-/* The second of two frames of the busy scene, as bands after each other; the caller frees it. */
-static uint8_t *picture_of(const smear_desc *desc, int method, bool with)
-{
-    struct rig r;
-    smear_point point[POINTS];
-    const smear_points points = { point, POINTS };
-    const smear_overlay overlay = { NULL, 0, &points };
-    struct helper helper[8];
-    uint8_t *picture = NULL;
-    if (!rig_begin(&r, desc, false))
-        return NULL;
-    r.reports_sent = true;
-    for (int i = 1; i < desc->workers; i++) {
-        helper[i] = (struct helper){ .ctx = r.ctx, .worker = i };
-        CHECK_EQ(pthread_create(&helper[i].thread, NULL, help, &helper[i]), 0);
-    }
-    for (int i = 0; i < 2; i++) {
-        struct scene s;
-        make_scene(&s, 0.1 * i, method);
-        make_points(point, 0.1 * i);
-        s.frame.overlay = with ? &overlay : NULL;
-        s.frame.target = SMEAR_BALANCED;
-        free(picture);
-        picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-    }
-    for (int i = 1; i < desc->workers; i++)
-        pthread_join(helper[i].thread, NULL);
-    CHECK(guards_intact(&r));
-    rig_end(&r);
-    return picture;
-}
 
 static int differing(const uint8_t *a, const uint8_t *b)
 {
@@ -214,32 +168,6 @@ static int differing(const uint8_t *a, const uint8_t *b)
     for (int i = 0; i < PIXELS; i++)
         n += memcmp(a + 4 * i, b + 4 * i, 4) != 0;
     return n;
-}
-
-static void test_points_are_the_same_in_bands_parts_and_with_workers(void)
-{
-    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++) {
-        smear_desc desc = desc_of();
-        uint8_t *want = picture_of(&desc, method, true), *without = picture_of(&desc, method, false);
-        if (want != NULL && without != NULL)
-            CHECK(differing(want, without) > (method == SMEAR_NONE ? 20 : 200));
-        for (int i = 0; i < 3; i++) {
-            smear_desc other = desc_of();
-            if (i == 0)
-                other.workers = 3, other.idle = yield;
-            if (i == 1)
-                other.max_triangles = 40;
-            if (i == 2)
-                other.bands = 2;
-            if (i == 1 && method == SMEAR_TIMEMASK)
-                continue;
-            uint8_t *got = picture_of(&other, method, true);
-            CHECK(want != NULL && got != NULL && memcmp(want, got, PIXELS * 4) == 0);
-            free(got);
-        }
-        free(want);
-        free(without);
-    }
 }
 
 /* Where nothing else moves, all methods draw the same streaks over the same picture: with a blended draw or without,
@@ -390,87 +318,10 @@ static void test_a_panel_is_sent_the_tiles_over_which_points_pass(void)
 
 /* ------------------------------------------------------------------ what is refused, and what is not */
 
-static void check_refused(smear_context *ctx, const smear_points *points, const char *field)
-{
-    const smear_overlay overlay = { NULL, 0, points };
-    struct scene s;
-    make_scene(&s, 0, SMEAR_NONE);
-    s.frame.overlay = &overlay;
-    const int result = smear_begin(ctx, &s.frame);
-    CHECK_EQ(smear_error_kind(result), SMEAR_ERR_ARG);
-    CHECK(strstr(smear_error_text(result), field) == smear_error_text(result));
-}
-
-static void test_the_text_of_a_bad_point_names_the_field(void)
-{
-    struct rig r;
-    const smear_desc desc = small_desc(32, 32);
-    if (rig_begin(&r, &desc, false)) {
-        smear_point bad = { .size = -1 };
-        check_refused(r.ctx, &(smear_points){ NULL, 1 }, "overlay.points");
-        check_refused(r.ctx, &(smear_points){ &bad, 1 }, "overlay.point.size");
-        bad = (smear_point){ .mode = SMEAR_POINT_BLEND + 1 };
-        check_refused(r.ctx, &(smear_points){ &bad, 1 }, "overlay.point.mode");
-    }
-    rig_end(&r);
-}
-
-static void test_rows_of_another_renderer_have_no_points(void)
-{
-    struct rig r;
-    const smear_desc desc = { .width = 32, .height = 32, .methods = SMEAR_SET(SMEAR_RECONSTRUCT) };
-    const smear_camera eye = camera();
-    const smear_points points = { NULL, 0 };
-    const smear_overlay overlay = { NULL, 0, &points };
-    const smear_frame frame = { .camera = &eye, .method = SMEAR_RECONSTRUCT, .overlay = &overlay };
-    if (rig_begin(&r, &desc, false))
-        CHECK(strstr(smear_error_text(smear_filter_begin(r.ctx, &frame)), "overlay.points") != NULL);
-    rig_end(&r);
-}
-
-/* Places, sizes and motion of any bits: no fault, and nothing beyond the frame. */
-static void test_points_anywhere_are_drawn_or_left_out(void)
-{
-    random_state = 3;
-    struct rig r;
-    const smear_desc desc = desc_of();
-    if (rig_begin(&r, &desc, false))
-        for (int i = 0; i < 300; i++) {
-            smear_point point[POINTS];
-            const smear_points points = { point, POINTS };
-            const smear_overlay overlay = { NULL, 0, &points };
-            struct scene s;
-            make_scene(&s, 0.1 * (i % 7), SMEAR_NONE + i % (SMEAR_METHOD_COUNT - SMEAR_NONE));
-            for (int k = 0; k < POINTS; k++) {
-                const int bits = i % 3 == 0 ? 0 : between(0, 24);
-                point[k] = (smear_point){ .size = (int32_t)(random_u32() >> 1) >> bits, .color = { 255, 255, 255 },
-                                          .mode = (uint8_t)(k & 1) };
-                for (int j = 0; j < 3; j++) {
-                    point[k].now[j] = (int32_t)random_u32() >> bits;
-                    point[k].before[j] = (int32_t)random_u32() >> bits;
-                }
-            }
-            s.frame.overlay = &overlay;
-            if (i % 11 == 0) {
-                s.camera.focal = 0;
-                s.camera.half_height = 3 << 16;
-                s.camera.far_plane = 100 << 16;
-            }
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            rig_forget_output(&r);
-        }
-    CHECK(guards_intact(&r));
-    rig_end(&r);
-}
-
 void suite_points(void)
 {
     RUN(test_streaks_are_those_of_many_instants);
-    RUN(test_points_are_the_same_in_bands_parts_and_with_workers);
     RUN(test_all_methods_draw_the_same_streaks);
     RUN(test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposure);
     RUN(test_a_panel_is_sent_the_tiles_over_which_points_pass);
-    RUN(test_the_text_of_a_bad_point_names_the_field);
-    RUN(test_rows_of_another_renderer_have_no_points);
-    RUN(test_points_anywhere_are_drawn_or_left_out);
 }
