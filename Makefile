@@ -342,6 +342,16 @@ VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
 
+# What runs the tests of a file, which its last line includes.
+SUITE_LISTS := $(ALL_SUITES:%=build/suites/%.h)
+build/suites/%.h: tests/unit/test_%.c tests/suites.awk
+	@mkdir -p $(@D)
+	awk -v suite=$* -f tests/suites.awk $< > $@
+build/suites/%.h: tests/suite/test_%.c tests/suites.awk
+	@mkdir -p $(@D)
+	awk -v suite=$* -f tests/suites.awk $< > $@
+$(sort $(call objects,$(TEST_SRC))): | $(SUITE_LISTS)
+
 $(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): $(wildcard tests/unit/test_*.c tests/suite/test_*.c)
@@ -491,7 +501,7 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' README.md | cmp - build/methods.md || \
 	    { echo "README.md: the memory of methods is another: make readme-figures" >&2; exit 1; }
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md tests/README.md include/README.md -h | sort -u); do \
-	    grep -q "RUN($$name);" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
+	    grep -q "static void $$name(void)" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 
 $(BUILD)/readme.c: README.md
 	@mkdir -p $(@D)

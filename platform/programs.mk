@@ -35,6 +35,8 @@ BENCH_OBJ   := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_bench.o $(BUILD)/plat
 UNIT_OBJ    := $(PROGRAM_OBJ) $(BUILD)/tests/target/target_unit.o $(BUILD)/tests/test.o $(BUILD)/tests/random.o $(BUILD)/tests/unit/store.o \
                $(UNIT_SUITES:%=$(BUILD)/tests/unit/test_%.o) $(KERNEL_TESTS:%.c=$(BUILD)/%.o)
 
+$(UNIT_SUITES:%=$(BUILD)/tests/unit/test_%.o): | $(SUITE_LISTS)
+
 # Its table of specs leaves out what is zero.
 build/host/tests/target/target_tapes.o: CFLAGS += -Wno-missing-field-initializers
 build/host/tests/target/target_tapes.o: HOST_CFLAGS += -Wno-missing-field-initializers

@@ -5,7 +5,8 @@
 # its own room and of rooms below it, and nothing includes itself by way of others. The public headers include nothing
 # but each other. An include names a file from the root, from src/, from include/, or beside the file that includes it.
 # src/kernels/bind.h lies below all rooms; no file of src/ but kernels asks the preprocessor for a CPU or for small code.
-# What includes headers of other libraries (platform/examples, examples of tools/dist, and stand-ins for these) is in no room.
+# What includes headers of other libraries (platform/examples, examples of tools/dist, and stand-ins for these) and what is made in build/
+# is in no room.
 # With --order it prints the files instead, each after all that it includes: headers first, then sources.
 set -u
 mode=check
@@ -74,7 +75,7 @@ awk -v rooms="$*" -v mode="$mode" -v names="$(echo $files include/*.h)" '
             known[list[i]] = 1
     }
     FNR == 1 { files[++file_count] = FILENAME }
-    match($0, /^#include "[^"]*"/) {
+    match($0, /^#include "[^"]*"/) && !/"build\// {
         header = substr($0, 11, RLENGTH - 11)
         place = place_of(header, FILENAME)
         if (place == "")

@@ -15,8 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-void suite_apart(void);
-
 enum { OUTPUTS = 4, PATH = 512, MOST_NAMES = 64 };
 
 /* ------------------------------------------------------------------ a folder of links */
@@ -211,8 +209,4 @@ static void test_patterns_of_a_billion_frames_are_compared(void)
     CHECK_EQ(status_quietly(list, 2), STATUS_OK);
 }
 
-void suite_apart(void)
-{
-    RUN(test_outputs_that_are_one_file_are_found);
-    RUN(test_patterns_of_a_billion_frames_are_compared);
-}
+#include "build/suites/apart.h"

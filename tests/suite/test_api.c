@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_api(void);
-
 /* ------------------------------------------------------------------ memory */
 
 static void test_memory_must_exist_and_be_aligned(void)
@@ -1651,47 +1649,4 @@ static void test_the_filter_refuses_what_it_cannot_do(void)
     rig_end(&r);
 }
 
-void suite_api(void)
-{
-    RUN(test_memory_must_exist_and_be_aligned);
-    RUN(test_zero_fields_of_a_desc_mean_the_documented_defaults);
-    RUN(test_a_frame_begun_again_is_forgotten);
-    RUN(test_what_is_submitted_may_change_before_it_is_drawn);
-    RUN(test_statistics_say_how_full_each_list_was);
-    RUN(test_draws_beyond_the_limit_are_refused_and_not_drawn);
-    RUN(test_a_row_that_does_not_fit_is_the_same_picture_by_every_method);
-    RUN(test_slivers_that_the_near_plane_cuts_are_drawn_without_harm);
-    RUN(test_an_index_out_of_range_drops_its_triangle_only);
-    RUN(test_meshes_without_triangles_or_vertices_draw_nothing);
-    RUN(test_a_scene_far_from_the_origin_gives_the_same_bits);
-    RUN(test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else);
-    RUN(test_two_bands_are_sent_by_another_thread_while_drawing_goes_on);
-    RUN(test_a_known_draw_moves_and_unknown_ones_stand_still);
-    RUN(test_a_cut_of_the_camera_stops_everything_for_one_frame);
-    RUN(test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own);
-    RUN(test_the_camera_moves_what_has_no_motion_of_its_own);
-    RUN(test_motion_none_writes_zero_over_what_moves_behind_it);
-    RUN(test_given_poses_win_over_kept_ones);
-    RUN(test_shutter_poses_are_scaled_to_a_frame);
-    RUN(test_deformed_meshes_move_vertex_by_vertex);
-    RUN(test_what_was_behind_the_camera_moves_in_the_right_direction);
-    RUN(test_a_still_scene_is_the_same_picture_by_every_method);
-    RUN(test_the_sharp_picture_does_not_depend_on_window_or_bands);
-    RUN(test_a_filtered_picture_does_not_depend_on_the_height_of_bands);
-    RUN(test_statistics_add_up);
-    RUN(test_a_clock_times_the_stages_and_changes_no_pixel);
-    RUN(test_meshes_cut_by_planes_cover_every_pixel_once);
-    RUN(test_accumulation_is_the_mean_of_the_instants_of_the_exposure);
-    RUN(test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure);
-    RUN(test_a_teleport_without_a_cut_streaks_for_one_frame_only);
-    RUN(test_uniform_tiles_take_plain_means_only_when_asked);
-    RUN(test_textures_of_every_size_show_their_texels);
-    RUN(test_the_largest_textures_are_taken);
-    RUN(test_what_is_cut_keeps_its_colours_and_texels);
-    RUN(test_flat_faces_are_lit_by_their_own_plane);
-    RUN(test_vertex_and_face_colours_pass_unlit);
-    RUN(test_tiny_triangles_are_drawn_alike_with_and_without_motion);
-    RUN(test_black_is_zero_and_white_is_all_ones_in_every_format);
-    RUN(test_the_filter_gives_the_bits_of_rendering_the_same_content);
-    RUN(test_the_filter_refuses_what_it_cannot_do);
-}
+#include "build/suites/api.h"

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_assets(void);
-
 enum { WIDTH = 320, HEIGHT = 240 };
 
 static const double coverage_bar = 0.001;       /* of all pixels */
@@ -128,8 +126,4 @@ static void test_every_model_looks_like_the_reference_in_motion(void)
     check_files(true);
 }
 
-void suite_assets(void)
-{
-    RUN(test_every_model_at_hand_looks_like_the_reference);
-    RUN(test_every_model_looks_like_the_reference_in_motion);
-}
+#include "build/suites/assets.h"

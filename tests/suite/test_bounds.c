@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_bounds(void);
-
 enum { WIDTH = 64, HEIGHT = 48, CUBES = 12 };
 
 /* Cubes that fly about, in view and out of it, and through the near plane; whose meshes have bounds, or not. */
@@ -158,10 +156,4 @@ static void test_bounds_are_found(void)
         CHECK_EQ(mesh.bounds[i], 0);
 }
 
-void suite_bounds(void)
-{
-    RUN(test_no_picture_changes_by_any_method);
-    RUN(test_what_is_beyond_one_side_at_all_times_is_left_out);
-    RUN(test_bounds_count_for_nothing_where_positions_differ);
-    RUN(test_bounds_are_found);
-}
+#include "build/suites/bounds.h"

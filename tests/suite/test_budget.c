@@ -5,8 +5,6 @@
 
 #include <stdlib.h>
 
-void suite_budget(void);
-
 enum { CUBES = 3 };
 
 /* Cubes that go by, each faster than the other. */
@@ -90,8 +88,4 @@ static void test_parts_of_a_frame_share_the_budget(void)
     rig_end(&parts);
 }
 
-void suite_budget(void)
-{
-    RUN(test_a_budget_makes_a_frame_as_fine_as_it_may_be);
-    RUN(test_parts_of_a_frame_share_the_budget);
-}
+#include "build/suites/budget.h"

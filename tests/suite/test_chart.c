@@ -12,8 +12,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-void suite_chart(void);
-
 #define FOLDER "build/test"
 
 static struct chart chart;
@@ -453,18 +451,4 @@ static void test_the_truth_is_that_of_the_command_line(void)
     image_free(&exact);
 }
 
-void suite_chart(void)
-{
-    RUN(test_a_point_is_on_the_frontier_unless_one_is_as_cheap_and_as_right);
-    RUN(test_means_are_geometric_and_over_whole_groups_only);
-    RUN(test_a_peer_is_measured_by_the_sharp_frame);
-    RUN(test_takes_have_numbers_of_their_own);
-    RUN(test_a_chart_that_meets_all_bars_meets_them);
-    RUN(test_every_bar_can_be_missed);
-    RUN(test_what_is_not_measured_is_neither_met_nor_missed);
-    RUN(test_a_file_brings_back_what_was_written);
-    RUN(test_a_spoilt_file_is_refused_with_its_line);
-    RUN(test_labels_keep_off_each_other_and_inside);
-    RUN(test_pictures_are_well_formed_and_show_every_method_once);
-    RUN(test_the_truth_is_that_of_the_command_line);
-}
+#include "build/suites/chart.h"

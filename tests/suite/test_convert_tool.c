@@ -16,8 +16,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-void suite_convert_tool(void);
-
 #include "tests/data/arm_blob.h"
 
 enum { WIDTH = 320, HEIGHT = 240 };
@@ -1107,26 +1105,4 @@ static void test_triangles_are_ordered_for_the_vertex_cache(void)
     pile_free(pile);
 }
 
-void suite_convert_tool(void)
-{
-    RUN(test_functions_of_our_own_are_those_of_the_maths_library);
-    RUN(test_clips_are_seen_as_the_model_poses_them);
-    RUN(test_triangles_are_ordered_for_the_vertex_cache);
-    RUN(test_pictures_shrink_in_linear_light);
-    RUN(test_mipmaps_are_halved_in_linear_light);
-    RUN(test_palettes_serve_their_picture);
-    RUN(test_the_header_and_the_blob_in_the_tests_are_what_the_tool_writes);
-    RUN(test_every_file_converts_and_its_blob_plays_the_same);
-    RUN(test_scale_and_up_axis_reach_the_vertices);
-    RUN(test_fit_makes_the_largest_extent_so_long);
-    RUN(test_textures_come_in_every_form);
-    RUN(test_nodes_that_stand_still_go_into_the_vertices_unless_kept);
-    RUN(test_clips_and_normals_can_be_left_out);
-    RUN(test_fewer_keys_for_a_larger_error);
-    RUN(test_what_cannot_be_converted_is_refused_with_a_reason);
-    RUN(test_every_kind_of_damage_has_its_reason);
-    RUN(test_arrays_that_many_records_share_do_not_cost_time);
-    RUN(test_a_blob_with_a_wrong_byte_anywhere_is_refused_or_harmless);
-    RUN(test_headers_of_other_textures_compile);
-    RUN(test_what_is_played_looks_like_the_file);
-}
+#include "build/suites/convert_tool.h"

@@ -47,8 +47,4 @@ static void test_none_covers_it_more_than_once(void)
     CHECK(cover_of(huge, 64, false, 3) > 3.0 && cover_of(huge, 64, false, 3) < 6.0);    /* it stops there */
 }
 
-void suite_cover(void)
-{
-    RUN(test_a_triangle_covers_its_part_of_the_picture);
-    RUN(test_none_covers_it_more_than_once);
-}
+#include "build/suites/cover.h"

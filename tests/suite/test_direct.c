@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_direct(void);
-
 enum { WIDTH = 150, HEIGHT = 110, PIXELS = WIDTH * HEIGHT };
 
 static int keep(void *user, const smear_band *band)
@@ -156,12 +154,4 @@ static void test_texels_of_the_display_stay(void)
     CHECK_EQ(differ, 0);
 }
 
-void suite_direct(void)
-{
-    RUN(test_every_kind_of_span);
-    RUN(test_either_byte_order);
-    RUN(test_a_frame_in_parts);
-    RUN(test_rows_through_the_window_among_others);
-    RUN(test_only_where_nothing_is_rounded_twice);
-    RUN(test_texels_of_the_display_stay);
-}
+#include "build/suites/direct.h"

@@ -198,11 +198,4 @@ static void test_diffusion_is_refused_where_it_cannot_be(void)
     }
 }
 
-void suite_doubled(void)
-{
-    RUN(test_every_format_is_doubled);
-    RUN(test_pictures_of_every_method_are_doubled);
-    RUN(test_bands_of_any_height_are_doubled);
-    RUN(test_a_display_that_keeps_its_picture_is_doubled);
-    RUN(test_diffusion_is_refused_where_it_cannot_be);
-}
+#include "build/suites/doubled.h"

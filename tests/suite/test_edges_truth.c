@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_edges_truth(void);
-
 enum { SIZE = 120, INSTANTS = 24 };
 
 static uint8_t display[SIZE * SIZE * 4];
@@ -129,7 +127,4 @@ static void test_errors_halve(void)
         check_scene(&seen[i]);
 }
 
-void suite_edges_truth(void)
-{
-    RUN(test_errors_halve);
-}
+#include "build/suites/edges_truth.h"

@@ -497,23 +497,4 @@ static void test_impossible_filters_fail(void)
     CHECK(filter_ref(&s.in, s.code, &f));
 }
 
-void suite_filter_ref(void);
-void suite_filter_ref(void)
-{
-    RUN(test_a_still_picture_stays_as_it_is);
-    RUN(test_one_colour_stays_that_colour_whatever_moves);
-    RUN(test_a_pan_is_the_sum_of_its_taps);
-    RUN(test_a_pair_of_taps_is_weighed_by_depth_speed_and_order);
-    RUN(test_the_outer_pair_takes_the_tile_s_direction_the_inner_its_own);
-    RUN(test_the_tile_is_looked_up_a_quarter_tile_away);
-    RUN(test_samples_beyond_half_the_length_change_nothing);
-    RUN(test_a_fence_keeps_a_still_bar_and_blurs_what_moves_behind);
-    RUN(test_a_moving_bar_spreads_by_its_own_length);
-    RUN(test_tile_maximum_is_exact_and_keeps_the_first_of_equals);
-    RUN(test_neighbour_maximum_prefers_the_centre_and_skips_turned_away_corners);
-    RUN(test_direction_rules_agree_on_a_pan);
-    RUN(test_direction_of_a_still_pixel_is_across_the_motion);
-    RUN(test_velocity_is_packed_as_half_the_exposure_within_reach);
-    RUN(test_noise_is_spread_evenly);
-    RUN(test_impossible_filters_fail);
-}
+#include "build/suites/filter_ref.h"

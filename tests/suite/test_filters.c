@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_filters(void);
-
 /* ------------------------------------------------------------------ taps of passes */
 
 /* In 2^-20 of the reach. */
@@ -511,20 +509,4 @@ static void test_scatter_goes_with_filters_alone(void)
     CHECK_EQ((int64_t)smear_memory_size(&desc), 0);
 }
 
-void suite_filters(void)
-{
-    RUN(test_no_tap_of_a_pass_lies_beyond_the_reach);
-    RUN(test_scatter_goes_with_filters_alone);
-    RUN(test_even_passes_are_a_box_and_the_original_is_a_comb);
-    RUN(test_the_depth_mask_keeps_what_is_in_front_from_bleeding);
-    RUN(test_short_streaks_end_at_the_frames_side);
-    RUN(test_silhouettes_spread_where_that_is_asked_for);
-    RUN(test_still_pictures_pass_every_filter_unchanged);
-    RUN(test_half_size_keeps_the_detail_of_what_it_does_not_touch);
-    RUN(test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64);
-    RUN(test_scattered_maxima_carry_streaks_over_several_tiles);
-    RUN(test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts);
-    RUN(test_frames_of_any_size_are_drawn_by_every_filter);
-    RUN(test_room_for_filters_goes_with_the_methods_that_need_it);
-    RUN(test_camera_velocity_from_depth_is_that_of_vertices);
-}
+#include "build/suites/filters.h"

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_fog(void);
-
 enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FOG = 0xa0b4c8, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
 
 static const double fog_near = 2.5, fog_far = 6.5;
@@ -332,11 +330,4 @@ static void test_walls_that_recede_have_their_fog(void)
 
 /* ------------------------------------------------------------------ what is refused */
 
-void suite_fog(void)
-{
-    RUN(test_each_pixel_has_the_fog_of_its_depth);
-    RUN(test_what_lies_beyond_is_left_out);
-    RUN(test_what_is_nearer_than_fog_stays_as_it_is);
-    RUN(test_tiny_triangles_with_texels_have_their_fog);
-    RUN(test_walls_that_recede_have_their_fog);
-}
+#include "build/suites/fog.h"

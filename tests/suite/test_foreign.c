@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_foreign(void);
-
 static int files_of_each(void)
 {
     const char *asked = getenv("FOREIGN_FILES");
@@ -705,14 +703,4 @@ static void test_materials_mean_what_their_writers_meant(void)
     }
 }
 
-void suite_foreign(void)
-{
-    RUN(test_extensions_are_read_or_named_or_refused);
-    RUN(test_what_lies_in_an_extension_alone_is_refused_by_its_name);
-    RUN(test_each_instance_is_drawn_and_moves_with_its_node);
-    RUN(test_instances_keep_the_morph_weights_of_their_mesh);
-    RUN(test_the_diffuse_part_of_specular_and_glossiness_is_the_base_colour);
-    RUN(test_obj_is_drawn_but_for_what_is_no_face);
-    RUN(test_a_face_with_a_normal_that_is_none_is_flat);
-    RUN(test_materials_mean_what_their_writers_meant);
-}
+#include "build/suites/foreign.h"

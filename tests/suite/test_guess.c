@@ -8,8 +8,6 @@
 
 #include <stdio.h>
 
-void suite_guess(void);
-
 /* By trying all: the least of leaving out, adding, changing, and swapping neighbours that are not touched again. */
 static int slowly(const char *a, const char *b)
 {
@@ -74,8 +72,4 @@ static void test_a_slip_in_a_scene_is_understood(void)
     CHECK(nothing.best == NULL);
 }
 
-void suite_guess(void)
-{
-    RUN(test_distances_are_the_least_number_of_slips);
-    RUN(test_a_slip_in_a_scene_is_understood);
-}
+#include "build/suites/guess.h"

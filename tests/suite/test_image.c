@@ -15,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_image(void);
-
 /* --- helpers --- */
 
 static uint32_t random_state = 1;
@@ -2103,50 +2101,4 @@ static void test_pictures_of_other_programs_round_trip(void)
     }
 }
 
-void suite_image(void)
-{
-    RUN(test_crc32_gives_the_published_check_values);
-    RUN(test_adler32_gives_the_published_check_value_and_does_not_overflow);
-    RUN(test_deflate_round_trips_every_small_size_and_many_kinds_of_data);
-    RUN(test_deflate_finds_matches_of_all_lengths_and_distances);
-    RUN(test_deflate_limits_the_length_of_codes);
-    RUN(test_deflate_is_as_small_as_zlib);
-    RUN(test_inflate_reads_streams_made_by_hand);
-    RUN(test_inflate_reads_a_block_with_a_lone_distance_code);
-    RUN(test_inflate_refuses_what_the_format_forbids);
-    RUN(test_inflate_checks_header_checksum_and_end_of_zlib_streams);
-    RUN(test_inflate_agrees_with_a_second_decoder_on_damaged_streams);
-    RUN(test_png_reads_every_colour_type_depth_interlace_and_filter);
-    RUN(test_png_notices_every_changed_byte_and_every_cut);
-    RUN(test_png_survives_damage_under_right_checksums);
-    RUN(test_png_knows_no_other_colour_types_and_depths);
-    RUN(test_png_refuses_sizes_that_are_zero_huge_or_a_lie);
-    RUN(test_png_refuses_chunks_that_are_missing_misplaced_or_malformed);
-    RUN(test_png_skips_what_a_picture_does_not_need);
-    RUN(test_png_round_trips_pictures_of_all_shapes);
-    RUN(test_png_is_small);
-    RUN(test_ppm_reads_text_and_binary_of_every_depth);
-    RUN(test_ppm_refuses_what_is_not_a_picture);
-    RUN(test_ppm_round_trips_colours_and_drops_alpha);
-    RUN(test_pfm_reads_both_byte_orders_bottom_row_first);
-    RUN(test_pfm_round_trips_every_bit_pattern);
-    RUN(test_pfm_refuses_what_is_not_a_picture);
-    RUN(test_pictures_start_opaque_black_or_zero_and_have_sane_sizes);
-    RUN(test_files_round_trip_and_end_in_a_zero);
-    RUN(test_files_that_cannot_be_read_or_written_leave_nothing);
-    RUN(test_pictures_are_saved_and_loaded_by_content);
-    RUN(test_difference_is_scaled_and_clamped_per_channel);
-    RUN(test_gif_is_exact_for_up_to_256_colours);
-    RUN(test_gif_ends_its_data_at_any_length);
-    RUN(test_gif_has_room_for_transparency_beside_256_new_colours);
-    RUN(test_animations_hold_only_the_rectangle_that_changes);
-    RUN(test_gif_dithers_smooth_pictures_close_to_the_original);
-    RUN(test_gif_leaves_unchanged_pixels_of_dithered_frames_alone);
-    RUN(test_gif_catches_up_when_few_colours_follow_many);
-    RUN(test_gif_shows_translucent_pixels_on_black);
-    RUN(test_animation_delays_add_up);
-    RUN(test_apng_is_exact_with_and_without_alpha);
-    RUN(test_apng_is_a_still_of_its_first_frame_to_others);
-    RUN(test_animations_that_fail_or_are_cancelled_leave_no_file);
-    RUN(test_pictures_of_other_programs_round_trip);
-}
+#include "build/suites/image.h"

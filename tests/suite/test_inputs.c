@@ -10,8 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-void suite_inputs(void);
-
 enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 
 /* ------------------------------------------------------------------ fields */
@@ -354,9 +352,4 @@ static void test_a_kept_window_follows_every_field(void)
     check_inputs(SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_SUBFRAMES), true);
 }
 
-void suite_inputs(void)
-{
-    RUN(test_a_blurred_display_follows_every_field);
-    RUN(test_a_sharp_display_follows_every_field);
-    RUN(test_a_kept_window_follows_every_field);
-}
+#include "build/suites/inputs.h"

@@ -14,8 +14,6 @@
 #include <sys/resource.h>
 #include <time.h>
 
-void suite_jpeg(void);
-
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* ---------------------------------------------------------------------- files of all kinds */
@@ -342,13 +340,4 @@ static void test_jpeg_bounds_the_scans_of_a_picture(void)
     buffer_free(&b);
 }
 
-void suite_jpeg(void)
-{
-    RUN(test_jpeg_reads_every_sampling_order_of_scans_and_code);
-    RUN(test_jpeg_notices_every_cut);
-    RUN(test_jpeg_shows_what_libjpeg_does);
-    RUN(test_jpeg_survives_damage);
-    RUN(test_jpeg_names_what_it_does_not_read);
-    RUN(test_jpeg_refuses_what_no_file_can_mean);
-    RUN(test_jpeg_bounds_the_scans_of_a_picture);
-}
+#include "build/suites/jpeg.h"

@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_jumps(void);
-
 /* ------------------------------------------------------------------ files */
 
 enum { CORNERS = 8, VERTICES = 14, INDICES = 42, TARGETS = 2, MOST_NODES = 6, MOST_KEYS = 8, WIDTH = 320, HEIGHT = 240 };
@@ -765,11 +763,4 @@ static void test_an_actor_jumps_as_the_file_does(void)
     }
 }
 
-void suite_jumps(void)
-{
-    RUN(test_held_keys_jump_without_a_path);
-    RUN(test_a_frame_in_which_all_jumps_is_sharp);
-    RUN(test_motion_without_jumps_is_posed_as_ever);
-    RUN(test_motion_goes_on_beyond_a_jump_as_on_its_near_side);
-    RUN(test_an_actor_jumps_as_the_file_does);
-}
+#include "build/suites/jumps.h"

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_layers(void);
-
 /* ------------------------------------------------------------------ takes of the suite */
 
 static struct take take_of(const char *scene, smear_method method, int samples)
@@ -896,33 +894,4 @@ static void test_memory_of_layers_is_small(void)
     CHECK(need > 0 && need <= 209u * 1024u);
 }
 
-void suite_layers(void)
-{
-    RUN(test_a_streak_is_a_ramp_over_the_way);
-    RUN(test_what_enters_the_frame_is_blurred_as_within_it);
-    RUN(test_pixels_that_no_streak_passes_are_those_of_none);
-    RUN(test_a_frame_in_which_nothing_moves_is_that_of_none);
-    RUN(test_a_fence_before_a_mover_keeps_its_pixels);
-    RUN(test_two_movers_each_have_their_way_and_their_depth);
-    RUN(test_movers_out_of_view_change_nothing);
-    RUN(test_movers_of_several_fills_count_once);
-    RUN(test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel);
-    RUN(test_parts_of_one_thing_are_blurred_as_one);
-    RUN(test_what_turns_is_blurred_by_its_pixels);
-    RUN(test_what_turns_behind_a_mover_does_not_hide_it);
-    RUN(test_no_halo_lies_around_what_is_before_a_fast_wall);
-    RUN(test_only_masked_draws_are_blurred);
-    RUN(test_a_layer_has_its_own_shutter);
-    RUN(test_a_layer_has_its_own_method);
-    RUN(test_a_layer_with_its_own_camera_stays_sharp_over_the_view);
-    RUN(test_a_layers_camera_blurs_what_stands_still);
-    RUN(test_cameras_of_two_kinds_are_as_a_camera_that_stands);
-    RUN(test_a_layer_may_lie_over_all);
-    RUN(test_a_plain_layer_has_no_dark_fringe);
-    RUN(test_the_first_frame_and_cuts_have_no_motion);
-    RUN(test_blended_draws_are_over_the_blur_and_behind_movers);
-    RUN(test_bad_layers_are_refused);
-    RUN(test_memory_of_layers_is_small);
-    RUN(test_object_is_within_1_8_codes_of_the_truth);
-    RUN(test_layered_errs_two_thirds_of_reconstruct);
-}
+#include "build/suites/layers.h"

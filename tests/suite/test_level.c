@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_level(void);
-
 #if SMEAR_FIND_FLAT
 
 /* ------------------------------------------------------------------ a ball of facets */
@@ -261,13 +259,4 @@ static void test_only_opaque_draws_are_level(void)
 
 #endif
 
-void suite_level(void)
-{
-#if SMEAR_FIND_FLAT
-    RUN(test_a_mesh_is_level_where_every_facet_has_one_normal_and_one_colour);
-    RUN(test_level_draws_are_to_the_bit_what_their_vertices_give);
-    RUN(test_level_draws_seen_from_behind_are_what_their_vertices_give);
-    RUN(test_level_draws_find_as_much_room_as_others);
-    RUN(test_only_opaque_draws_are_level);
-#endif
-}
+#include "build/suites/level.h"

@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-void suite_memory(void);
-
 static uint32_t random_state = 1;
 
 static int pick(int low, int high)
@@ -159,11 +157,4 @@ static void test_small_settings_stay_small(void)
     CHECK(smear_memory_size(&sharp) <= 45u * 1024u);
 }
 
-void suite_memory(void)
-{
-    RUN(test_the_macro_is_enough_for_usual_descs_and_at_most_a_fiftieth_more);
-    RUN(test_bands_and_workers_take_what_their_macros_say);
-    RUN(test_the_macro_is_enough_for_the_methods_that_are_drawn_alike);
-    RUN(test_too_little_memory_is_refused_with_the_bytes_that_are_enough);
-    RUN(test_small_settings_stay_small);
-}
+#include "build/suites/memory.h"

@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_metrics(void);
-
 static uint32_t random_state = 1;
 
 static uint32_t random_bits(void)
@@ -446,17 +444,4 @@ static void test_pictures_that_cannot_be_compared_are_refused(void)
     image_free(&b);
 }
 
-void suite_metrics(void)
-{
-    RUN(test_equal_pictures_have_no_distance);
-    RUN(test_alpha_is_not_compared);
-    RUN(test_rmse_and_psnr_by_hand);
-    RUN(test_ssim_of_plain_pictures_by_hand);
-    RUN(test_ssim_equals_the_direct_definition);
-    RUN(test_flip_of_plain_pictures_is_their_colour_difference);
-    RUN(test_flip_equals_the_direct_definition);
-    RUN(test_wide_pictures_alike_but_for_dots_equal_the_direct_definitions);
-    RUN(test_flip_of_tiny_pictures_and_extreme_densities_is_in_range);
-    RUN(test_fine_noise_weighs_less_from_afar);
-    RUN(test_pictures_that_cannot_be_compared_are_refused);
-}
+#include "build/suites/metrics.h"

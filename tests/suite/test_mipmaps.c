@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_mipmaps(void);
-
 enum { EDGE = 64, LEVELS = 6, TEXELS = (4 * EDGE * EDGE - 1) / 3 };
 
 static const uint32_t level_color[LEVELS + 1] = { 0xff0000, 0x00ff00, 0x0000ff, 0xffff00, 0xff00ff, 0x00ffff, 0xffffff };
@@ -126,8 +124,4 @@ static void test_levels_that_cannot_be_are_refused(void)
     rig_end(&r);
 }
 
-void suite_mipmaps(void)
-{
-    RUN(test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels);
-    RUN(test_levels_that_cannot_be_are_refused);
-}
+#include "build/suites/mipmaps.h"

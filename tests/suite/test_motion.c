@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-void suite_motion(void);
 void say(const char *format, ...);      /* accuracy.h, whose scenes are others */
 
 /* ------------------------------------------------------------------ a small stage */
@@ -659,21 +658,4 @@ static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
     rig_end(&r);
 }
 
-void suite_motion(void)
-{
-    RUN(test_motion_none_writes_zero_over_what_moves_behind);
-    RUN(test_motion_camera_leaves_the_objects_own_motion_out);
-    RUN(test_only_draws_that_move_themselves_have_velocities_of_vertices);
-    RUN(test_a_cutout_cuts_velocity_and_a_blended_draw_writes_none);
-    RUN(test_a_zoom_moves_all_but_the_middle);
-    RUN(test_vertex_animation_takes_previous_positions_and_another_count_is_rigid);
-    RUN(test_billboards_turn_with_the_camera_of_each_pose);
-    RUN(test_upright_billboards_stay_upright);
-    RUN(test_what_is_still_to_the_eye_is_the_sharp_frames_bit_for_bit);
-    RUN(test_the_blur_ends_in_the_frame_in_which_motion_ends);
-    RUN(test_rotation_translation_and_objects_scale_apart);
-    RUN(test_deformation_scales_with_objects);
-    RUN(test_vertices_follow_the_curve_of_three_poses);
-    RUN(test_fixed_shutters_keep_the_length_of_streaks);
-    RUN(test_the_exposure_of_a_fixed_shutter_is_exact);
-}
+#include "build/suites/motion.h"

@@ -6,8 +6,6 @@
 
 #include <stdlib.h>
 
-void suite_near(void);
-
 enum { WIDTH = 120, HEIGHT = 80, BYTES = WIDTH * HEIGHT * 4 };
 
 /* A floor from behind the eye to the horizon, and a stripe on it: 1/64 unit per step. */
@@ -86,8 +84,4 @@ static void test_a_stripe_on_a_floor_that_the_near_plane_cuts_in_the_frame_is_se
     check_stripe(1.8, 40);
 }
 
-void suite_near(void)
-{
-    RUN(test_a_stripe_on_a_floor_that_the_near_plane_cuts_below_the_frame_is_seen);
-    RUN(test_a_stripe_on_a_floor_that_the_near_plane_cuts_in_the_frame_is_seen);
-}
+#include "build/suites/near.h"

@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_near_sweep(void);
-
 enum { PIXELS_MAX = 160 * 120, BYTES_MAX = PIXELS_MAX * 4, SIDE_MAX = 64, VERTICES_MAX = (SIDE_MAX + 1) * (SIDE_MAX + 1), DRAWS = 4 };
 
 /* A case: lengths in units, speed in units per second, angles in degrees. */
@@ -359,8 +357,4 @@ static void test_cubes_that_pass_are_as_exact_instants_show_them(void)
     }
 }
 
-void suite_near_sweep(void)
-{
-    RUN(test_endless_surfaces_look_the_same_however_fast_the_camera_goes);
-    RUN(test_cubes_that_pass_are_as_exact_instants_show_them);
-}
+#include "build/suites/near_sweep.h"

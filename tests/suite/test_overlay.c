@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_overlay(void);
-
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, ITEMS = 11 };
 
 /* ------------------------------------------------------------------ items of every kind */
@@ -265,10 +263,4 @@ static void test_a_panel_is_sent_the_tiles_over_which_something_else_lies(void)
 
 /* ------------------------------------------------------------------ what is refused */
 
-void suite_overlay(void)
-{
-    RUN(test_items_lie_over_the_picture_of_every_method);
-    RUN(test_items_are_converted_as_the_picture_is);
-    RUN(test_frames_of_the_displays_own_pixels_have_items);
-    RUN(test_a_panel_is_sent_the_tiles_over_which_something_else_lies);
-}
+#include "build/suites/overlay.h"

@@ -15,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_points(void);
-
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 24 };
 
 static const uint16_t all_methods = SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET_FILTERS | SMEAR_SET(SMEAR_NONE)
@@ -318,10 +316,4 @@ static void test_a_panel_is_sent_the_tiles_over_which_points_pass(void)
 
 /* ------------------------------------------------------------------ what is refused, and what is not */
 
-void suite_points(void)
-{
-    RUN(test_streaks_are_those_of_many_instants);
-    RUN(test_all_methods_draw_the_same_streaks);
-    RUN(test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposure);
-    RUN(test_a_panel_is_sent_the_tiles_over_which_points_pass);
-}
+#include "build/suites/points.h"

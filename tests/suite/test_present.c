@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_present(void);
-
 /* ------------------------------------------------------------------ a scene that tests fill in */
 
 enum { MAX_DRAWS = 4, MAX_POSES = 16 };
@@ -880,29 +878,4 @@ static void test_exact_means_are_of_light_or_of_codes(void)
     check_mean(SMEAR_LIGHT_ENCODED, 128);
 }
 
-void suite_present(void)
-{
-    RUN(test_vertices_arrive_where_they_are);
-    RUN(test_scenes_of_any_size_arrive);
-    RUN(test_scenes_far_from_the_origin_arrive);
-    RUN(test_small_things_far_from_their_own_origin_arrive);
-    RUN(test_stretched_and_mirrored_draws_arrive);
-    RUN(test_a_point_of_a_mesh_arrives);
-    RUN(test_orthographic_cameras_arrive);
-    RUN(test_rotations_keep_their_scale);
-    RUN(test_the_whole_range_of_int16_is_used);
-    RUN(test_surfaces_of_a_node_share_their_grid);
-    RUN(test_deformed_poses_share_their_grid);
-    RUN(test_depth_codes_become_scene_units);
-    RUN(test_repeats_move_until_texels_are_resolved);
-    RUN(test_large_surfaces_are_split_without_loss);
-    RUN(test_srgb_is_rounded_to_nearest);
-    RUN(test_materials_keep_what_they_mean);
-    RUN(test_colours_follow_their_vertices_and_faces);
-    RUN(test_other_poses_are_taken_at_the_right_times);
-    RUN(test_cuts_leave_no_other_pose);
-    RUN(test_motion_modes_reach_their_draws);
-    RUN(test_kept_poses_equal_given_ones);
-    RUN(test_what_does_not_fit_is_refused);
-    RUN(test_exact_means_are_of_light_or_of_codes);
-}
+#include "build/suites/present.h"

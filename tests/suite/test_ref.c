@@ -1045,32 +1045,4 @@ static void test_comparison_finds_each_planted_difference(void)
     ref_frame_free(&frame);
 }
 
-void suite_ref(void);
-void suite_ref(void)
-{
-    RUN(test_pixel_centres_on_edges_follow_the_top_left_rule);
-    RUN(test_neighbouring_triangles_leave_no_gap_and_no_pixel_twice);
-    RUN(test_ground_through_the_eye_plane_is_cut_at_near_and_far);
-    RUN(test_wild_triangles_cover_what_rays_hit);
-    RUN(test_back_faces_are_culled_and_mirrors_turn_the_winding);
-    RUN(test_nearer_wins_and_the_first_of_equals);
-    RUN(test_inverse_depth_is_linear_on_the_screen);
-    RUN(test_velocity_is_the_screen_path_of_the_surface_point);
-    RUN(test_cut_and_masked_draws_move_with_the_camera_only);
-    RUN(test_light_is_a_third_and_a_cosine);
-    RUN(test_normals_follow_the_inverse_transpose_and_the_visible_side);
-    RUN(test_colours_multiply_and_stop_at_one);
-    RUN(test_texels_are_found_under_every_wrap_mode);
-    RUN(test_bilinear_texels_mix_in_the_working_light);
-    RUN(test_texture_coordinates_are_perspective_correct);
-    RUN(test_cutouts_show_what_lies_behind_with_its_depth);
-    RUN(test_blended_draws_mix_after_everything_opaque);
-    RUN(test_half_covered_white_is_188_in_linear_light_and_128_encoded);
-    RUN(test_instants_stand_in_the_middle_of_their_share);
-    RUN(test_the_exposure_lies_before_around_or_after_the_frame);
-    RUN(test_truth_does_not_depend_on_threads);
-    RUN(test_impossible_requests_fail_with_nothing_kept);
-    RUN(test_id_colours_survive_an_error_of_one_code);
-    RUN(test_id_scene_shows_the_triangles_of_the_frame);
-    RUN(test_comparison_finds_each_planted_difference);
-}
+#include "build/suites/ref.h"

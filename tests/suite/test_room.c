@@ -14,8 +14,6 @@
 
 #include <stdlib.h>
 
-void suite_room(void);
-
 enum { WIDTH = 96, HEIGHT = 64, DRAWS = 12, MOST = 20000 };
 
 /* A mesh of its own, of up to MOST triangles. */
@@ -318,9 +316,4 @@ static void test_ranges_leave_out_most_that_is_not(void)
     crowd_free(c);
 }
 
-void suite_room(void)
-{
-    RUN(test_ranges_leave_out_nothing_that_is_seen);
-    RUN(test_ranges_leave_out_most_that_is_not);
-    RUN(test_the_store_is_not_filled_for_each_instant);
-}
+#include "build/suites/room.h"

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_rooms(void);
-
 enum { WIDTH = 120, ROWS = 90, BYTES = WIDTH * ROWS * 4, SIDES = 6, TEXELS = 32, CASES_MAX = 20000 };
 
 enum kind { ORBIT, FALL, TURN, KINDS };
@@ -158,7 +156,4 @@ static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
     CHECK_CLOSE(error[count - 1], 0, 5);
 }
 
-void suite_rooms(void)
-{
-    RUN(test_nine_of_ten_textured_rooms_are_near_the_exact_mean);
-}
+#include "build/suites/rooms.h"

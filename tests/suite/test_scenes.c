@@ -15,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_scenes(void);
-
 #define PI 3.14159265358979323846
 
 /* ------------------------------------------------------------------ scenes at hand */
@@ -780,25 +778,4 @@ static void test_impossible_views_are_refused(void)
     model_free(&model);
 }
 
-void suite_scenes(void)
-{
-    RUN(test_every_scene_of_the_catalogue_can_be_posed_at_any_time);
-    RUN(test_names_are_unique_and_unknown_ones_are_refused);
-    RUN(test_a_pose_depends_on_nothing_but_time);
-    RUN(test_shapes_are_closed_and_face_outward);
-    RUN(test_peer_scenes_give_the_counts_that_every_peer_was_measured_with);
-    RUN(test_peer_colors_are_whole_display_codes);
-    RUN(test_suite_scenes_are_as_hard_as_those_of_the_study);
-    RUN(test_long_has_streaks_of_72_and_92_pixels);
-    RUN(test_subpixel_moves_by_about_half_a_pixel_everywhere);
-    RUN(test_only_the_named_side_moves);
-    RUN(test_teleport_cuts_between_the_last_frame_and_the_exposure);
-    RUN(test_trials_move_fast_but_not_beyond_64_pixels);
-    RUN(test_terrain_and_near_are_cut_by_the_near_plane);
-    RUN(test_demos_repeat_after_60_frames);
-    RUN(test_demos_are_worth_looking_at);
-    RUN(test_the_automatic_camera_is_that_of_the_contract);
-    RUN(test_a_given_eye_looks_where_it_is_told_and_sees_the_scene);
-    RUN(test_cameras_of_the_file_lose_their_scale_but_not_their_view);
-    RUN(test_impossible_views_are_refused);
-}
+#include "build/suites/scenes.h"

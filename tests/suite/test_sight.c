@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_sight(void);
-
 enum place { TRANSPARENT, NEAR, FAR, BESIDE, BACK, FACING, PLACES };
 enum { MOST = 24 };
 
@@ -161,8 +159,4 @@ static void test_a_cube_is_all_front_or_all_back(void)
     }
 }
 
-void suite_sight(void)
-{
-    RUN(test_triangles_are_counted_by_what_hides_them);
-    RUN(test_a_cube_is_all_front_or_all_back);
-}
+#include "build/suites/sight.h"

@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_small(void);
-
 enum { THINGS_MAX = 200, TARGETS = 4, CASES = 48, DISTANCE = 16, TRUTH = 256 };
 
 static const double aimed[TARGETS] = { 8, 4, 1.5, 0.75 };
@@ -222,7 +220,4 @@ static void test_small_things_have_the_error_aimed_at(void)
     CHECK(most <= 3.2);
 }
 
-void suite_small(void)
-{
-    RUN(test_small_things_have_the_error_aimed_at);
-}
+#include "build/suites/small.h"

@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_still(void);
-
 enum { WIDTH = 70, HEIGHT = 52, FLOOR = 0, POST, PANE, MOVER, DRAWS, BYTES = WIDTH * HEIGHT * 4 };
 
 /* A floor and a post, which stand still, as does a pane of glass before them; a cube that goes by between them. */
@@ -723,22 +721,4 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
         }
 }
 
-void suite_still(void)
-{
-    RUN(test_pictures_are_the_same_and_the_still_layer_is_drawn_once);
-    RUN(test_a_change_of_anything_that_stands_still_draws_it_again);
-    RUN(test_what_stops_and_starts_joins_and_leaves);
-    RUN(test_motion_too_small_to_be_seen_is_drawn_in_order);
-    RUN(test_other_methods_and_failures_between_do_no_harm);
-    RUN(test_a_display_is_sent_what_it_does_not_show);
-    RUN(test_narrow_parts_are_drawn_again_below_wide_ones);
-    RUN(test_a_still_frame_sends_nothing_until_it_is_refreshed);
-    RUN(test_what_creeps_is_sent_all_the_same);
-    RUN(test_what_creeps_stays_behind_what_came_before_it);
-    RUN(test_the_display_is_right_after_other_methods_and_failures);
-    RUN(test_a_display_is_sent_what_it_does_not_show_of_sharp_frames);
-    RUN(test_sharp_frames_are_right_whatever_changes);
-    RUN(test_a_mesh_that_deforms_is_sent);
-    RUN(test_cores_assemble_parts_of_what_a_display_is_sent);
-    RUN(test_only_contexts_with_temporal_methods_reuse);
-}
+#include "build/suites/still.h"

@@ -27,8 +27,6 @@
 #include <string.h>
 #include <unistd.h>
 
-void suite_view(void);
-
 /* ------------------------------------------------------------------ layouts */
 
 static const uint32_t mask_888[3] = { 0xff0000, 0xff00, 0xff };
@@ -773,37 +771,4 @@ static void test_boards_have_names_of_their_own(void)
     CHECK(board_find("nothing") == NULL);
 }
 
-void suite_view(void)
-{
-    RUN(test_pixels_are_packed_by_masks_and_byte_order);
-    RUN(test_layouts_that_are_none_are_refused);
-    RUN(test_every_pixel_of_the_panel_is_where_it_is_located);
-    RUN(test_a_turned_panel_is_turned_clockwise);
-    RUN(test_zoom_is_the_largest_that_fits);
-    RUN(test_a_panel_larger_than_the_surface_is_cut_or_shrunk_within_it);
-    RUN(test_the_widest_panel_is_turned);
-    RUN(test_shrinking_keeps_the_mean);
-    RUN(test_a_round_glass_hides_the_corners_only);
-    RUN(test_greys_run_between_the_panels_colours);
-    RUN(test_codes_are_those_of_picture_files);
-    RUN(test_letters_stay_within_the_surface);
-    RUN(test_letters_differ);
-    RUN(test_a_frame_takes_its_time_on_the_wire);
-    RUN(test_the_tear_is_where_reading_and_writing_meet);
-    RUN(test_panels_in_step_do_not_tear);
-    RUN(test_keys_of_terminals_are_known);
-    RUN(test_keys_of_input_devices_are_known);
-    RUN(test_half_a_sequence_waits_for_the_rest);
-    RUN(test_the_pointer_of_terminals_drags_and_scrolls);
-    RUN(test_ctrl_c_closes);
-    RUN(test_wild_bytes_are_taken);
-    RUN(test_recorded_input_is_played);
-    RUN(test_an_unturned_camera_is_the_scenes_own_bit_for_bit);
-    RUN(test_a_turned_camera_looks_at_the_same_point);
-    RUN(test_a_turntable_goes_round);
-    RUN(test_wires_lie_on_what_is_drawn);
-    RUN(test_tiles_are_noted_as_they_are_counted);
-    RUN(test_tiles_that_are_not_sent_are_noted_as_still);
-    RUN(test_the_cookie_of_the_display_is_found);
-    RUN(test_boards_have_names_of_their_own);
-}
+#include "build/suites/view.h"

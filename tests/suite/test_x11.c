@@ -92,11 +92,4 @@ static void test_lists_that_reach_past_the_greeting_are_refused(void)
     CHECK(!connects(bytes, sizeof bytes, &f) && strstr(f.text, "has no screen") != NULL);
 }
 
-void suite_x11(void)
-{
-    RUN(test_servers_of_today_are_understood);
-    RUN(test_rows_that_end_nowhere_are_refused);
-    RUN(test_requests_too_short_for_a_picture_are_refused);
-    RUN(test_windows_wider_than_a_request_are_refused);
-    RUN(test_lists_that_reach_past_the_greeting_are_refused);
-}
+#include "build/suites/x11.h"

@@ -11,8 +11,6 @@
 
 #include <smear.h>
 
-void suite_anim(void);
-
 #define ONE SMEAR_BASIS_ONE
 #define NONE SMEAR_MODEL_NONE
 
@@ -615,28 +613,4 @@ static void test_a_blob_is_played_where_it_lies(void)
     }
 }
 
-void suite_anim(void)
-{
-    RUN(test_at_its_start_a_clip_is_at_its_first_key);
-    RUN(test_a_clip_stops_at_its_last_key);
-    RUN(test_between_keys_values_are_mixed);
-    RUN(test_rotations_stay_rotations);
-    RUN(test_held_keys_change_at_their_time);
-    RUN(test_a_looped_clip_starts_again);
-    RUN(test_an_empty_clip_and_rest_are_the_pose_at_rest);
-    RUN(test_a_model_stands_where_it_is_placed);
-    RUN(test_a_program_moves_a_node_and_what_hangs_on_it);
-    RUN(test_an_actor_keeps_the_frame_before);
-    RUN(test_open_and_close_are_set_alone);
-    RUN(test_held_keys_jump_alone_and_what_moves_moves);
-    RUN(test_an_end_that_does_not_meet_the_start_is_no_path);
-    RUN(test_another_clip_starts_without_a_path_but_for_its_place);
-    RUN(test_wrong_arguments_are_refused);
-    RUN(test_one_joint_moves_a_vertex_rigidly);
-    RUN(test_weighted_joints_agree_with_wide_arithmetic);
-    RUN(test_skinned_normals_turn_and_keep_their_length);
-    RUN(test_morph_targets_add_up);
-    RUN(test_a_converted_model_plays_the_same_everywhere);
-    RUN(test_a_converted_model_is_drawn);
-    RUN(test_a_blob_is_played_where_it_lies);
-}
+#include "build/suites/anim.h"

@@ -8,8 +8,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_arc(void);
-
 enum { ONE = 1 << 24 };
 
 /* ------------------------------------------------------------------ rotations in double */
@@ -348,18 +346,4 @@ static void test_the_result_may_replace_a_pose(void)
     }
 }
 
-void suite_arc(void)
-{
-    RUN(test_poses_between_lie_on_the_arc);
-    RUN(test_small_turns_are_as_exact);
-    RUN(test_turns_go_on_beyond_the_poses);
-    RUN(test_scales_and_mirrors_are_kept);
-    RUN(test_scales_change_linearly_while_it_turns);
-    RUN(test_both_poses_are_met_exactly);
-    RUN(test_nothing_jumps_at_the_poses);
-    RUN(test_cameras_stay_rotations);
-    RUN(test_shears_zeros_and_mirrorings_are_linear);
-    RUN(test_half_turns_go_one_way_or_the_other);
-    RUN(test_wild_poses_do_no_harm);
-    RUN(test_the_result_may_replace_a_pose);
-}
+#include "build/suites/arc.h"

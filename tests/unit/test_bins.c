@@ -6,8 +6,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_bins(void);
-
 enum { ROWS = 12, ROW_PX = 16, POOL_WORDS = 2400, MOST = 200 };
 
 static uint32_t pool[POOL_WORDS];
@@ -190,14 +188,4 @@ static void test_segments_start_at_the_free_word_until_the_table_is_full(void)
     CHECK_EQ(bins.segment_count + bins.vertex_words + bins.triangle_count, 0);
 }
 
-void suite_bins(void)
-{
-    RUN(test_an_empty_store_has_empty_lists);
-    RUN(test_one_row_keeps_the_order_of_submission);
-    RUN(test_lists_keep_the_order_of_submission_over_rows);
-    RUN(test_parts_of_a_frame_hold_their_rows_only);
-    RUN(test_points_are_listed_in_their_row_only);
-    RUN(test_tile_rows_of_pixel_rows_are_exact);
-    RUN(test_room_is_counted_to_the_word);
-    RUN(test_segments_start_at_the_free_word_until_the_table_is_full);
-}
+#include "build/suites/bins.h"

@@ -7,8 +7,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_clip(void);
-
 enum { NEAR_AT = 1 << 12, FAR_AT = 1 << 22 };
 
 static struct smear_depths lens(bool orthographic)
@@ -398,17 +396,4 @@ static void test_a_full_polygon_never_outgrows_its_room(void)
     }
 }
 
-void suite_clip(void)
-{
-    RUN(test_a_full_polygon_never_outgrows_its_room);
-    RUN(test_what_lies_inside_is_left_alone);
-    RUN(test_only_the_planes_named_by_the_codes_cut);
-    RUN(test_what_lies_outside_is_gone);
-    RUN(test_a_corner_cut_off_leaves_four_and_a_corner_left_over_three);
-    RUN(test_a_plane_cuts_at_its_place);
-    RUN(test_other_poses_are_cut_at_the_same_place_of_the_surface);
-    RUN(test_both_triangles_at_an_edge_get_the_same_new_vertices);
-    RUN(test_nothing_is_left_outside);
-    RUN(test_attributes_stay_between_their_corners);
-    RUN(test_a_cut_keeps_the_order_of_the_corners);
-}
+#include "build/suites/clip.h"

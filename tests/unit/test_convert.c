@@ -9,8 +9,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_convert(void);
-
 enum { MOST = 80 };
 
 static uint32_t pixels[MOST];
@@ -441,23 +439,4 @@ static void test_a_diffused_flat_area_has_the_mean_of_its_code(void)
     CHECK_EQ(shown_of(255, SMEAR_L1), 255 * PIXELS);
 }
 
-void suite_convert(void)
-{
-    RUN(test_diffused_bits_are_the_same_in_both_packings);
-    RUN(test_a_frame_diffused_in_bands_is_that_diffused_at_once);
-    RUN(test_a_diffused_flat_area_has_the_mean_of_its_code);
-    RUN(test_undithered_levels_are_the_nearest);
-    RUN(test_32_bit_pixels_pass_in_the_machines_order_without_their_upper_byte);
-    RUN(test_grey_is_the_weighted_mean_of_the_codes);
-    RUN(test_four_bit_grey_packs_the_left_pixel_high);
-    RUN(test_one_bit_rows_pack_the_left_pixel_into_bit_7);
-    RUN(test_pages_pack_eight_rows_with_the_top_one_in_bit_0);
-    RUN(test_pieces_of_a_row_give_the_bytes_of_the_row);
-    RUN(test_sizes_follow_from_width_and_rows);
-    RUN(test_white_and_black_are_exact_under_every_dither);
-    RUN(test_ordered_16_bit_pixels_are_the_formulas_for_all_codes);
-    RUN(test_a_dithered_flat_area_has_the_mean_of_its_code);
-    RUN(test_dither_moves_a_level_by_less_than_one);
-    RUN(test_dither_patterns_repeat_and_hold_every_threshold_alike);
-    RUN(test_the_crc_is_that_of_zlib);
-}
+#include "build/suites/convert.h"

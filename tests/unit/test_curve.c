@@ -12,8 +12,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_curve(void);
-
 enum { ONE = 1 << 24 };
 
 /* ------------------------------------------------------------------ motion in double */
@@ -412,22 +410,4 @@ static void test_the_id_alone_is_kept_where_no_pose_is_given(void)
     CHECK_EQ(smear_history_find(&h, 24), -1);       /* all four places are in use */
 }
 
-void suite_curve(void)
-{
-    RUN(test_a_wheel_turns_about_its_origin);
-    RUN(test_a_blade_beside_its_pivot_goes_along_a_screw);
-    RUN(test_three_poses_tell_the_pivot_of_what_turns_and_goes);
-    RUN(test_three_poses_tell_a_fall);
-    RUN(test_nothing_jumps_where_small_turns_begin);
-    RUN(test_a_rebound_tells_nothing);
-    RUN(test_what_goes_evenly_and_does_not_turn_has_no_curve);
-    RUN(test_poses_are_met_exactly);
-    RUN(test_wild_poses_do_no_harm);
-    RUN(test_a_turn_that_grows_faster_goes_on_so);
-    RUN(test_vertices_bend_where_a_line_nearly_foretells_them);
-    RUN(test_cameras_are_where_the_exposure_asks);
-    RUN(test_two_poses_are_kept_of_each_id);
-    RUN(test_no_curve_leads_over_a_cut);
-    RUN(test_a_frame_without_the_id_forgets_it);
-    RUN(test_the_id_alone_is_kept_where_no_pose_is_given);
-}
+#include "build/suites/curve.h"

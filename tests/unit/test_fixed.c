@@ -35,8 +35,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_fixed(void);
-
 /* Random values of every magnitude: a plain random word is nearly always large. */
 static int32_t random_i32(void)
 {
@@ -160,12 +158,4 @@ static void test_clamps_keep_their_limits(void)
     CHECK_EQ(abs_i32(-INT32_MAX), INT32_MAX);
 }
 
-void suite_fixed(void)
-{
-    RUN(test_high_products_of_extremes_are_exact_in_both_forms);
-    RUN(test_high_products_of_random_values_are_exact_in_both_forms);
-    RUN(test_wrapping_arithmetic_is_modulo_2_to_the_32);
-    RUN(test_scaling_rounds_to_nearest_and_saturates);
-    RUN(test_saturated_values_can_always_be_negated);
-    RUN(test_clamps_keep_their_limits);
-}
+#include "build/suites/fixed.h"

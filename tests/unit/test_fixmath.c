@@ -62,8 +62,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_fixmath(void);
-
 static uint64_t random_u64(void)
 {
     uint64_t word = (uint64_t)random_u32() << 32;
@@ -239,14 +237,4 @@ static void test_short_roots_never_decrease(void)
     }
 }
 
-void suite_fixmath(void)
-{
-    RUN(test_leading_zeros_are_counted_at_every_bit);
-    RUN(test_reciprocals_keep_their_stated_errors);
-    RUN(test_reciprocals_of_powers_of_two_are_close_to_powers_of_two);
-    RUN(test_division_rounds_down_and_leaves_a_remainder_of_the_divisors_sign);
-    RUN(test_ratios_are_within_2_to_the_minus_25_of_the_quotient);
-    RUN(test_square_roots_are_exact_floors);
-    RUN(test_short_roots_keep_their_stated_error);
-    RUN(test_short_roots_never_decrease);
-}
+#include "build/suites/fixmath.h"

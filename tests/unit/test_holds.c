@@ -9,8 +9,6 @@
 
 #include <math.h>
 
-void suite_holds(void);
-
 enum { PHASES = 9, HALF_WIDTH = 160, HALF_HEIGHT = 120 };
 
 /* A vertex that goes straight before a camera: px from the frame's centre times its distance, and its distance in near distances. */
@@ -252,10 +250,4 @@ static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_th
     CHECK(found > 1000);
 }
 
-void suite_holds(void)
-{
-    RUN(test_a_path_that_holds_is_within_half_a_pixel_of_space);
-    RUN(test_slow_things_keep_their_path_on_the_screen);
-    RUN(test_bounds_hold_all_that_is_seen_of_a_triangle_in_space);
-    RUN(test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_the_frame);
-}
+#include "build/suites/holds.h"

@@ -9,8 +9,6 @@
 #include <sched.h>
 #include <string.h>
 
-void suite_jobs(void);
-
 enum { JOBS = 200, FRAMES = 20 };
 
 static int done[JOBS], by[JOBS];
@@ -127,9 +125,4 @@ static void test_a_stage_sees_all_that_the_stage_before_wrote(void)
         pthread_join(thread[i], NULL);
 }
 
-void suite_jobs(void)
-{
-    RUN(test_one_core_does_the_jobs_in_order);
-    RUN(test_every_job_is_done_once_whatever_the_number_of_cores);
-    RUN(test_a_stage_sees_all_that_the_stage_before_wrote);
-}
+#include "build/suites/jobs.h"

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_json(void);
-
 static bool parse(const char *text, struct json *out, struct failure *f)
 {
     *f = (struct failure){ 0 };
@@ -294,16 +292,4 @@ static void test_long_and_rude_names_cannot_break_the_message(void)
     json_free(&j);
 }
 
-void suite_json(void)
-{
-    RUN(test_values_of_every_type_are_read);
-    RUN(test_a_document_may_be_a_scalar_and_may_begin_with_a_byte_order_mark);
-    RUN(test_strings_are_unescaped_to_utf8);
-    RUN(test_numbers_follow_the_grammar_exactly);
-    RUN(test_syntax_errors_tell_line_and_column);
-    RUN(test_text_that_is_not_utf8_is_refused);
-    RUN(test_depth_is_limited_and_needs_no_stack);
-    RUN(test_every_shortened_document_is_refused);
-    RUN(test_errors_of_meaning_tell_the_path);
-    RUN(test_long_and_rude_names_cannot_break_the_message);
-}
+#include "build/suites/json.h"

@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-void suite_light(void);
-
 /* What lights a frame that says nothing. */
 static const struct smear_sun *default_sun(void)
 {
@@ -448,18 +446,4 @@ static void test_the_light_of_a_frame_is_copied(void)
     rig_end(&r);
 }
 
-void suite_light(void)
-{
-    RUN(test_a_frame_is_lit_from_where_it_says_in_the_colours_it_says);
-    RUN(test_the_default_light_is_that_of_no_light_bit_for_bit);
-    RUN(test_the_light_of_a_frame_is_copied);
-    RUN(test_normals_under_rotation_and_scale_are_lit_within_a_hundredth);
-    RUN(test_normals_under_stretch_and_shear_are_lit_within_a_hundredth);
-    RUN(test_mirrors_do_not_turn_the_light_around);
-    RUN(test_the_full_light_is_one_and_the_far_side_zero);
-    RUN(test_faces_are_lit_by_their_plane_within_a_hundredth);
-    RUN(test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm);
-    RUN(test_colours_are_products_in_linear_light);
-    RUN(test_white_stays_white_and_codes_pass_unchanged);
-    RUN(test_ambient_light_is_three_tenths);
-}
+#include "build/suites/light.h"

@@ -9,8 +9,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_math(void);
-
 enum { ONE = SMEAR_BASIS_ONE };
 
 /* Of all magnitudes. */
@@ -332,21 +330,4 @@ static void test_all_machines_have_the_same_bits(void)
     CHECK_EQ(hash, 2698374490u);
 }
 
-void suite_math(void)
-{
-    RUN(test_products_are_rounded_alike_with_and_without_a_wide_multiply);
-    RUN(test_constants_are_rounded_to_nearest_and_may_initialise_what_is_static);
-    RUN(test_sines_are_exact_where_they_are_whole_or_a_half);
-    RUN(test_sines_are_odd_and_cosines_even_and_neither_turns_back);
-    RUN(test_rotations_are_orthonormal);
-    RUN(test_rotations_turn_counter_clockwise);
-    RUN(test_an_axis_or_quaternion_of_nothing_turns_nothing);
-    RUN(test_the_length_of_an_axis_or_quaternion_does_not_matter);
-    RUN(test_euler_angles_are_yaw_after_pitch_after_roll);
-    RUN(test_compose_does_first_the_second_then_the_first);
-    RUN(test_what_does_not_fit_is_clamped);
-    RUN(test_an_inverse_undoes_a_rigid_transform);
-    RUN(test_cameras_look_at_their_target);
-    RUN(test_focal_lengths_are_exact_or_clamped);
-    RUN(test_all_machines_have_the_same_bits);
-}
+#include "build/suites/math.h"

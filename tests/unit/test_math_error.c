@@ -8,8 +8,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_math_error(void);
-
 #define STEP (1.0 / (1 << 24))
 #define TAU 6.283185307179586476925
 
@@ -284,15 +282,4 @@ static void test_every_camera_is_accepted_by_smear_begin(void)
     free(memory);
 }
 
-void suite_math_error(void)
-{
-    RUN(test_sine_and_cosine_err_by_less_than_06_of_a_step);
-    RUN(test_rotations_about_x_y_and_z_err_by_less_than_06_of_a_step);
-    RUN(test_rotations_about_any_axis_err_by_less_than_12_steps);
-    RUN(test_euler_angles_err_by_less_than_a_step);
-    RUN(test_quaternions_of_any_length_err_by_less_than_a_step);
-    RUN(test_composed_entries_and_points_are_the_nearest);
-    RUN(test_cameras_err_by_less_than_the_stated_at_any_angle_from_up);
-    RUN(test_focal_lengths_of_a_degree_and_more_err_by_less_than_the_stated);
-    RUN(test_every_camera_is_accepted_by_smear_begin);
-}
+#include "build/suites/math_error.h"

@@ -9,8 +9,6 @@
 
 #include <math.h>
 
-void suite_matrix(void);
-
 static int32_t wild(void)
 {
     static const int32_t value[] = { INT32_MAX, INT32_MIN, 1, -1, 0, 1 << 24, -(1 << 24), 65536 };
@@ -325,11 +323,4 @@ static void test_sums_of_wild_poses_do_not_overflow(void)
     }
 }
 
-void suite_matrix(void)
-{
-    RUN(test_rows_stay_below_2_to_the_30_for_any_input);
-    RUN(test_the_scale_uses_the_bits_there_are);
-    RUN(test_planes_lie_at_their_distances);
-    RUN(test_instants_between_and_beyond_poses_are_within_a_hundredth_of_a_pixel);
-    RUN(test_sums_of_wild_poses_do_not_overflow);
-}
+#include "build/suites/matrix.h"

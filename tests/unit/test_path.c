@@ -7,8 +7,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_path(void);
-
 enum { WORDS = 12, SHIFT = 31 };
 
 /* A coordinate within the guard band of a frame of 2048 pixels. */
@@ -111,11 +109,4 @@ static void test_records_are_read_at_their_offsets(void)
     CHECK_EQ(path_curvature(record, &s), 0);
 }
 
-void suite_path(void)
-{
-    RUN(test_the_three_places_are_met);
-    RUN(test_coordinates_are_the_nearest_on_the_parabola);
-    RUN(test_depths_are_near_the_parabola);
-    RUN(test_what_stands_still_keeps_its_place);
-    RUN(test_records_are_read_at_their_offsets);
-}
+#include "build/suites/path.h"

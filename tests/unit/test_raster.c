@@ -12,8 +12,6 @@
 #include "tests/test.h"
 #include "tests/unit/store.h"
 
-void suite_raster(void);
-
 enum { W = 64, H = 40, POOL_WORDS = 3600, SEGMENTS = 8 };
 
 /* What a list is drawn into. */
@@ -1893,49 +1891,4 @@ static void test_wide_velocities_are_the_narrow_ones_where_those_suffice(void)
     }
 }
 
-void suite_raster(void)
-{
-    RUN(test_corners_on_pixel_centres_follow_the_top_left_rule);
-    RUN(test_the_order_of_the_corners_does_not_matter);
-    RUN(test_random_triangles_of_every_size_cover_exactly_their_centres);
-    RUN(test_boxes_around_the_limit_of_the_small_path_cover_exactly_their_centres);
-    RUN(test_triangles_that_reach_the_guard_band_cover_exactly_their_centres);
-    RUN(test_random_meshes_cover_every_pixel_once);
-    RUN(test_meshes_of_slivers_cover_every_pixel_once);
-    RUN(test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once);
-    RUN(test_fans_to_the_guard_band_cover_every_pixel_once);
-    RUN(test_depth_is_the_plane_through_the_corners);
-    RUN(test_depth_stays_between_the_corners_even_of_slivers);
-    RUN(test_depth_codes_grow_over_the_break);
-    RUN(test_tiny_and_small_triangles_have_the_depth_of_large_ones);
-    RUN(test_colors_are_interpolated_within_a_code);
-    RUN(test_colors_are_right_in_perspective);
-    RUN(test_colors_of_small_triangles_are_interpolated_within_a_code);
-    RUN(test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel);
-    RUN(test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel);
-    RUN(test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel);
-    RUN(test_texels_of_a_flat_plane_are_exact_away_from_borders);
-    RUN(test_velocities_of_unchanging_depth_are_planes);
-    RUN(test_velocities_of_changing_depth_are_quotients);
-    RUN(test_velocities_of_small_triangles_are_planes);
-    RUN(test_long_velocities_keep_their_direction_and_end_at_the_reach);
-    RUN(test_a_still_triangle_stops_what_it_hides_and_nothing_else);
-    RUN(test_only_columns_of_tiles_with_motion_are_marked);
-    RUN(test_the_nearest_wins_in_any_order_and_the_first_of_equals);
-    RUN(test_cutouts_leave_what_lies_behind_their_holes);
-    RUN(test_blended_triangles_only_change_colour);
-    RUN(test_cutting_the_frame_into_columns_and_bands_changes_nothing);
-#if SMEAR_RASTER_CACHE
-    RUN(test_what_bands_keep_of_triangles_changes_nothing);
-#endif
-#if SMEAR_FRONT_ORDER
-    RUN(test_drawing_from_the_front_changes_nothing);
-#endif
-    RUN(test_columns_within_long_blocks_draw_their_own_pixels);
-    RUN(test_rows_without_marks_have_the_same_velocities);
-    RUN(test_texels_in_rows_are_those_of_the_general_loop);
-    RUN(test_colors_in_rows_are_those_of_the_general_loop);
-    RUN(test_rings_of_rows_change_nothing);
-    RUN(test_blending_into_tiles_of_their_own_changes_nothing);
-    RUN(test_wide_velocities_are_the_narrow_ones_where_those_suffice);
-}
+#include "build/suites/raster.h"

@@ -12,8 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-void suite_space(void);
-
 enum { W = 70, H = 44, POOL_WORDS = 400, SCALE = 14, EVEN_SCALE = 16, CORNERS = 4, KEYS = 3 };
 
 static uint32_t words[POOL_WORDS];
@@ -380,9 +378,4 @@ static void test_planes_go_where_floating_point_has_them(void)
     CHECK(refused > 1000);
 }
 
-void suite_space(void)
-{
-    RUN(test_places_lie_on_the_parabola_through_three);
-    RUN(test_halves_of_a_sheet_meet_without_gap_or_overlap);
-    RUN(test_planes_go_where_floating_point_has_them);
-}
+#include "build/suites/space.h"

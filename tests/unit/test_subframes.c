@@ -13,8 +13,6 @@
 #include "tests/test.h"
 #include "tests/unit/store.h"
 
-void suite_subframes(void);
-
 enum { W = 70, H = 44, RING = 51, POOL_WORDS = 16000, SEGMENTS = 10, MOVERS = 400, TILE_MAX = 64 };
 
 /* A scene: what is still, what moves, what is blended, in lists of one pool. */
@@ -995,27 +993,4 @@ static void test_work_memory_of_small_tiles_is_small(void)
     CHECK(smear_subframes_work(TILE_MAX, TILE_MAX) <= WORK_WORDS * sizeof(uint32_t));
 }
 
-void suite_subframes(void)
-{
-    RUN(test_tiles_are_the_mean_of_whole_frames);
-    RUN(test_every_number_of_instants_divides_exactly);
-    RUN(test_a_moving_edge_is_a_ramp);
-    RUN(test_tiles_together_are_what_they_are_alone);
-    RUN(test_a_step_closes_the_gap_between_instants);
-    RUN(test_gaps_along_a_curve_close_for_fewer_instants);
-    RUN(test_light_of_one_colour_stays_that_colour);
-    RUN(test_wide_gaps_of_many_instants_keep_white);
-    RUN(test_gaps_at_a_border_close_with_what_lies_beyond_it);
-    RUN(test_what_hides_movers_stays_as_it_is_beside_closed_gaps);
-    RUN(test_a_still_surface_between_movers_keeps_its_edges_beside_closed_gaps);
-    RUN(test_shutters_weigh_by_their_slots);
-    RUN(test_paths_that_stand_turn_over_or_vanish);
-    RUN(test_paths_that_leave_the_guard_band);
-    RUN(test_more_movers_than_a_tile_remembers);
-    RUN(test_more_panes_than_a_tile_remembers);
-    RUN(test_movers_of_the_background_s_colour_hide_panes);
-    RUN(test_movers_that_are_hidden_cost_nothing);
-    RUN(test_an_edge_in_any_one_row_of_a_tile_is_given_instants);
-    RUN(test_samples_are_the_pixels_near_movers);
-    RUN(test_work_memory_of_small_tiles_is_small);
-}
+#include "build/suites/subframes.h"

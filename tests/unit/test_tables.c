@@ -6,8 +6,6 @@
 
 #include "tests/test.h"
 
-void suite_tables(void);
-
 static void test_every_code_survives_decoding_and_encoding(void)
 {
     for (uint32_t code = 0; code < 256; code++) {
@@ -72,12 +70,4 @@ static void test_roots_and_reciprocals_have_their_ends(void)
         CHECK(smear_recip_seed[i] < smear_recip_seed[i - 1]);
 }
 
-void suite_tables(void)
-{
-    RUN(test_every_code_survives_decoding_and_encoding);
-    RUN(test_light_rises_with_the_code_from_black_to_one);
-    RUN(test_searching_finds_what_the_table_has);
-    RUN(test_middle_values_are_those_of_the_standard);
-    RUN(test_the_sine_has_its_symmetries);
-    RUN(test_roots_and_reciprocals_have_their_ends);
-}
+#include "build/suites/tables.h"

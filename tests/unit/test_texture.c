@@ -7,8 +7,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_texture(void);
-
 enum { MOST = 64 * 64, RUN_PIXELS = 24 };
 
 static uint32_t texels[MOST];
@@ -269,13 +267,4 @@ static void test_ratios_become_texels(void)
         }
 }
 
-void suite_texture(void)
-{
-    RUN(test_nearest_texels_are_those_at_the_floor_of_the_coordinate);
-    RUN(test_powers_of_two_repeat_without_end);
-    RUN(test_curved_runs_change_their_step_every_two_pixels_wherever_they_are_cut);
-    RUN(test_565_texels_are_expanded_to_the_nearest_code);
-    RUN(test_bilinear_texels_are_the_mean_of_four_around);
-    RUN(test_bilinear_texels_of_one_colour_are_that_colour);
-    RUN(test_ratios_become_texels);
-}
+#include "build/suites/texture.h"

@@ -6,8 +6,6 @@
 #include "tests/random.h"
 #include "tests/test.h"
 
-void suite_tilemax(void);
-
 enum { MOST_PIXELS = 48 * 40, MOST_COLUMNS = 8 };
 
 static int8_t narrow[MOST_PIXELS * 2];
@@ -322,19 +320,4 @@ static void test_roughness_is_the_largest_step_to_the_left_or_above(void)
     }
 }
 
-void suite_tilemax(void)
-{
-    RUN(test_the_longest_wins_and_the_first_of_equals_in_row_order);
-    RUN(test_a_tile_sees_its_own_pixels_only);
-    RUN(test_tiles_at_the_right_and_the_bottom_end_with_the_frame);
-    RUN(test_rows_are_found_around_the_ring);
-    RUN(test_long_velocities_do_not_overflow);
-    RUN(test_the_own_motion_counts_a_hundredth_more);
-    RUN(test_the_neighbourhood_is_the_longest_of_nine);
-    RUN(test_rows_not_yet_known_are_not_looked_at);
-    RUN(test_with_the_corner_rule_a_diagonal_counts_only_when_it_points_here);
-    RUN(test_classes_tell_still_alike_and_mixed_motion);
-    RUN(test_motion_that_changes_without_a_step_is_uniform);
-    RUN(test_rows_apart_do_not_matter_to_motion_along_the_row);
-    RUN(test_roughness_is_the_largest_step_to_the_left_or_above);
-}
+#include "build/suites/tilemax.h"

@@ -10,8 +10,6 @@
 #include "tests/test.h"
 #include "tests/unit/store.h"
 
-void suite_timemask(void);
-
 enum {
     W = 48, H = 40, POOL_WORDS = 9000, SEGMENTS = 4, MOVERS = 480, TILE_MAX = 64, CANARY = 64, WORK_WORDS = 2048,
     FLAT = 0, GOURAUD = 1, TEXTURED = 2, LIT = 3            /* segments */
@@ -942,26 +940,4 @@ static void test_textures_are_taken_along_the_motion(void)
     }
 }
 
-void suite_timemask(void)
-{
-    RUN(test_a_triangle_that_translates_covers_every_sample_that_it_should);
-    RUN(test_triangles_that_do_not_move_are_drawn_as_the_raster_draws_them);
-    RUN(test_a_closed_mesh_that_translates_leaks_nothing);
-    RUN(test_a_closed_mesh_that_turns_leaks_next_to_nothing);
-    RUN(test_meshes_that_turn_and_grow_come_near_the_truth_as_segments_get_shorter);
-    RUN(test_a_mover_passes_before_and_behind_still_surfaces);
-    RUN(test_two_movers_that_cross_hide_each_other_by_depth);
-    RUN(test_surfaces_that_run_through_each_other_part_where_they_meet);
-    RUN(test_a_mover_that_comes_nearer_uncovers_what_it_was_behind);
-    RUN(test_more_surfaces_than_entries_still_add_up);
-    RUN(test_the_order_of_movers_does_not_matter_while_there_are_entries);
-    RUN(test_the_size_of_tiles_does_not_matter_for_what_translates);
-    RUN(test_what_enters_and_leaves_the_frame_is_blurred_as_if_there_were_more);
-    RUN(test_coordinates_of_the_guard_band_are_exact_enough);
-    RUN(test_anything_at_all_gives_a_picture_between_its_colours);
-    RUN(test_slivers_keep_to_the_colours_of_their_vertices);
-    RUN(test_what_turns_over_is_seen_while_it_faces);
-    RUN(test_a_shutter_that_is_not_a_box_weighs_time);
-    RUN(test_colours_between_vertices_follow_the_surface);
-    RUN(test_textures_are_taken_along_the_motion);
-}
+#include "build/suites/timemask.h"

@@ -8,8 +8,6 @@
 
 #include <math.h>
 
-void suite_transform(void);
-
 /* A random rotation times `scale`, q24. */
 static void random_rotation(int32_t basis[9], double scale)
 {
@@ -275,12 +273,4 @@ static void test_outcodes_name_the_sides_and_the_guard_band(void)
     }
 }
 
-void suite_transform(void)
-{
-    RUN(test_positions_are_within_a_hundredth_of_a_pixel);
-    RUN(test_positions_in_the_largest_frame_are_within_a_fifth_of_a_pixel);
-    RUN(test_the_near_plane_has_the_largest_depth_and_far_things_the_smallest);
-    RUN(test_orthographic_depth_runs_evenly_from_near_to_far);
-    RUN(test_any_positive_w_and_any_place_project_without_overflow);
-    RUN(test_outcodes_name_the_sides_and_the_guard_band);
-}
+#include "build/suites/transform.h"
