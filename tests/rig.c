@@ -5,6 +5,7 @@
 #include "tests/test.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,6 +65,17 @@ bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect)
     memset(r->block, PATTERN, r->bytes + 2 * GUARD);
     return CHECK(r->bytes > 0)
         && CHECK_EQ(smear_init(&r->ctx, &r->desc, r->block + GUARD, r->bytes), SMEAR_OK);
+}
+
+void rig_must_begin(struct rig *r, const smear_desc *desc, bool inspect)
+{
+    if (rig_begin(r, desc, inspect))
+        return;
+    test_print("no rig in ");
+    test_print(test_state.name);
+    test_print("\n");
+    fflush(stdout);
+    exit(1);
 }
 
 bool guards_intact(const struct rig *r)

@@ -6,6 +6,8 @@
 
 #include "smear.h"
 
+#include "tests/test.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -39,6 +41,12 @@ smear_desc small_desc(int width, int height);
 
 /* False (and a failed check) when the context cannot be made. */
 bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect);
+
+/* A rig that ends where its block does. One that cannot be made ends the program. */
+#define RIG(name, desc, inspect) \
+    struct rig name OWNED(rig_end); \
+    rig_must_begin(&name, desc, inspect)
+void rig_must_begin(struct rig *r, const smear_desc *desc, bool inspect);
 bool guards_intact(const struct rig *r);
 void rig_end(struct rig *r);
 void rig_forget_output(struct rig *r);

@@ -27,6 +27,9 @@ bool test_check_eq(int64_t got, int64_t want, const char *file, int line, const 
 bool test_check_near(int64_t got, int64_t want, int64_t slack, const char *file, int line,
                      const char *what);
 
+/* Of a variable that is given to `function` where its block ends, by return and break, too. */
+#define OWNED(function) __attribute__((cleanup(function)))
+
 #define RUN(function) test_run(#function, function)
 
 /* Each returns true when it holds, so that a test may stop where going on makes no sense. */

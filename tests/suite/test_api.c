@@ -43,40 +43,34 @@ static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
                          .display.dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
                          .max_triangles = 1024, .vertex_cache = 64 };
     smear_desc zero = { .width = 100, .height = 80 };
-    struct rig a, b;
-    if (rig_begin(&a, &given, false) && rig_begin(&b, &zero, false)) {
-        CHECK(a.bytes == b.bytes);
-        for (int k = 0; k < 3; k++) {
-            struct scene s;
-            make_scene(&s, 0.3 * k, SMEAR_AUTO);
-            s.frame.target = SMEAR_BALANCED;
-            s.frame.shutter.degrees = 180;
-            uint8_t *picture = rig_copy(&a, &s.frame, s.draw, SCENE_DRAWS);
-            CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
-            same_picture(&b, picture);
-            free(picture);
-        }
-        rig_end(&b);
+    RIG(a, &given, false);
+    RIG(b, &zero, false);
+    CHECK(a.bytes == b.bytes);
+    for (int k = 0; k < 3; k++) {
+        struct scene s;
+        make_scene(&s, 0.3 * k, SMEAR_AUTO);
+        s.frame.target = SMEAR_BALANCED;
+        s.frame.shutter.degrees = 180;
+        uint8_t *picture = rig_copy(&a, &s.frame, s.draw, SCENE_DRAWS);
+        CHECK_EQ(render_scene(&b, 0.3 * k, 0), SMEAR_OK);
+        same_picture(&b, picture);
+        free(picture);
     }
-    rig_end(&a);
 }
 
 static void test_a_frame_begun_again_is_forgotten(void)
 {
     smear_desc desc = small_desc(32, 32);
-    struct rig r;
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_NONE);
-        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
-        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-        for (int i = 0; i < SCENE_DRAWS; i++)
-            CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
-        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
-        same_picture(&r, picture);
-        free(picture);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
+    CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+    for (int i = 0; i < SCENE_DRAWS; i++)
+        CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
+    CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
+    same_picture(&r, picture);
+    free(picture);
 }
 
 static void test_what_is_submitted_may_change_before_it_is_drawn(void)
@@ -84,38 +78,36 @@ static void test_what_is_submitted_may_change_before_it_is_drawn(void)
     static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_AUTO, SMEAR_OBJECT };
     smear_desc desc = small_desc(64, 48);
     desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS;
-    struct rig r;
-    if (rig_begin(&r, &desc, false))
-        for (int m = 0; m < 6; m++) {
-            struct scene s, before, after;
-            make_scene(&s, 0.2, method[m]);
-            make_scene(&before, 0.0, method[m]);
-            make_scene(&after, 0.4, method[m]);
-            s.frame.shutter.poses = 1;
-            for (int i = 0; i < SCENE_DRAWS; i++) {
-                s.draw[i].id = 0;
-                s.draw[i].open = &before.pose[i];
-                s.draw[i].close = &after.pose[i];
-            }
-            uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-            rig_forget_output(&r);
-            CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-            for (int i = 0; i < SCENE_DRAWS; i++) {
-                smear_draw d = s.draw[i];
-                smear_transform pose[3] = { *d.now, *d.open, *d.close };
-                d.now = &pose[0];
-                d.open = &pose[1];
-                d.close = &pose[2];
-                CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_OK);
-                memset(pose, 0x5a, sizeof pose);
-                memset(&d, 0x5a, sizeof d);
-            }
-            memset(&s.camera, 0x5a, sizeof s.camera);
-            CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-            CHECK(picture != NULL && same_picture(&r, picture));
-            free(picture);
+    RIG(r, &desc, false);
+    for (int m = 0; m < 6; m++) {
+        struct scene s, before, after;
+        make_scene(&s, 0.2, method[m]);
+        make_scene(&before, 0.0, method[m]);
+        make_scene(&after, 0.4, method[m]);
+        s.frame.shutter.poses = 1;
+        for (int i = 0; i < SCENE_DRAWS; i++) {
+            s.draw[i].id = 0;
+            s.draw[i].open = &before.pose[i];
+            s.draw[i].close = &after.pose[i];
         }
-    rig_end(&r);
+        uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+        rig_forget_output(&r);
+        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+        for (int i = 0; i < SCENE_DRAWS; i++) {
+            smear_draw d = s.draw[i];
+            smear_transform pose[3] = { *d.now, *d.open, *d.close };
+            d.now = &pose[0];
+            d.open = &pose[1];
+            d.close = &pose[2];
+            CHECK_EQ(smear_submit(r.ctx, &d), SMEAR_OK);
+            memset(pose, 0x5a, sizeof pose);
+            memset(&d, 0x5a, sizeof d);
+        }
+        memset(&s.camera, 0x5a, sizeof s.camera);
+        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+        CHECK(picture != NULL && same_picture(&r, picture));
+        free(picture);
+    }
 }
 
 static bool is_within(const smear_fill *fill)
@@ -163,22 +155,19 @@ static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
 {
     smear_desc desc = small_desc(48, 32);
     desc.max_draws = 2;
-    struct rig r;
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_NONE);
-        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 2);
-        rig_forget_output(&r);
-        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
-        CHECK_EQ(smear_submit(r.ctx, &s.draw[2]), SMEAR_OK);
-        CHECK_EQ(smear_submit(r.ctx, &s.draw[0]), SMEAR_ERR_FULL);
-        CHECK_EQ(smear_submit(r.ctx, &s.draw[3]), SMEAR_ERR_FULL);
-        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-        same_picture(&r, picture);
-        free(picture);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 2);
+    rig_forget_output(&r);
+    CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[2]), SMEAR_OK);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[0]), SMEAR_ERR_FULL);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[3]), SMEAR_ERR_FULL);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    same_picture(&r, picture);
+    free(picture);
 }
 
 /* ------------------------------------------------------------------ capacity */
@@ -266,67 +255,58 @@ static void test_slivers_that_the_near_plane_cuts_are_drawn_without_harm(void)
 static void test_an_index_out_of_range_drops_its_triangle_only(void)
 {
     static const uint16_t index[] = { 0, 1, 4, 0, 1, 2, 65535, 0, 1, 0, 2, 3 };
-    struct rig r;
     smear_desc desc = small_desc(48, 48);
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_NONE);
-        smear_mesh mesh = square;
-        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[4], 1);
-        mesh.index = index;
-        mesh.triangle_count = 4;
-        s.draw[4].mesh = &mesh;
-        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[4], 1), SMEAR_OK);
-        same_picture(&r, picture);
-        smear_stats stats;
-        smear_get_stats(r.ctx, &stats);
-        CHECK_EQ(stats.triangles_dropped, 2);
-        CHECK_EQ(stats.triangles_in, 4);
-        free(picture);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    smear_mesh mesh = square;
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[4], 1);
+    mesh.index = index;
+    mesh.triangle_count = 4;
+    s.draw[4].mesh = &mesh;
+    CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[4], 1), SMEAR_OK);
+    same_picture(&r, picture);
+    smear_stats stats;
+    smear_get_stats(r.ctx, &stats);
+    CHECK_EQ(stats.triangles_dropped, 2);
+    CHECK_EQ(stats.triangles_in, 4);
+    free(picture);
 }
 
 static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(16, 16);
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, 0);
-        smear_mesh empty = square, no_vertex = square;
-        empty.triangle_count = 0;
-        empty.index = NULL;
-        no_vertex.vertex_count = 0;
-        smear_draw d[2] = { { .mesh = &empty }, { .mesh = &no_vertex } };
-        CHECK_EQ(rig_frame(&r, &s.frame, d, 2), SMEAR_OK);
-        for (size_t i = 0; i < 16 * 16; i++)
-            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, 0);
+    smear_mesh empty = square, no_vertex = square;
+    empty.triangle_count = 0;
+    empty.index = NULL;
+    no_vertex.vertex_count = 0;
+    smear_draw d[2] = { { .mesh = &empty }, { .mesh = &no_vertex } };
+    CHECK_EQ(rig_frame(&r, &s.frame, d, 2), SMEAR_OK);
+    for (size_t i = 0; i < 16 * 16; i++)
+        CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
 }
 
 static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
 {
-    struct rig here, there;
     smear_desc desc = small_desc(96, 72);
-    if (rig_begin(&here, &desc, false) && rig_begin(&there, &desc, false)) {
-        for (int k = 0; k < 3; k++) {
-            struct scene s;
-            make_scene(&s, 0.3 * k, 0);
-            CHECK_EQ(rig_frame(&here, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            const int32_t shift[3] = { 10000 * 65536, -7000 * 65536, 20000 * 65536 };
-            for (int axis = 0; axis < 3; axis++) {
-                for (int i = 0; i < SCENE_DRAWS; i++)
-                    s.pose[i].origin[axis] += shift[axis];
-                s.camera.pose.origin[axis] += shift[axis];
-            }
-            CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            same_picture(&here, there.picture);
+    RIG(here, &desc, false);
+    RIG(there, &desc, false);
+    for (int k = 0; k < 3; k++) {
+        struct scene s;
+        make_scene(&s, 0.3 * k, 0);
+        CHECK_EQ(rig_frame(&here, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        const int32_t shift[3] = { 10000 * 65536, -7000 * 65536, 20000 * 65536 };
+        for (int axis = 0; axis < 3; axis++) {
+            for (int i = 0; i < SCENE_DRAWS; i++)
+                s.pose[i].origin[axis] += shift[axis];
+            s.camera.pose.origin[axis] += shift[axis];
         }
-        rig_end(&there);
+        CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        same_picture(&here, there.picture);
     }
-    rig_end(&here);
 }
 
 /* ------------------------------------------------------------------ flush */
@@ -336,37 +316,34 @@ static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void
     static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
                                       SMEAR_AUTO, SMEAR_AUTO };
     for (int m = 0; m < 7; m++) {
-        struct rig r, fresh;
         smear_desc desc = small_desc(48, 64);
         desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
         desc.bands = m & 1 ? 2 : 1;
         if (m == 6)
             desc.methods = SMEAR_SET_TEMPORAL;
-        if (rig_begin(&r, &desc, false) && rig_begin(&fresh, &desc, false)) {
-            int bands = 0;
-            r.reports_sent = fresh.reports_sent = desc.bands == 2;
-            for (int k = 0; k < 12; k++) {
-                CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
-                bands = fresh.bands;
-                r.fail_at = k & 1 ? -1 : k / 2 % bands;
-                r.fail_with = -77 - k;
-                int result = render_scene(&r, 0.1 * k, method[m]);
-                if (k & 1) {
-                    CHECK_EQ(result, SMEAR_OK);
-                    same_picture(&fresh, r.picture);
-                } else {
-                    CHECK_EQ(result, -77 - k);
-                    CHECK_EQ(r.bands, r.fail_at + 1);
-                }
+        RIG(r, &desc, false);
+        RIG(fresh, &desc, false);
+        int bands = 0;
+        r.reports_sent = fresh.reports_sent = desc.bands == 2;
+        for (int k = 0; k < 12; k++) {
+            CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
+            bands = fresh.bands;
+            r.fail_at = k & 1 ? -1 : k / 2 % bands;
+            r.fail_with = -77 - k;
+            int result = render_scene(&r, 0.1 * k, method[m]);
+            if (k & 1) {
+                CHECK_EQ(result, SMEAR_OK);
+                same_picture(&fresh, r.picture);
+            } else {
+                CHECK_EQ(result, -77 - k);
+                CHECK_EQ(r.bands, r.fail_at + 1);
             }
-            CHECK(bands > 1);
-            r.fail_at = 1;
-            r.fail_with = 5;                        /* not negative: goes on */
-            CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
-            CHECK_EQ(r.bands, bands);
-            rig_end(&fresh);
         }
-        rig_end(&r);
+        CHECK(bands > 1);
+        r.fail_at = 1;
+        r.fail_with = 5;                        /* not negative: goes on */
+        CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
+        CHECK_EQ(r.bands, bands);
     }
 }
 
@@ -425,31 +402,28 @@ static void yield(void *user)
 static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
 {
     static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_AUTO };
-    struct rig one, two;
     smear_desc desc = small_desc(64, 50);
     desc.methods |= SMEAR_SET_TEMPORAL;
     smear_desc twice = desc;
     twice.bands = 2;
     twice.flush = hand_to_slow_display;
     twice.idle = yield;
-    if (rig_begin(&one, &desc, false) && rig_begin(&two, &twice, false)) {
-        memset(&display, 0, sizeof display);
-        display.rig = &two;
-        pthread_t thread;
-        if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
-            for (int k = 0; k < 8; k++) {
-                CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 3]), SMEAR_OK);
-                CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 3]), SMEAR_OK);
-                same_picture(&one, two.picture);
-            }
-            atomic_store(&display.over, true);
-            pthread_join(thread, NULL);
-            CHECK(!display.overwritten);
-            CHECK_EQ(atomic_load(&display.sent), 8 * 7);
+    RIG(one, &desc, false);
+    RIG(two, &twice, false);
+    memset(&display, 0, sizeof display);
+    display.rig = &two;
+    pthread_t thread;
+    if (CHECK_EQ(pthread_create(&thread, NULL, send_slowly, NULL), 0)) {
+        for (int k = 0; k < 8; k++) {
+            CHECK_EQ(render_scene(&one, 0.1 * k, method[k & 3]), SMEAR_OK);
+            CHECK_EQ(render_scene(&two, 0.1 * k, method[k & 3]), SMEAR_OK);
+            same_picture(&one, two.picture);
         }
-        rig_end(&two);
+        atomic_store(&display.over, true);
+        pthread_join(thread, NULL);
+        CHECK(!display.overwritten);
+        CHECK_EQ(atomic_load(&display.sent), 8 * 7);
     }
-    rig_end(&one);
 }
 
 /* ------------------------------------------------------------------ workers */
@@ -751,75 +725,66 @@ static void test_a_still_scene_is_the_same_picture_by_every_method(void)
     static const int16_t size[][2] = { { 96, 72 }, { 7, 5 }, { 1, 40 }, { 40, 1 }, { 33, 65 } };
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
-            struct rig r;
             smear_desc desc = small_desc(size[i][0], size[i][1]);
             desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-            if (rig_begin(&r, &desc, false)) {
-                struct scene s;
-                make_scene(&s, 0.2, SMEAR_NONE);
-                s.frame.light_space = (uint8_t)light;
-                uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-                for (int n = 1; n <= 1024; n = n * 7 + 1) {
-                    s.frame.method = SMEAR_RECONSTRUCT;
-                    s.frame.samples = (uint16_t)n;
-                    s.frame.filter.flags = (uint8_t)(n & 31);
+            RIG(r, &desc, false);
+            struct scene s;
+            make_scene(&s, 0.2, SMEAR_NONE);
+            s.frame.light_space = (uint8_t)light;
+            uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+            for (int n = 1; n <= 1024; n = n * 7 + 1) {
+                s.frame.method = SMEAR_RECONSTRUCT;
+                s.frame.samples = (uint16_t)n;
+                s.frame.filter.flags = (uint8_t)(n & 31);
+                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                same_picture(&r, sharp);
+                smear_stats stats;
+                smear_get_stats(r.ctx, &stats);
+                CHECK_EQ(stats.samples, 0);
+                CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
+                for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
+                    s.frame.method = (uint8_t)method;
+                    s.frame.target = (uint16_t)n;
                     CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
                     same_picture(&r, sharp);
-                    smear_stats stats;
                     smear_get_stats(r.ctx, &stats);
                     CHECK_EQ(stats.samples, 0);
                     CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
-                    for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
-                        s.frame.method = (uint8_t)method;
-                        s.frame.target = (uint16_t)n;
-                        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                        same_picture(&r, sharp);
-                        smear_get_stats(r.ctx, &stats);
-                        CHECK_EQ(stats.samples, 0);
-                        CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
-                        CHECK_EQ(stats.tiles[SMEAR_NONE], stats.tiles_static);
-                    }
-                    if (n > 100)
-                        continue;
-                    s.frame.method = SMEAR_ACCUMULATE;
-                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                    same_picture(&r, sharp);
+                    CHECK_EQ(stats.tiles[SMEAR_NONE], stats.tiles_static);
                 }
-                free(sharp);
+                if (n > 100)
+                    continue;
+                s.frame.method = SMEAR_ACCUMULATE;
+                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+                same_picture(&r, sharp);
             }
-            rig_end(&r);
+            free(sharp);
         }
 }
 
 static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
 {
     static const int16_t rows[] = { 0, 8, 16, 24, 64, 72, 2048 - 2048 % 8 };
-    struct rig windowed;
     smear_desc desc = small_desc(100, 70);
     desc.format = SMEAR_L1_PAGES;
-    if (rig_begin(&windowed, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0.4, SMEAR_NONE);
-        uint8_t *picture = rig_copy(&windowed, &s.frame, s.draw, SCENE_DRAWS);
-        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-            for (int tile = 8; tile <= 64; tile *= 2) {
-                struct rig r;
-                smear_desc sharp = desc;
-                sharp.methods = SMEAR_SET(SMEAR_NONE);
-                sharp.band_rows = rows[i];
-                sharp.tile = (int16_t)tile;
-                sharp.max_triangles = i & 1 ? 60 : 400;
-                if (rig_begin(&r, &sharp, false)) {
-                    CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
-                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                    CHECK(r.bands_in_order && r.next_row == 70);
-                    same_picture(&r, picture);
-                }
-                rig_end(&r);
-            }
-        free(picture);
-    }
-    rig_end(&windowed);
+    RIG(windowed, &desc, false);
+    struct scene s;
+    make_scene(&s, 0.4, SMEAR_NONE);
+    uint8_t *picture = rig_copy(&windowed, &s.frame, s.draw, SCENE_DRAWS);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (int tile = 8; tile <= 64; tile *= 2) {
+            smear_desc sharp = desc;
+            sharp.methods = SMEAR_SET(SMEAR_NONE);
+            sharp.band_rows = rows[i];
+            sharp.tile = (int16_t)tile;
+            sharp.max_triangles = i & 1 ? 60 : 400;
+            RIG(r, &sharp, false);
+            CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
+            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            CHECK(r.bands_in_order && r.next_row == 70);
+            same_picture(&r, picture);
+        }
+    free(picture);
 }
 
 /* Tiles finished in strips: every filter, blended draws among what is drawn, odd heights, several workers. */
@@ -834,7 +799,6 @@ static void test_a_filtered_picture_does_not_depend_on_the_height_of_bands(void)
         { SMEAR_RECONSTRUCT, 0, SMEAR_UNIFORM, SMEAR_LIGHT_ENCODED, SMEAR_L1_PAGES },
     };
     for (size_t i = 0; i < sizeof look / sizeof look[0]; i++) {
-        struct rig whole;
         smear_desc desc = small_desc(100, 70);
         desc.tile = 16;
         desc.format = look[i].format;
@@ -842,34 +806,29 @@ static void test_a_filtered_picture_does_not_depend_on_the_height_of_bands(void)
             desc.methods |= SMEAR_SET(SMEAR_PINGPONG);
             desc.filter.passes = 1;
         }
-        if (rig_begin(&whole, &desc, false)) {
-            struct scene before, s;
-            make_scene(&before, 0.3, look[i].method);
-            make_scene(&s, 0.4, look[i].method);
-            before.frame.filter.pingpong.passes = 1;
-            s.frame.filter.weights = look[i].weights;
-            s.frame.filter.pingpong.passes = 1;
-            s.frame.filter.flags = look[i].reconstruct;
-            s.frame.light_space = look[i].light;
-            CHECK_EQ(rig_frame(&whole, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
-            uint8_t *picture = rig_copy(&whole, &s.frame, s.draw, SCENE_DRAWS);
-            for (int rows = 8; rows >= (look[i].format == SMEAR_L1_PAGES ? 8 : 2); rows /= 2) {
-                struct rig r;
-                smear_desc strips = desc;
-                strips.band_rows = (int16_t)rows;
-                if (rig_begin(&r, &strips, false)) {
-                    CHECK(r.bytes < whole.bytes);
-                    CHECK_EQ(rig_frame(&r, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
-                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                    CHECK(r.bands_in_order && r.next_row == 70);
-                    CHECK(guards_intact(&r));
-                    same_picture(&r, picture);
-                }
-                rig_end(&r);
-            }
-            free(picture);
+        RIG(whole, &desc, false);
+        struct scene before, s;
+        make_scene(&before, 0.3, look[i].method);
+        make_scene(&s, 0.4, look[i].method);
+        before.frame.filter.pingpong.passes = 1;
+        s.frame.filter.weights = look[i].weights;
+        s.frame.filter.pingpong.passes = 1;
+        s.frame.filter.flags = look[i].reconstruct;
+        s.frame.light_space = look[i].light;
+        CHECK_EQ(rig_frame(&whole, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
+        uint8_t *picture = rig_copy(&whole, &s.frame, s.draw, SCENE_DRAWS);
+        for (int rows = 8; rows >= (look[i].format == SMEAR_L1_PAGES ? 8 : 2); rows /= 2) {
+            smear_desc strips = desc;
+            strips.band_rows = (int16_t)rows;
+            RIG(r, &strips, false);
+            CHECK(r.bytes < whole.bytes);
+            CHECK_EQ(rig_frame(&r, &before.frame, before.draw, SCENE_DRAWS), SMEAR_OK);
+            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+            CHECK(r.bands_in_order && r.next_row == 70);
+            CHECK(guards_intact(&r));
+            same_picture(&r, picture);
         }
-        rig_end(&whole);
+        free(picture);
     }
 }
 
@@ -889,43 +848,41 @@ static void test_statistics_add_up(void)
 {
     static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_ACCUMULATE };
     for (int format = 0; format <= SMEAR_L1_PAGES; format++) {
-        struct rig r;
         smear_desc desc = small_desc(70, 50);
         desc.format = (uint8_t)format;
         desc.debug.crc = 1;
         desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE);
-        if (rig_begin(&r, &desc, false))
-            for (int k = 0; k < 6; k++) {
-                smear_stats s;
-                CHECK_EQ(render_scene(&r, 0.3 * k, method[k % 3]), SMEAR_OK);
-                smear_get_stats(r.ctx, &s);
-                size_t bytes = r.picture_size;
-                if (format == SMEAR_XRGB8888) {         /* of 32-bit pixels, the bytes R G B */
-                    uint8_t *rgb = malloc(bytes);
-                    const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-                    for (size_t i = 0; i < bytes / 4; i++) {
-                        rgb[3 * i] = (uint8_t)(pixel[i] >> 16);
-                        rgb[3 * i + 1] = (uint8_t)(pixel[i] >> 8);
-                        rgb[3 * i + 2] = (uint8_t)pixel[i];
-                    }
-                    CHECK_EQ(s.crc32, plain_crc(rgb, bytes / 4 * 3));
-                    free(rgb);
-                } else {
-                    CHECK_EQ(s.crc32, plain_crc(r.picture, bytes));
+        RIG(r, &desc, false);
+        for (int k = 0; k < 6; k++) {
+            smear_stats s;
+            CHECK_EQ(render_scene(&r, 0.3 * k, method[k % 3]), SMEAR_OK);
+            smear_get_stats(r.ctx, &s);
+            size_t bytes = r.picture_size;
+            if (format == SMEAR_XRGB8888) {         /* of 32-bit pixels, the bytes R G B */
+                uint8_t *rgb = malloc(bytes);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (size_t i = 0; i < bytes / 4; i++) {
+                    rgb[3 * i] = (uint8_t)(pixel[i] >> 16);
+                    rgb[3 * i + 1] = (uint8_t)(pixel[i] >> 8);
+                    rgb[3 * i + 2] = (uint8_t)pixel[i];
                 }
-                CHECK_EQ(s.pixels, 70 * 50);
-                uint32_t tiles = 9 * 7;
-                CHECK_EQ(s.tiles_static + s.tiles_uniform + s.tiles_complex, tiles);
-                CHECK_EQ(s.tiles[SMEAR_NONE] + s.tiles[SMEAR_ACCUMULATE] + s.tiles[SMEAR_RECONSTRUCT], tiles);
-                CHECK_EQ(s.triangles_in, 2 + 12 + 12 + 2 + 2);
-                CHECK(s.triangles_drawn > 8);
-                CHECK_EQ(s.triangles_dropped, 0);
-                CHECK_EQ(s.arena_bytes, (int64_t)r.bytes);
-                CHECK_EQ(s.time.total, 0);              /* no clock */
-                if (method[k % 3] == SMEAR_ACCUMULATE)
-                    CHECK_EQ(s.samples, 8 * 70 * 50);
+                CHECK_EQ(s.crc32, plain_crc(rgb, bytes / 4 * 3));
+                free(rgb);
+            } else {
+                CHECK_EQ(s.crc32, plain_crc(r.picture, bytes));
             }
-        rig_end(&r);
+            CHECK_EQ(s.pixels, 70 * 50);
+            uint32_t tiles = 9 * 7;
+            CHECK_EQ(s.tiles_static + s.tiles_uniform + s.tiles_complex, tiles);
+            CHECK_EQ(s.tiles[SMEAR_NONE] + s.tiles[SMEAR_ACCUMULATE] + s.tiles[SMEAR_RECONSTRUCT], tiles);
+            CHECK_EQ(s.triangles_in, 2 + 12 + 12 + 2 + 2);
+            CHECK(s.triangles_drawn > 8);
+            CHECK_EQ(s.triangles_dropped, 0);
+            CHECK_EQ(s.arena_bytes, (int64_t)r.bytes);
+            CHECK_EQ(s.time.total, 0);              /* no clock */
+            if (method[k % 3] == SMEAR_ACCUMULATE)
+                CHECK_EQ(s.samples, 8 * 70 * 50);
+        }
     }
 }
 
@@ -938,23 +895,20 @@ static uint32_t ticking(void *user)
 
 static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
 {
-    struct rig timed, plain;
     smear_desc desc = small_desc(64, 48), clocked = desc;
     clocked.debug.clock = ticking;
-    if (rig_begin(&timed, &clocked, false) && rig_begin(&plain, &desc, false)) {
-        for (int k = 0; k < 3; k++) {
-            CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
-            CHECK_EQ(render_scene(&plain, 0.2 * k, 0), SMEAR_OK);
-            same_picture(&timed, plain.picture);
-            smear_stats s;
-            smear_get_stats(timed.ctx, &s);
-            CHECK(s.time.submit > 0 && s.time.raster > 0 && s.time.reduce > 0 && s.time.blur > 0);
-            CHECK(s.time.total >= s.time.submit + s.time.raster + s.time.reduce + s.time.blur + s.time.convert);
-            CHECK_EQ(s.crc32, 0);                       /* not asked for */
-        }
-        rig_end(&plain);
+    RIG(timed, &clocked, false);
+    RIG(plain, &desc, false);
+    for (int k = 0; k < 3; k++) {
+        CHECK_EQ(render_scene(&timed, 0.2 * k, 0), SMEAR_OK);
+        CHECK_EQ(render_scene(&plain, 0.2 * k, 0), SMEAR_OK);
+        same_picture(&timed, plain.picture);
+        smear_stats s;
+        smear_get_stats(timed.ctx, &s);
+        CHECK(s.time.submit > 0 && s.time.raster > 0 && s.time.reduce > 0 && s.time.blur > 0);
+        CHECK(s.time.total >= s.time.submit + s.time.raster + s.time.reduce + s.time.blur + s.time.convert);
+        CHECK_EQ(s.crc32, 0);                       /* not asked for */
     }
-    rig_end(&timed);
 }
 
 /* ------------------------------------------------------------------ meshes that are cut */
@@ -989,53 +943,50 @@ static smear_mesh make_grid(void)
 
 static void test_meshes_cut_by_planes_cover_every_pixel_once(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(160, 120);
     desc.max_triangles = 4000;
     smear_mesh grid = make_grid();
     smear_material glass = { .color = { 255, 255, 255, 128 }, .alpha = SMEAR_BLEND, .unlit = 1, .double_sided = 1 };
-    if (rig_begin(&r, &desc, false)) {
-        int cut = 0, drawn = 0;
-        for (int n = 0; n < 120; n++) {
-            smear_transform pose = pose_at(0.03 * n - 1.5, -0.02 * n - 0.05, -0.04 * n, 0.37 * n, -1.2 - 0.01 * n);
-            smear_camera camera = camera_at(0, 0, 0, 0.05 * n);
-            camera.near_plane = 656 << n % 9;
-            camera.far_plane = n % 3 == 0 ? 0 : camera.near_plane * 6 + 65536;
-            camera.focal = 65536 << n % 3;
-            if (n % 7 == 6) {
-                camera.half_height = 65536;
-                camera.far_plane = 4 * 65536;
-            }
-            if (n % 5 == 4)         /* huge: most corners far outside the guard band */
-                for (int i = 0; i < 9; i++)
-                    pose.basis[i] = pose.basis[i] * 6;
-            smear_draw d = { .mesh = &grid, .material = &glass, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-            int once = 0, never = 0;
-            for (int i = 0; i < 160 * 120; i++) {
-                once += pixel[i] == 0x818181u || pixel[i] == 0x808080u;
-                never += pixel[i] == 0;
-            }
-            if (!CHECK_EQ(once + never, 160 * 120))
-                CHECK_EQ(n, -1);
-            /* A flat mesh is convex after a cut too: what is covered has no holes along a row. */
-            for (int y = 0; y < 120; y++) {
-                int changes = 0;
-                for (int x = 1; x < 160; x++)
-                    changes += (pixel[y * 160 + x] != 0) != (pixel[y * 160 + x - 1] != 0);
-                if (!CHECK(changes <= 2)) {
-                    CHECK_EQ(n, -1);
-                    break;
-                }
-            }
-            cut += never > 0 && once > 0;
-            drawn += once > 0;
+    RIG(r, &desc, false);
+    int cut = 0, drawn = 0;
+    for (int n = 0; n < 120; n++) {
+        smear_transform pose = pose_at(0.03 * n - 1.5, -0.02 * n - 0.05, -0.04 * n, 0.37 * n, -1.2 - 0.01 * n);
+        smear_camera camera = camera_at(0, 0, 0, 0.05 * n);
+        camera.near_plane = 656 << n % 9;
+        camera.far_plane = n % 3 == 0 ? 0 : camera.near_plane * 6 + 65536;
+        camera.focal = 65536 << n % 3;
+        if (n % 7 == 6) {
+            camera.half_height = 65536;
+            camera.far_plane = 4 * 65536;
         }
-        CHECK(drawn > 80 && cut > 40);
+        if (n % 5 == 4)         /* huge: most corners far outside the guard band */
+            for (int i = 0; i < 9; i++)
+                pose.basis[i] = pose.basis[i] * 6;
+        smear_draw d = { .mesh = &grid, .material = &glass, .now = &pose };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+        int once = 0, never = 0;
+        for (int i = 0; i < 160 * 120; i++) {
+            once += pixel[i] == 0x818181u || pixel[i] == 0x808080u;
+            never += pixel[i] == 0;
+        }
+        if (!CHECK_EQ(once + never, 160 * 120))
+            CHECK_EQ(n, -1);
+        /* A flat mesh is convex after a cut too: what is covered has no holes along a row. */
+        for (int y = 0; y < 120; y++) {
+            int changes = 0;
+            for (int x = 1; x < 160; x++)
+                changes += (pixel[y * 160 + x] != 0) != (pixel[y * 160 + x - 1] != 0);
+            if (!CHECK(changes <= 2)) {
+                CHECK_EQ(n, -1);
+                break;
+            }
+        }
+        cut += never > 0 && once > 0;
+        drawn += once > 0;
     }
-    rig_end(&r);
+    CHECK(drawn > 80 && cut > 40);
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -1164,57 +1115,52 @@ static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_expo
 
 static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(96, 72);
-    if (rig_begin(&r, &desc, true)) {
-        smear_camera camera = camera_at(0, 0, 0, 0);
-        smear_transform pose[2] = { pose_at(-2, 0, -4, 0, 0), pose_at(2, 0, -4, 0, 0) };
-        smear_draw d = { .id = 3, .mesh = &square, .now = &pose[1] };
-        smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
-        uint8_t *sharp = rig_copy(&r, &f, &d, 1);
-        f.method = SMEAR_RECONSTRUCT;
-        d.now = &pose[0];
-        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-        d.now = &pose[1];
-        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-        CHECK_NEAR(r.velocity[2 * (36 * 96 + 66)], 36 * 256, 4 * STEPS);     /* 4 units of 9 px */
-        CHECK(memcmp(sharp, r.picture, r.picture_size) != 0);
-        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-        same_picture(&r, sharp);
-        free(sharp);
-    }
-    rig_end(&r);
+    RIG(r, &desc, true);
+    smear_camera camera = camera_at(0, 0, 0, 0);
+    smear_transform pose[2] = { pose_at(-2, 0, -4, 0, 0), pose_at(2, 0, -4, 0, 0) };
+    smear_draw d = { .id = 3, .mesh = &square, .now = &pose[1] };
+    smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+    uint8_t *sharp = rig_copy(&r, &f, &d, 1);
+    f.method = SMEAR_RECONSTRUCT;
+    d.now = &pose[0];
+    CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+    d.now = &pose[1];
+    CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+    CHECK_NEAR(r.velocity[2 * (36 * 96 + 66)], 36 * 256, 4 * STEPS);     /* 4 units of 9 px */
+    CHECK(memcmp(sharp, r.picture, r.picture_size) != 0);
+    CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+    same_picture(&r, sharp);
+    free(sharp);
 }
 
 static void test_uniform_tiles_take_plain_means_only_when_asked(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(96, 72);
     uint8_t *picture[2] = { NULL, NULL };
     uint32_t taps[2];
     for (int flag = 0; flag < 2; flag++) {
-        if (rig_begin(&r, &desc, false))
-            for (int k = 0; k < 2; k++) {
-                /* A pan over a textured wall that fills the view. */
-                smear_transform pose = pose_at(0, 0, -2, 0, 0);
-                for (int i = 0; i < 9; i++)
-                    pose.basis[i] *= 6;
-                smear_camera camera = camera_at(0.3 * k, 0, 0, 0);
-                smear_material material = { .texture = &checker_texture, .unlit = 1 };
-                make_checker();
-                smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
-                smear_frame f = { .camera = &camera, .filter.flags = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
-                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-                smear_stats stats;
-                smear_get_stats(r.ctx, &stats);
-                if (k == 1) {
-                    CHECK_EQ(stats.tiles_uniform, 12 * 9);
-                    taps[flag] = stats.samples;
-                    picture[flag] = malloc(r.picture_room);
-                    memcpy(picture[flag], r.picture, r.picture_room);
-                }
+        RIG(r, &desc, false);
+        for (int k = 0; k < 2; k++) {
+            /* A pan over a textured wall that fills the view. */
+            smear_transform pose = pose_at(0, 0, -2, 0, 0);
+            for (int i = 0; i < 9; i++)
+                pose.basis[i] *= 6;
+            smear_camera camera = camera_at(0.3 * k, 0, 0, 0);
+            smear_material material = { .texture = &checker_texture, .unlit = 1 };
+            make_checker();
+            smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .filter.flags = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            smear_stats stats;
+            smear_get_stats(r.ctx, &stats);
+            if (k == 1) {
+                CHECK_EQ(stats.tiles_uniform, 12 * 9);
+                taps[flag] = stats.samples;
+                picture[flag] = malloc(r.picture_room);
+                memcpy(picture[flag], r.picture, r.picture_room);
             }
-        rig_end(&r);
+        }
     }
     CHECK(taps[0] != taps[1]);
     CHECK(memcmp(picture[0], picture[1], 96 * 72 * 4) != 0);
@@ -1268,27 +1214,24 @@ static void test_textures_of_every_size_show_their_texels(void)
 
 static void test_the_largest_textures_are_taken(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(16, 16);
-    if (rig_begin(&r, &desc, false)) {
-        uint8_t *texels = calloc(4096, 1);
-        static const uint32_t palette[256] = { 0xff305070u };
-        smear_texture texture = { .texels = texels, .palette = palette, .width = 1, .height = 4096,
-                                  .format = SMEAR_TEXEL_PALETTE8 };
-        smear_material material = { .texture = &texture, .unlit = 1 };
-        smear_transform pose = pose_at(0, 0, -1.5, 0, 0);
-        smear_camera camera = camera_at(0, 0, 0, 0);
-        smear_draw d = { .mesh = &square, .material = &material, .now = &pose };
-        smear_frame f = { .camera = &camera };
-        for (int turn = 0; turn < 2; turn++) {
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            CHECK_EQ(((const uint32_t *)(const void *)r.picture)[8 * 16 + 8], 0x305070);
-            texture.width = 4096;
-            texture.height = 1;
-        }
-        free(texels);
+    RIG(r, &desc, false);
+    uint8_t *texels = calloc(4096, 1);
+    static const uint32_t palette[256] = { 0xff305070u };
+    smear_texture texture = { .texels = texels, .palette = palette, .width = 1, .height = 4096,
+                              .format = SMEAR_TEXEL_PALETTE8 };
+    smear_material material = { .texture = &texture, .unlit = 1 };
+    smear_transform pose = pose_at(0, 0, -1.5, 0, 0);
+    smear_camera camera = camera_at(0, 0, 0, 0);
+    smear_draw d = { .mesh = &square, .material = &material, .now = &pose };
+    smear_frame f = { .camera = &camera };
+    for (int turn = 0; turn < 2; turn++) {
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        CHECK_EQ(((const uint32_t *)(const void *)r.picture)[8 * 16 + 8], 0x305070);
+        texture.width = 4096;
+        texture.height = 1;
     }
-    rig_end(&r);
+    free(texels);
 }
 
 /* The ground y = -1 under a camera that looks along -z and down by nothing: pixel (x, y) shows the point that lies in its
@@ -1352,53 +1295,50 @@ static void test_flat_faces_are_lit_by_their_own_plane(void)
 {
     enum { W = 64, H = 64 };
     static const double normal[6][3] = { { 0, 0, 1 }, { 0, 0, -1 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
-    struct rig r;
     smear_desc desc = small_desc(W, H);
     smear_mesh mesh = { .position = cube_position, .index = cube_index, .triangle_count = 12, .vertex_count = 8,
                         .shift = STEP };
-    if (rig_begin(&r, &desc, false)) {
-        for (int n = 0; n < 40; n++) {
-            bool inside = n % 4 == 3;           /* from within, double-sided: normals turn to the eye */
-            double yaw = 0.37 * n, pitch = 0.23 * n;
-            smear_transform pose = pose_at(0, 0, inside ? 0 : -4, yaw, pitch);
-            if (n % 4 == 1)                     /* mirrored */
-                for (int i = 0; i < 3; i++)
-                    pose.basis[3 * i] = -pose.basis[3 * i];
-            smear_camera camera = camera_at(0, 0, 0, 0);
-            camera.near_plane = 655;
-            smear_material material = { .double_sided = inside };
-            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-            for (int at = 0; at < W * H; at += 37) {
-                uint32_t got = pixel[at];
-                if (got == 0)
+    RIG(r, &desc, false);
+    for (int n = 0; n < 40; n++) {
+        bool inside = n % 4 == 3;           /* from within, double-sided: normals turn to the eye */
+        double yaw = 0.37 * n, pitch = 0.23 * n;
+        smear_transform pose = pose_at(0, 0, inside ? 0 : -4, yaw, pitch);
+        if (n % 4 == 1)                     /* mirrored */
+            for (int i = 0; i < 3; i++)
+                pose.basis[3 * i] = -pose.basis[3 * i];
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        camera.near_plane = 655;
+        smear_material material = { .double_sided = inside };
+        smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = SMEAR_LIGHT_ENCODED };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+        for (int at = 0; at < W * H; at += 37) {
+            uint32_t got = pixel[at];
+            if (got == 0)
+                continue;
+            bool found = false;             /* the light of one of the faces that may be seen */
+            for (int k = 0; k < 6; k++) {
+                double world[3], dot = 0;
+                for (int i = 0; i < 3; i++) {
+                    world[i] = 0;
+                    for (int j = 0; j < 3; j++)
+                        world[i] += pose.basis[3 * i + j] / 16777216.0 * normal[k][j];
+                }
+                if (inside)
+                    for (int i = 0; i < 3; i++)
+                        world[i] = -world[i];
+                if (!inside && world[2] < 0.0)
                     continue;
-                bool found = false;             /* the light of one of the faces that may be seen */
-                for (int k = 0; k < 6; k++) {
-                    double world[3], dot = 0;
-                    for (int i = 0; i < 3; i++) {
-                        world[i] = 0;
-                        for (int j = 0; j < 3; j++)
-                            world[i] += pose.basis[3 * i + j] / 16777216.0 * normal[k][j];
-                    }
-                    if (inside)
-                        for (int i = 0; i < 3; i++)
-                            world[i] = -world[i];
-                    if (!inside && world[2] < 0.0)
-                        continue;
-                    dot = 0.36 * world[0] + 0.80 * world[1] + 0.48 * world[2];
-                    found = found || fabs(encode(0.30 + 0.70 * fmax(0, dot)) - (got & 255u)) <= 1.5;
-                }
-                if (!CHECK(found)) {
-                    CHECK_EQ(n * 10000 + at, -1);
-                    break;
-                }
+                dot = 0.36 * world[0] + 0.80 * world[1] + 0.48 * world[2];
+                found = found || fabs(encode(0.30 + 0.70 * fmax(0, dot)) - (got & 255u)) <= 1.5;
+            }
+            if (!CHECK(found)) {
+                CHECK_EQ(n * 10000 + at, -1);
+                break;
             }
         }
     }
-    rig_end(&r);
 }
 
 static void test_vertex_and_face_colours_pass_unlit(void)
@@ -1407,33 +1347,30 @@ static void test_vertex_and_face_colours_pass_unlit(void)
     static const uint8_t color[] = { 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255 };
     static const uint8_t face[] = { 10, 220, 130, 255, 70, 5, 250, 255 };
     for (int kind = 0; kind < 8; kind++) {
-        struct rig r;
         smear_desc desc = small_desc(W, H);
         smear_mesh mesh = square;
         mesh.color = kind & 1 ? color : NULL;
         mesh.face_color = kind & 2 ? face : NULL;
         smear_material material = { .unlit = 1 };
-        if (rig_begin(&r, &desc, false)) {
-            smear_transform pose = pose_at(0, 0, -1, 0, 0);
-            smear_camera camera = camera_at(0, 0, 0, 0);
-            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(kind >> 2) };
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-            for (int lower = 0; lower < 2; lower++) {
-                /* Triangle 0 is below the diagonal from bottom left to top right. */
-                uint32_t got = lower ? pixel[40 * W + 40] : pixel[8 * W + 8];
-                for (int c = 0; c < 3; c++) {
-                    double want = 1;
-                    if (kind & 1)
-                        want *= decode(color[c]);
-                    if (kind & 2)
-                        want *= decode(face[4 * !lower + c]);
-                    CHECK_CLOSE(got >> (16 - 8 * c) & 255u, encode(want), 1.0);
-                }
+        RIG(r, &desc, false);
+        smear_transform pose = pose_at(0, 0, -1, 0, 0);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(kind >> 2) };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+        for (int lower = 0; lower < 2; lower++) {
+            /* Triangle 0 is below the diagonal from bottom left to top right. */
+            uint32_t got = lower ? pixel[40 * W + 40] : pixel[8 * W + 8];
+            for (int c = 0; c < 3; c++) {
+                double want = 1;
+                if (kind & 1)
+                    want *= decode(color[c]);
+                if (kind & 2)
+                    want *= decode(face[4 * !lower + c]);
+                CHECK_CLOSE(got >> (16 - 8 * c) & 255u, encode(want), 1.0);
             }
         }
-        rig_end(&r);
     }
 }
 
@@ -1471,71 +1408,65 @@ static void test_tiny_triangles_are_drawn_alike_with_and_without_motion(void)
 {
     /* Without motion they may be kept as points; with it (one step of q16) they are triangles like any other. */
     enum { W = 96, H = 72 };
-    struct rig r;
     smear_desc desc = small_desc(W, H);
     desc.max_triangles = 8000;
-    if (rig_begin(&r, &desc, true)) {
-        static uint32_t color[W * H];
-        static uint16_t depth[W * H];
-        for (int n = 0; n < 24; n++) {
-            smear_mesh field = make_field(n & 1);
-            smear_material material = { .unlit = (uint8_t)(n >> 1 & 1), .double_sided = n % 3 == 0 };
-            smear_camera camera = camera_at(0, 0, 0, 0);
-            smear_transform pose = pose_at(0.02 * n, 0.01 * n, -2 - 0.11 * n, 0.04 * n - 0.4, 0.1);
-            smear_transform before = pose;
-            before.origin[0]++;
-            smear_draw d = { .mesh = &field, .material = &material, .now = &pose, .open = &before };
-            smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(n >> 2 & 1) };
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            memcpy(color, r.color, sizeof color);
-            memcpy(depth, r.depth, sizeof depth);
-            f.method = SMEAR_RECONSTRUCT;
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            int drawn = 0;
-            for (int i = 0; i < W * H; i++) {
-                bool ok = CHECK_EQ(depth[i] != 0, r.depth[i] != 0) && CHECK_NEAR(depth[i], r.depth[i], 1);
-                for (int c = 0; c < 24; c += 8)
-                    ok = ok && CHECK_NEAR(color[i] >> c & 255u, r.color[i] >> c & 255u, n & 1 ? 3 : 0);
-                drawn += depth[i] != 0;
-                if (!ok) {
-                    CHECK_EQ(n * 10000 + i, -1);
-                    break;
-                }
+    RIG(r, &desc, true);
+    static uint32_t color[W * H];
+    static uint16_t depth[W * H];
+    for (int n = 0; n < 24; n++) {
+        smear_mesh field = make_field(n & 1);
+        smear_material material = { .unlit = (uint8_t)(n >> 1 & 1), .double_sided = n % 3 == 0 };
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        smear_transform pose = pose_at(0.02 * n, 0.01 * n, -2 - 0.11 * n, 0.04 * n - 0.4, 0.1);
+        smear_transform before = pose;
+        before.origin[0]++;
+        smear_draw d = { .mesh = &field, .material = &material, .now = &pose, .open = &before };
+        smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(n >> 2 & 1) };
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        memcpy(color, r.color, sizeof color);
+        memcpy(depth, r.depth, sizeof depth);
+        f.method = SMEAR_RECONSTRUCT;
+        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+        int drawn = 0;
+        for (int i = 0; i < W * H; i++) {
+            bool ok = CHECK_EQ(depth[i] != 0, r.depth[i] != 0) && CHECK_NEAR(depth[i], r.depth[i], 1);
+            for (int c = 0; c < 24; c += 8)
+                ok = ok && CHECK_NEAR(color[i] >> c & 255u, r.color[i] >> c & 255u, n & 1 ? 3 : 0);
+            drawn += depth[i] != 0;
+            if (!ok) {
+                CHECK_EQ(n * 10000 + i, -1);
+                break;
             }
-            CHECK(drawn > 500);
         }
+        CHECK(drawn > 500);
     }
-    rig_end(&r);
 }
 
 static void test_black_is_zero_and_white_is_all_ones_in_every_format(void)
 {
     for (int format = 0; format <= SMEAR_L1_PAGES; format++)
         for (int white = 0; white < 2; white++) {
-            struct rig r;
             smear_desc desc = small_desc(24, 21);
             desc.format = (uint8_t)format;
-            if (rig_begin(&r, &desc, false)) {
-                smear_camera camera = camera_at(0, 0, 0, 0);
-                smear_frame f = { .camera = &camera, .clear = white ? 0xffffff : 0 };
-                CHECK_EQ(rig_frame(&r, &f, NULL, 0), SMEAR_OK);
-                for (size_t i = 0; i < r.picture_size; i++) {
-                    uint32_t want = !white ? 0 : 0xff;
-                    if (white && format == SMEAR_XRGB8888) {
-                        uint32_t word;
-                        memcpy(&word, r.picture + i / 4 * 4, 4);
-                        CHECK_EQ(word, 0xffffff);
-                        continue;
-                    }
-                    if (white && format == SMEAR_RGB555)
-                        want = i & 1 ? 0x7f : 0xff;
-                    if (white && format == SMEAR_L1_PAGES && i >= 2 * 24)
-                        want = 0x1f;                    /* 21 rows: five in the last page */
-                    if (!CHECK_EQ(r.picture[i], want))
-                        break;
+            RIG(r, &desc, false);
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            smear_frame f = { .camera = &camera, .clear = white ? 0xffffff : 0 };
+            CHECK_EQ(rig_frame(&r, &f, NULL, 0), SMEAR_OK);
+            for (size_t i = 0; i < r.picture_size; i++) {
+                uint32_t want = !white ? 0 : 0xff;
+                if (white && format == SMEAR_XRGB8888) {
+                    uint32_t word;
+                    memcpy(&word, r.picture + i / 4 * 4, 4);
+                    CHECK_EQ(word, 0xffffff);
+                    continue;
                 }
+                if (white && format == SMEAR_RGB555)
+                    want = i & 1 ? 0x7f : 0xff;
+                if (white && format == SMEAR_L1_PAGES && i >= 2 * 24)
+                    want = 0x1f;                    /* 21 rows: five in the last page */
+                if (!CHECK_EQ(r.picture[i], want))
+                    break;
             }
-            rig_end(&r);
         }
 }
 
@@ -1554,99 +1485,93 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
 {
     static const uint8_t flags[] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, SMEAR_UNIFORM, 31 };
     for (int variant = 0; variant < 14; variant++) {
-        struct rig r, alone;
         smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
         desc.reach = (int16_t)(variant & 2 ? 20 : 12);
-        if (rig_begin(&r, &desc, true) && rig_begin(&alone, &desc, false)) {
-            smear_camera camera = camera_at(0, 0, 0, 0);
-            camera.near_plane = 65536;
-            uint8_t *picture = NULL;
-            smear_frame f = { .camera = &camera, .filter.flags = flags[variant % 7], .clear = 0x556677,
-                              .shutter.degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
-                              .light_space = (uint8_t)(variant / 7) };
-            for (int k = 0; k < 2; k++) {
-                /* Upright squares at powers of two, moving by whole sixteenths of a pixel: depth and velocity pass
-                 * the filter's formats unchanged. */
-                smear_transform pose[4];
-                smear_draw d[4];
-                smear_material m[4];
-                for (int i = 0; i < 4; i++) {
-                    double px = (double)desc.height / 2 / (2 << i);     /* per unit */
-                    static const int step[4][2] = { { -6, 0 }, { 0, 3 }, { 5, -4 }, { 0, 0 } };      /* px per frame */
-                    pose[i] = pose_at((i * 6 - 8 + k * step[i][0]) / px, (8 - 5 * i + k * step[i][1]) / px, -(2 << i),
-                                      0, 0);
-                    m[i] = (smear_material){ .texture = &checker_texture, .unlit = 1 };
-                    d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &m[i], .now = &pose[i] };
-                    for (int e = 0; e < 9; e++)
-                        pose[i].basis[e] *= i + 1;
-                }
-                make_checker();
-                free(picture);
-                picture = rig_copy(&r, &f, d, 4);
+        RIG(r, &desc, true);
+        RIG(alone, &desc, false);
+        smear_camera camera = camera_at(0, 0, 0, 0);
+        camera.near_plane = 65536;
+        uint8_t *picture = NULL;
+        smear_frame f = { .camera = &camera, .filter.flags = flags[variant % 7], .clear = 0x556677,
+                          .shutter.degrees = 360, .samples = (uint16_t)(4 + 3 * variant),
+                          .light_space = (uint8_t)(variant / 7) };
+        for (int k = 0; k < 2; k++) {
+            /* Upright squares at powers of two, moving by whole sixteenths of a pixel: depth and velocity pass
+             * the filter's formats unchanged. */
+            smear_transform pose[4];
+            smear_draw d[4];
+            smear_material m[4];
+            for (int i = 0; i < 4; i++) {
+                double px = (double)desc.height / 2 / (2 << i);     /* per unit */
+                static const int step[4][2] = { { -6, 0 }, { 0, 3 }, { 5, -4 }, { 0, 0 } };      /* px per frame */
+                pose[i] = pose_at((i * 6 - 8 + k * step[i][0]) / px, (8 - 5 * i + k * step[i][1]) / px, -(2 << i),
+                                  0, 0);
+                m[i] = (smear_material){ .texture = &checker_texture, .unlit = 1 };
+                d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &m[i], .now = &pose[i] };
+                for (int e = 0; e < 9; e++)
+                    pose[i].basis[e] *= i + 1;
             }
-            rig_forget_output(&alone);
-            CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
-            int moving = 0, left_out = 0;
-            for (int y = 0; y < desc.height; y++) {
-                uint32_t depth[128];
-                int16_t velocity[256];
-                for (int x = 0; x < desc.width; x++) {
-                    int at = y * desc.width + x;
-                    depth[x] = distance_for(r.depth[at]);
-                    for (int axis = 0; axis < 2; axis++) {
-                        int32_t v = r.velocity[2 * at + axis];
-                        velocity[2 * x + axis] = (int16_t)(v >= 0 ? (v + 8) / 16 : -((8 - v) / 16));
-                        moving += v != 0;
-                        left_out += abs(velocity[2 * x + axis] * 16 - v) > 7;
-                    }
-                }
-                CHECK_EQ(smear_filter_row(alone.ctx, r.color + y * desc.width, depth, velocity), SMEAR_OK);
-            }
-            CHECK(moving > 1000);
-            CHECK_EQ(left_out, 0);
-            CHECK(alone.bands_in_order && alone.next_row == desc.height);
-            if (!same_picture(&alone, picture))
-                CHECK_EQ(variant, -1);
-            smear_stats rendered, filtered;
-            smear_get_stats(r.ctx, &rendered);
-            smear_get_stats(alone.ctx, &filtered);
-            CHECK_EQ(rendered.samples, filtered.samples);
-            CHECK_EQ(rendered.tiles_complex, filtered.tiles_complex);
+            make_checker();
             free(picture);
-            rig_end(&alone);
+            picture = rig_copy(&r, &f, d, 4);
         }
-        rig_end(&r);
+        rig_forget_output(&alone);
+        CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
+        int moving = 0, left_out = 0;
+        for (int y = 0; y < desc.height; y++) {
+            uint32_t depth[128];
+            int16_t velocity[256];
+            for (int x = 0; x < desc.width; x++) {
+                int at = y * desc.width + x;
+                depth[x] = distance_for(r.depth[at]);
+                for (int axis = 0; axis < 2; axis++) {
+                    int32_t v = r.velocity[2 * at + axis];
+                    velocity[2 * x + axis] = (int16_t)(v >= 0 ? (v + 8) / 16 : -((8 - v) / 16));
+                    moving += v != 0;
+                    left_out += abs(velocity[2 * x + axis] * 16 - v) > 7;
+                }
+            }
+            CHECK_EQ(smear_filter_row(alone.ctx, r.color + y * desc.width, depth, velocity), SMEAR_OK);
+        }
+        CHECK(moving > 1000);
+        CHECK_EQ(left_out, 0);
+        CHECK(alone.bands_in_order && alone.next_row == desc.height);
+        if (!same_picture(&alone, picture))
+            CHECK_EQ(variant, -1);
+        smear_stats rendered, filtered;
+        smear_get_stats(r.ctx, &rendered);
+        smear_get_stats(alone.ctx, &filtered);
+        CHECK_EQ(rendered.samples, filtered.samples);
+        CHECK_EQ(rendered.tiles_complex, filtered.tiles_complex);
+        free(picture);
     }
 }
 
 static void test_the_filter_refuses_what_it_cannot_do(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(16, 16);
     desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE);
-    if (rig_begin(&r, &desc, false)) {
-        smear_camera camera = { .near_plane = 65536 };      /* all that is looked at */
-        smear_frame f = { .camera = &camera, .method = SMEAR_RECONSTRUCT };
-        static const uint32_t words[16];
-        static const int16_t halves[32];
-        CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
-        CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, NULL, words, halves)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, words, NULL, halves)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, words, words, NULL)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_filter_row(NULL, words, words, halves)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, NULL)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_filter_begin(NULL, &f)), SMEAR_ERR_ARG);
-        f.method = SMEAR_NONE;
-        CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
-        f.method = SMEAR_ACCUMULATE;
-        CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
-        f.method = SMEAR_RECONSTRUCT;
-        camera.near_plane = 0;
-        CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
-        f.camera = NULL;
-        CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    smear_camera camera = { .near_plane = 65536 };      /* all that is looked at */
+    smear_frame f = { .camera = &camera, .method = SMEAR_RECONSTRUCT };
+    static const uint32_t words[16];
+    static const int16_t halves[32];
+    CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+    CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, NULL, words, halves)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, words, NULL, halves)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_filter_row(r.ctx, words, words, NULL)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_filter_row(NULL, words, words, halves)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, NULL)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_filter_begin(NULL, &f)), SMEAR_ERR_ARG);
+    f.method = SMEAR_NONE;
+    CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
+    f.method = SMEAR_ACCUMULATE;
+    CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
+    f.method = SMEAR_RECONSTRUCT;
+    camera.near_plane = 0;
+    CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
+    f.camera = NULL;
+    CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
 }
 
 #include "build/suites/api.h"

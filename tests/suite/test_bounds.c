@@ -58,7 +58,6 @@ static void test_no_picture_changes_by_any_method(void)
     uint32_t beside = 0;
     for (uint8_t method = SMEAR_NONE; method <= SMEAR_LAYERED; method++)
         for (int sharp = 0; sharp < 2; sharp++) {
-            struct rig rig;
             const bool is_filter = smear_method_is_filter(method);
             if (sharp && is_filter)
                 continue;
@@ -69,22 +68,21 @@ static void test_no_picture_changes_by_any_method(void)
                                 .max_triangles = scarce ? 24 : 400 };
             if (!sharp)
                 desc.methods |= SMEAR_SET_FILTERS;
-            if (rig_begin(&rig, &desc, false))
-                for (int n = 0; n < 12; n++) {
-                    struct flock f;
-                    smear_stats stats;
-                    scatter(&f, method, n % 4 == 3 && method != SMEAR_CAMERA);
-                    uint8_t *want = rig_copy(&rig, &f.frame, f.draw, CUBES);
-                    smear_get_stats(rig.ctx, &stats);
-                    CHECK_EQ(stats.draws_beside, 0);
-                    bound(&f, true);
-                    CHECK_EQ(rig_frame(&rig, &f.frame, f.draw, CUBES), SMEAR_OK);
-                    CHECK(want != NULL && same_picture(&rig, want));
-                    smear_get_stats(rig.ctx, &stats);
-                    beside += stats.draws_beside;
-                    free(want);
-                }
-            rig_end(&rig);
+            RIG(rig, &desc, false);
+            for (int n = 0; n < 12; n++) {
+                struct flock f;
+                smear_stats stats;
+                scatter(&f, method, n % 4 == 3 && method != SMEAR_CAMERA);
+                uint8_t *want = rig_copy(&rig, &f.frame, f.draw, CUBES);
+                smear_get_stats(rig.ctx, &stats);
+                CHECK_EQ(stats.draws_beside, 0);
+                bound(&f, true);
+                CHECK_EQ(rig_frame(&rig, &f.frame, f.draw, CUBES), SMEAR_OK);
+                CHECK(want != NULL && same_picture(&rig, want));
+                smear_get_stats(rig.ctx, &stats);
+                beside += stats.draws_beside;
+                free(want);
+            }
         }
     CHECK(beside > 300);
 }

@@ -228,41 +228,38 @@ static void test_the_text_of_a_bad_draw_names_the_field_and_the_rest_is_drawn(vo
         TEXTURE(height, 65535), TEXTURE(format, SMEAR_TEXEL_PALETTE8 + 1), TEXTURE(format, SMEAR_TEXEL_PALETTE8) /* no palette */,
         TEXTURE(wrap_u, SMEAR_MIRROR + 1), TEXTURE(wrap_v, 200)
     };
-    struct rig r;
     smear_desc desc = small_desc(32, 32);
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_NONE);
-        uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
-        rig_forget_output(&r);
-        CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-        const size_t count = sizeof bad / sizeof *bad;
-        for (size_t i = 0; i < count + 5; i++) {
-            smear_mesh mesh = square;
-            smear_texture texture = checker_texture;
-            smear_material material = { .texture = &texture };
-            smear_draw d = { .mesh = &mesh, .material = &material, .now = &s.pose[3] };
-            if (i < count)
-                put(bad[i].name[6] == 'e' ? (void *)&mesh : bad[i].name[6] == 'a' ? (void *)&texture : (void *)&d, &bad[i]);
-            const char *name = i < count ? bad[i].name : "draw.mesh";
-            switch (i - count) {
-            case 0: d.mesh = NULL; break;
-            case 1: mesh.position = NULL; break;
-            case 2: mesh.index = NULL; break;
-            case 3: texture.texels = NULL, name = "draw.material"; break;
-            case 4: material.alpha = SMEAR_BLEND + 1, name = "draw.material"; break;
-            default: break;
-            }
-            names(smear_submit(r.ctx, &d), name);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, SMEAR_NONE);
+    uint8_t *picture = rig_copy(&r, &s.frame, &s.draw[1], 1);
+    rig_forget_output(&r);
+    CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+    const size_t count = sizeof bad / sizeof *bad;
+    for (size_t i = 0; i < count + 5; i++) {
+        smear_mesh mesh = square;
+        smear_texture texture = checker_texture;
+        smear_material material = { .texture = &texture };
+        smear_draw d = { .mesh = &mesh, .material = &material, .now = &s.pose[3] };
+        if (i < count)
+            put(bad[i].name[6] == 'e' ? (void *)&mesh : bad[i].name[6] == 'a' ? (void *)&texture : (void *)&d, &bad[i]);
+        const char *name = i < count ? bad[i].name : "draw.mesh";
+        switch (i - count) {
+        case 0: d.mesh = NULL; break;
+        case 1: mesh.position = NULL; break;
+        case 2: mesh.index = NULL; break;
+        case 3: texture.texels = NULL, name = "draw.material"; break;
+        case 4: material.alpha = SMEAR_BLEND + 1, name = "draw.material"; break;
+        default: break;
         }
-        CHECK_EQ(smear_error_kind(smear_submit(r.ctx, NULL)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_submit(NULL, &s.draw[1])), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
-        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-        CHECK(picture != NULL && same_picture(&r, picture));
-        free(picture);
+        names(smear_submit(r.ctx, &d), name);
     }
-    rig_end(&r);
+    CHECK_EQ(smear_error_kind(smear_submit(r.ctx, NULL)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_submit(NULL, &s.draw[1])), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_submit(r.ctx, &s.draw[1]), SMEAR_OK);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    CHECK(picture != NULL && same_picture(&r, picture));
+    free(picture);
 }
 
 static int begin_with_points(smear_context *ctx, const smear_points *points)
@@ -291,32 +288,29 @@ static void test_the_text_of_a_bad_item_or_point_names_the_field(void)
     static const smear_image bad[] = { { codes, NULL, 3, 2, 2, SMEAR_IMAGE_PALETTE4 },
                                        { codes, palette, 2, 3, 1, SMEAR_IMAGE_PALETTE8 + 1 },
                                        { codes, palette, 2049, 3, 1, SMEAR_IMAGE_PALETTE8 }, { NULL, NULL, 3, 3, 0, SMEAR_IMAGE_MASK4 } };
-    struct rig r;
     const smear_desc desc = small_desc(32, 32);
     smear_font font = smear_font_8x8;
     font.glyph.height = 0;
-    if (rig_begin(&r, &desc, false)) {
-        names(begin_with_item(r.ctx, NULL), "frame.overlay");
-        names(begin_with_item(r.ctx, &(smear_overlay_item){ .scale = 9 }), "overlay.item.scale");
-        names(begin_with_item(r.ctx, &(smear_overlay_item){ .text = "" }), "overlay.item.font");
-        names(begin_with_item(r.ctx, &(smear_overlay_item){ .text = "", .font = &font }), "overlay.item.font");
-        names(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &sprite, .cell = 2 }), "overlay.item.cell");
-        for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-            names(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &bad[i] }), "overlay.item.image");
-        CHECK_EQ(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &sprite }), SMEAR_OK);
-        names(begin_with_points(r.ctx, &(smear_points){ NULL, 1 }), "overlay.points");
-        smear_point point = { .size = -1 };
-        names(begin_with_points(r.ctx, &(smear_points){ &point, 1 }), "overlay.point.size");
-        point = (smear_point){ .mode = SMEAR_POINT_BLEND + 1 };
-        names(begin_with_points(r.ctx, &(smear_points){ &point, 1 }), "overlay.point.mode");
-        /* Rows of another renderer have none. */
-        const smear_camera camera = camera_at(0, 0, 0, 0);
-        const smear_points points = { NULL, 0 };
-        const smear_overlay overlay = { NULL, 0, &points };
-        names(smear_filter_begin(r.ctx, &(smear_frame){ .camera = &camera, .method = SMEAR_RECONSTRUCT, .overlay = &overlay }),
-              "overlay.points");
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    names(begin_with_item(r.ctx, NULL), "frame.overlay");
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .scale = 9 }), "overlay.item.scale");
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .text = "" }), "overlay.item.font");
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .text = "", .font = &font }), "overlay.item.font");
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &sprite, .cell = 2 }), "overlay.item.cell");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        names(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &bad[i] }), "overlay.item.image");
+    CHECK_EQ(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &sprite }), SMEAR_OK);
+    names(begin_with_points(r.ctx, &(smear_points){ NULL, 1 }), "overlay.points");
+    smear_point point = { .size = -1 };
+    names(begin_with_points(r.ctx, &(smear_points){ &point, 1 }), "overlay.point.size");
+    point = (smear_point){ .mode = SMEAR_POINT_BLEND + 1 };
+    names(begin_with_points(r.ctx, &(smear_points){ &point, 1 }), "overlay.point.mode");
+    /* Rows of another renderer have none. */
+    const smear_camera camera = camera_at(0, 0, 0, 0);
+    const smear_points points = { NULL, 0 };
+    const smear_overlay overlay = { NULL, 0, &points };
+    names(smear_filter_begin(r.ctx, &(smear_frame){ .camera = &camera, .method = SMEAR_RECONSTRUCT, .overlay = &overlay }),
+          "overlay.points");
 }
 
 static void test_an_id_is_taken_once_per_frame(void)
@@ -324,29 +318,27 @@ static void test_an_id_is_taken_once_per_frame(void)
     static const uint16_t methods[] = { SMEAR_SET(SMEAR_NONE), SMEAR_SET(SMEAR_AUTO), SMEAR_SET(SMEAR_RECONSTRUCT) };
     for (int m = 0; m < 3; m++) {
         static const uint32_t id[] = { 5, 0, 6, 0, 7 };
-        struct rig r;
         smear_desc desc = small_desc(48, 32);
         desc.methods = methods[m];
         desc.max_draws = 7;
-        if (rig_begin(&r, &desc, false))
-            for (int frame = 0; frame < 3; frame++) {
-                struct scene s;
-                make_scene(&s, 0.1 * frame, SMEAR_NONE);
-                for (int i = 0; i < SCENE_DRAWS; i++)
-                    s.draw[i].id = id[i];
-                uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-                rig_forget_output(&r);
-                CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
-                for (int i = 0; i < SCENE_DRAWS; i++) {
-                    CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
-                    if (id[i] != 0)
-                        names(smear_submit(r.ctx, &s.draw[i]), "draw.id");
-                }
-                CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-                CHECK(picture != NULL && same_picture(&r, picture));
-                free(picture);
+        RIG(r, &desc, false);
+        for (int frame = 0; frame < 3; frame++) {
+            struct scene s;
+            make_scene(&s, 0.1 * frame, SMEAR_NONE);
+            for (int i = 0; i < SCENE_DRAWS; i++)
+                s.draw[i].id = id[i];
+            uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+            rig_forget_output(&r);
+            CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
+            for (int i = 0; i < SCENE_DRAWS; i++) {
+                CHECK_EQ(smear_submit(r.ctx, &s.draw[i]), SMEAR_OK);
+                if (id[i] != 0)
+                    names(smear_submit(r.ctx, &s.draw[i]), "draw.id");
             }
-        rig_end(&r);
+            CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+            CHECK(picture != NULL && same_picture(&r, picture));
+            free(picture);
+        }
     }
 }
 

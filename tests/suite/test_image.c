@@ -612,7 +612,7 @@ static void test_inflate_checks_header_checksum_and_end_of_zlib_streams(void)
 static void test_inflate_agrees_with_a_second_decoder_on_damaged_streams(void)
 {
     uint8_t text[600], out[4000];
-    struct buffer packed = {0};
+    struct buffer packed OWNED(buffer_free) = {0};
     int accepted = 0;
     random_seed(5);
     for (size_t i = 0; i < sizeof text; i++)
@@ -641,7 +641,6 @@ static void test_inflate_agrees_with_a_second_decoder_on_damaged_streams(void)
         free(damaged);
     }
     CHECK(accepted > 100);
-    buffer_free(&packed);
 }
 
 /* --- PNG: an encoder of all kinds --- */
@@ -659,7 +658,7 @@ static void put_chunk(struct buffer *b, const char *name, const void *data, size
 static void put_head(struct buffer *b, uint32_t width, uint32_t height, int depth, int type,
                      int interlace)
 {
-    struct buffer h = {0};
+    struct buffer h OWNED(buffer_free) = {0};
     buffer_append(b, "\x89PNG\r\n\x1a\n", 8);
     buffer_be32(&h, width);
     buffer_be32(&h, height);
@@ -668,7 +667,6 @@ static void put_head(struct buffer *b, uint32_t width, uint32_t height, int dept
     buffer_le16(&h, 0);
     buffer_byte(&h, (unsigned)interlace);
     put_chunk(b, "IHDR", h.data, h.size);
-    buffer_free(&h);
 }
 
 /* `raw` as a zlib stream of stored blocks. */
@@ -691,9 +689,8 @@ static struct buffer store(const uint8_t *raw, size_t size)
 
 static void put_idat(struct buffer *b, const uint8_t *raw, size_t size)
 {
-    struct buffer packed = store(raw, size);
+    struct buffer packed OWNED(buffer_free) = store(raw, size);
     put_chunk(b, "IDAT", packed.data, packed.size);
-    buffer_free(&packed);
 }
 
 /* What the filters of the standard predict from left, above and the corner between. */
@@ -914,8 +911,8 @@ static void test_png_notices_every_changed_byte_and_every_cut(void)
 {
     random_seed(7);
     for (int kind = 0; kind < 15; kind++) {
-        struct buffer file = small_png(kind, kind % 2 == 0);
-        struct image got;
+        struct buffer file OWNED(buffer_free) = small_png(kind, kind % 2 == 0);
+        struct image got OWNED(image_free);
         struct failure f;
         for (size_t i = 0; i < file.size; i++) {
             uint8_t flip = (uint8_t)(1 + random_below(255));
@@ -933,8 +930,6 @@ static void test_png_notices_every_changed_byte_and_every_cut(void)
             free(cut);
         }
         CHECK(png_decode(file.data, file.size, &got, &f));
-        image_free(&got);
-        buffer_free(&file);
     }
 }
 
@@ -959,8 +954,8 @@ static void test_png_survives_damage_under_right_checksums(void)
     int pictures = 0, errors = 0;
     random_seed(8);
     for (int round = 0; round < 6000; round++) {
-        struct buffer file = small_png(round % 15, round % 2 == 0);
-        struct image got;
+        struct buffer file OWNED(buffer_free) = small_png(round % 15, round % 2 == 0);
+        struct image got OWNED(image_free);
         struct failure f = {""};
         for (unsigned n = 1 + random_below(3); n > 0; n--)
             file.data[random_below((unsigned)file.size)] = (uint8_t)random_bits();
@@ -969,8 +964,6 @@ static void test_png_survives_damage_under_right_checksums(void)
         pictures += ok;
         errors += !ok;
         CHECK(ok == (got.rgba != NULL) && ok == (f.text[0] == '\0'));
-        image_free(&got);
-        buffer_free(&file);
     }
     CHECK(pictures > 10 && errors > 1000);
 }
@@ -979,13 +972,12 @@ static void test_png_knows_no_other_colour_types_and_depths(void)
 {
     for (int type = 0; type < 9; type++)
         for (int depth = 0; depth < 20; depth++) {
-            struct buffer file = {0};
+            struct buffer file OWNED(buffer_free) = {0};
             bool known = false;
             for (int i = 0; i < 15; i++)
                 known |= png_kinds[i].type == type && png_kinds[i].depth == depth;
             put_head(&file, 1, 1, depth, type, 0);
             CHECK(png_is_refused(&file, known ? "file ends early" : "does not exist"));
-            buffer_free(&file);
         }
 }
 
@@ -995,18 +987,16 @@ static void test_png_refuses_sizes_that_are_zero_huge_or_a_lie(void)
         {0, 5}, {5, 0}, {16385, 1}, {1, 16385}, {0x80000001, 1}, {0xffffffff, 0xffffffff},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        struct buffer file = {0};
+        struct buffer file OWNED(buffer_free) = {0};
         put_head(&file, wrong[i][0], wrong[i][1], 8, 2, 0);
         CHECK(png_is_refused(&file, "picture size"));
-        buffer_free(&file);
     }
     for (int interlace = 0; interlace < 2; interlace++) {
-        struct buffer file = {0};
+        struct buffer file OWNED(buffer_free) = {0};
         put_head(&file, 4096, 4096, 16, 6, interlace);
         put_idat(&file, (const uint8_t *)"0123456789", 10);
         put_chunk(&file, "IEND", NULL, 0);
         CHECK(png_is_refused(&file, "too small for its picture size"));
-        buffer_free(&file);
     }
 }
 
@@ -1071,10 +1061,9 @@ static void test_png_refuses_chunks_that_are_missing_misplaced_or_malformed(void
         {3, "PiE", "not in the palette"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct buffer file = chunks_in_order(cases[i].order, cases[i].type);
+        struct buffer file OWNED(buffer_free) = chunks_in_order(cases[i].order, cases[i].type);
         if (!CHECK(png_is_refused(&file, cases[i].why)))
             test_print(cases[i].order);
-        buffer_free(&file);
     }
     struct buffer file = {0};
     buffer_append(&file, "\x89PNG\r\n\x1a\n", 8);
@@ -1097,13 +1086,11 @@ static void test_png_skips_what_a_picture_does_not_need(void)
         {0, "aTaDaE"}, {2, "PTDE"}, {6, "PDaE"}, {0, "eDeE"}, {0, "DEXXDn"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct buffer file = chunks_in_order(cases[i].order, cases[i].type);
-        struct image got;
+        struct buffer file OWNED(buffer_free) = chunks_in_order(cases[i].order, cases[i].type);
+        struct image got OWNED(image_free);
         struct failure f = {""};
         CHECK(png_decode(file.data, file.size, &got, &f));
         CHECK(got.rgba != NULL && got.rgba[0] == 1);
-        image_free(&got);
-        buffer_free(&file);
     }
 }
 
@@ -1232,13 +1219,12 @@ static void test_png_round_trips_pictures_of_all_shapes(void)
 /* zlib at level 6 with the same filters gives 10995 and 853 bytes; 10 % more are allowed. */
 static void test_png_is_small(void)
 {
-    struct image smooth = smooth_image(320, 240, 0), flat = make_image(320, 240);
+    struct image smooth OWNED(image_free) = smooth_image(320, 240, 0), flat = make_image(320, 240);
     for (int i = 0; i < 320 * 240; i++)
         if ((i / 40 + i / 9600) % 2 == 0)
             memcpy(flat.rgba + i * 4, "\x20\x80\xc0", 3);
     CHECK(check_png_round_trip(&smooth, 3) <= 10995 * 11 / 10);
     CHECK(check_png_round_trip(&flat, 3) <= 853 * 11 / 10);
-    image_free(&smooth);
     image_free(&flat);
 }
 
@@ -1318,7 +1304,7 @@ static void test_ppm_refuses_what_is_not_a_picture(void)
 static void test_ppm_round_trips_colours_and_drops_alpha(void)
 {
     random_seed(10);
-    struct image image = noise_image(33, 21, true), got;
+    struct image image OWNED(image_free) = noise_image(33, 21, true), got;
     struct failure f = {""};
     uint8_t *bytes;
     size_t size;
@@ -1332,7 +1318,6 @@ static void test_ppm_round_trips_colours_and_drops_alpha(void)
     for (int i = 0; i < 33 * 21; i++)
         image.rgba[i * 4 + 3] = 255;
     CHECK(same_pixels(&image, &got));
-    image_free(&image);
     image_free(&got);
     free(bytes);
 }
@@ -1357,7 +1342,7 @@ static void test_pfm_round_trips_every_bit_pattern(void)
 {
     random_seed(11);
     for (int channels = 1; channels <= 3; channels += 2) {
-        struct float_image image, got;
+        struct float_image image OWNED(float_image_free), got;
         struct failure f = {""};
         uint8_t *bytes;
         size_t size, values = (size_t)(13 * 9 * channels);
@@ -1377,7 +1362,6 @@ static void test_pfm_round_trips_every_bit_pattern(void)
         }
         CHECK(pfm_decode(bytes, size, &got, &f) && got.channels == channels);
         CHECK(memcmp(got.value, image.value, values * 4) == 0);
-        float_image_free(&image);
         float_image_free(&got);
         free(bytes);
     }
@@ -1501,7 +1485,7 @@ static void test_pictures_are_saved_and_loaded_by_content(void)
 
 static void test_difference_is_scaled_and_clamped_per_channel(void)
 {
-    struct image a = make_image(2, 1), b = make_image(2, 1), out;
+    struct image a OWNED(image_free) = make_image(2, 1), b = make_image(2, 1), out;
     struct failure f = {""};
     memcpy(a.rgba, "\x0a\x00\xff\x05\x64\x64\x64\xff", 8);
     memcpy(b.rgba, "\x00\x0a\x00\xff\x64\x63\x5a\xff", 8);
@@ -1515,7 +1499,6 @@ static void test_difference_is_scaled_and_clamped_per_channel(void)
     CHECK(!image_difference(&a, &b, 1, &out, &f));
     b = make_image(1, 2);
     CHECK(!image_difference(&a, &b, 1, &out, &f));
-    image_free(&a);
     image_free(&b);
 }
 
@@ -1805,18 +1788,15 @@ static void test_gif_ends_its_data_at_any_length(void)
     for (int colors = 2; colors <= 256; colors *= 2)
         for (int width = 1; width <= 560; width += width < 300 || colors == 256 ? 1 : 37) {
             const char *path = scratch("test_image.gif");
-            struct image image = make_image(width, 1);
+            struct image image OWNED(image_free) = make_image(width, 1);
             struct failure f = {""};
             for (int i = 0; i < width * 4; i += 4)
                 image.rgba[i] = (uint8_t)random_below((unsigned)colors);
             struct animation_writer *w = gif_begin(path, width, 1, &f);
             CHECK(animation_add(w, &image, 40, &f) && animation_end(w, &f));
-            struct buffer file = take_file(path);
-            struct movie m = read_gif(&file);
+            struct buffer file OWNED(buffer_free) = take_file(path);
+            struct movie m OWNED(free_movie) = read_gif(&file);
             CHECK(m.ok && m.frames == 1 && same_pixels(&m.frame[0], &image));
-            free_movie(&m);
-            buffer_free(&file);
-            image_free(&image);
         }
 }
 
@@ -1899,20 +1879,18 @@ static double block_error(const struct image *a, const struct image *b)
 
 static void test_gif_dithers_smooth_pictures_close_to_the_original(void)
 {
-    struct image ramp = make_image(256, 192);   /* grey to colour: 6000 colours of few hues */
+    struct image ramp OWNED(image_free) = make_image(256, 192);   /* grey to colour: 6000 colours of few hues */
     for (int y = 0; y < 192; y++)
         for (int x = 0; x < 256; x++) {
             pixel(&ramp, x, y)[0] = (uint8_t)x;
             pixel(&ramp, x, y)[1] = (uint8_t)(x * (255 - y) / 255);
             pixel(&ramp, x, y)[2] = (uint8_t)(x / 2 + y / 4);
         }
-    struct movie m = write_movie(true, &ramp, 1);
+    struct movie m OWNED(free_movie) = write_movie(true, &ramp, 1);
     if (m.ok) {
         CHECK(mean_square(&m.frame[0], &ramp) < 4.2 * 4.2);
         CHECK(block_error(&m.frame[0], &ramp) < 1.2);   /* without dither 2.2 */
     }
-    free_movie(&m);
-    image_free(&ramp);
 }
 
 static void test_gif_leaves_unchanged_pixels_of_dithered_frames_alone(void)
@@ -1921,10 +1899,9 @@ static void test_gif_leaves_unchanged_pixels_of_dithered_frames_alone(void)
     random_seed(16);
     for (int n = 0; n < 8; n++) {               /* a window on something that moves */
         frames[n] = smooth_image(160, 120, 0);
-        struct image other = smooth_image(160, 120, 37 * n);
+        struct image other OWNED(image_free) = smooth_image(160, 120, 37 * n);
         for (int y = 30; y < 90; y++)
             memcpy(pixel(&frames[n], 40, y), pixel(&other, 40, y), 4 * 80);
-        image_free(&other);
     }
     struct movie m = write_movie(true, frames, 8);
     for (int n = 1; n < m.frames; n++) {
@@ -1954,13 +1931,11 @@ static void test_gif_catches_up_when_few_colours_follow_many(void)
 
 static void test_gif_shows_translucent_pixels_on_black(void)
 {
-    struct image image = make_image(3, 1);
+    struct image image OWNED(image_free) = make_image(3, 1);
     memcpy(image.rgba, "\xff\x80\x00\x80\xc8\xc8\xc8\x00\x01\x02\x03\xff", 12);
-    struct movie m = write_movie(true, &image, 1);
+    struct movie m OWNED(free_movie) = write_movie(true, &image, 1);
     if (m.ok)
         CHECK(memcmp(m.frame[0].rgba, "\x80\x40\x00\xff\x00\x00\x00\xff\x01\x02\x03\xff", 12) == 0);
-    free_movie(&m);
-    image_free(&image);
 }
 
 static void test_animation_delays_add_up(void)
@@ -1970,13 +1945,13 @@ static void test_animation_delays_add_up(void)
     for (int is_gif = 0; is_gif < 2; is_gif++) {
         const char *path = scratch("test_image.delays");
         struct failure f = {""};
-        struct image image = make_image(4, 4);
+        struct image image OWNED(image_free) = make_image(4, 4);
         struct animation_writer *w = (is_gif ? gif_begin : apng_begin)(path, 4, 4, &f);
         for (int i = 0; i < COUNT; i++)
             CHECK(animation_add(w, &image, given[i], &f));
         CHECK(animation_end(w, &f));
-        struct buffer file = take_file(path);
-        struct movie m = is_gif ? read_gif(&file) : read_apng(&file);
+        struct buffer file OWNED(buffer_free) = take_file(path);
+        struct movie m OWNED(free_movie) = is_gif ? read_gif(&file) : read_apng(&file);
         CHECK(m.ok && m.frames == COUNT);
         if (is_gif) {
             int sum = 0;
@@ -1991,9 +1966,6 @@ static void test_animation_delays_add_up(void)
             for (int i = 0; i < COUNT; i++)
                 CHECK_EQ(m.delay[i], given[i]);
         }
-        free_movie(&m);
-        buffer_free(&file);
-        image_free(&image);
     }
 }
 
@@ -2039,7 +2011,7 @@ static void test_animations_that_fail_or_are_cancelled_leave_no_file(void)
         struct animation_writer *(*start)(const char *, int, int, struct failure *) =
             is_gif ? gif_begin : apng_begin;
         const char *path = scratch("test_image.cancelled");
-        struct image image = make_image(4, 4), other = make_image(4, 5);
+        struct image image OWNED(image_free) = make_image(4, 4), other = make_image(4, 5);
         struct failure f = {""}, g = {""}, h = {""}, i = {""}, j = {""};
         struct animation_writer *w = start(path, 4, 4, &f);
         CHECK(animation_add(w, &image, 10, &f));
@@ -2066,7 +2038,6 @@ static void test_animations_that_fail_or_are_cancelled_leave_no_file(void)
         struct failure k = {""};
         CHECK(start(path, 0, 4, &k) == NULL && strstr(k.text, "picture size") != NULL);
         CHECK(start(path, 4, 16385, &k) == NULL && !is_temporary_left(path));
-        image_free(&image);
         image_free(&other);
     }
     animation_cancel(NULL);

@@ -107,7 +107,7 @@ static void test_jpeg_shows_what_libjpeg_does(void)
 {
     static const char *const name[] = { "420", "422-progressive", "440", "grey-progressive", "rgb" };
     for (size_t i = 0; i < COUNT(name); i++) {
-        struct image got = { .rgba = NULL }, want = { .rgba = NULL };
+        struct image got OWNED(image_free) = { .rgba = NULL }, want = { .rgba = NULL };
         struct failure f = { "" };
         char file[64], known[64];
         snprintf(file, sizeof file, "tests/data/jpeg/%s.jpg", name[i]);
@@ -119,7 +119,6 @@ static void test_jpeg_shows_what_libjpeg_does(void)
             for (int k = 0; k < got.width * got.height * 4; k++)
                 CHECK_NEAR(got.rgba[k], want.rgba[k], 2);
         free(bytes);
-        image_free(&got);
         image_free(&want);
     }
 }
@@ -213,9 +212,8 @@ static struct buffer file_of(const char *digits)
         }
         for (size_t i = 0; i < COUNT(parts); i++)
             if (*digits == parts[i].name) {
-                struct buffer part = file_of(parts[i].digits);
+                struct buffer part OWNED(buffer_free) = file_of(parts[i].digits);
                 buffer_append(&b, part.data, part.size);
-                buffer_free(&part);
             }
     }
     return b;
@@ -313,16 +311,15 @@ static void test_jpeg_refuses_what_no_file_can_mean(void)
 /* Another scan of 900 blocks: in each nothing comes of coefficient k, but for what `bits` say. It takes 36 bytes. */
 static void add_scan(struct buffer *b, int k, unsigned bits)
 {
-    struct buffer scan = file_of("ffc40014 10 01000000000000000000000000000000 90 ffda0008010100000000 613f");
+    struct buffer scan OWNED(buffer_free) = file_of("ffc40014 10 01000000000000000000000000000000 90 ffda0008010100000000 613f");
     scan.data[scan.size - 5] = scan.data[scan.size - 4] = (uint8_t)k;
     scan.data[scan.size - 3] = (uint8_t)bits;
     buffer_append(b, scan.data, scan.size);
-    buffer_free(&scan);
 }
 
 static void test_jpeg_bounds_the_scans_of_a_picture(void)
 {
-    struct buffer b = file_of("ffd8QHffc2000b0800081c2001011100 ffda0008010100000000");
+    struct buffer b OWNED(buffer_free) = file_of("ffd8QHffc2000b0800081c2001011100 ffda0008010100000000");
     for (int n = 0; n < 2; n++) {
         struct failure f = { "" };
         struct image got;
@@ -337,7 +334,6 @@ static void test_jpeg_bounds_the_scans_of_a_picture(void)
         CHECK(n == 0 ? !ok && strstr(f.text, "file ends early") != NULL : !ok && strstr(f.text, "more than 24 scans") != NULL);
         buffer_append(&b, n == 0 ? "" : "\xff\xd9", n == 0 ? 0 : 2);
     }
-    buffer_free(&b);
 }
 
 #include "build/suites/jpeg.h"

@@ -279,23 +279,21 @@ static double direct_flip(const struct image *a, const struct image *b, double p
 
 static void test_equal_pictures_have_no_distance(void)
 {
-    struct image a = busy_image(40, 30, 1);
+    struct image a OWNED(image_free) = busy_image(40, 30, 1);
     struct image_distance d = compare(&a, &a, IMAGE_PIXELS_PER_DEGREE);
     CHECK(d.rmse == 0 && isinf(d.psnr) && d.psnr > 0);
     CHECK_CLOSE(d.ssim, 1, 1e-12);
     CHECK(d.flip == 0);
-    image_free(&a);
 }
 
 static void test_alpha_is_not_compared(void)
 {
-    struct image a = busy_image(20, 20, 1), b = busy_image(20, 20, 1);
+    struct image a OWNED(image_free) = busy_image(20, 20, 1), b = busy_image(20, 20, 1);
     for (int i = 3; i < 20 * 20 * 4; i += 4)
         b.rgba[i] = (uint8_t)~b.rgba[i];
     struct image_distance d = compare(&a, &b, 67);
     CHECK(d.rmse == 0 && d.flip == 0);
     CHECK_CLOSE(d.ssim, 1, 1e-12);
-    image_free(&a);
     image_free(&b);
 }
 
@@ -321,14 +319,13 @@ static void test_rmse_and_psnr_by_hand(void)
 
 static void test_ssim_of_plain_pictures_by_hand(void)
 {
-    struct image a = plain_image(20, 15, 51, 51, 51), b = plain_image(20, 15, 102, 102, 102);
+    struct image a OWNED(image_free) = plain_image(20, 15, 51, 51, 51), b = plain_image(20, 15, 102, 102, 102);
     /* luma 0.2 and 0.4, no variance: (2 * 0.08 + C1) / (0.04 + 0.16 + C1) */
     CHECK_CLOSE(compare(&a, &b, 67).ssim, 0.1601 / 0.2001, 1e-9);
     image_free(&b);
     b = plain_image(20, 15, 204, 0, 0);         /* luma 0.2392 */
     double want = (2 * 0.2 * 0.2392 + 1e-4) / (0.04 + 0.2392 * 0.2392 + 1e-4);
     CHECK_CLOSE(compare(&a, &b, 67).ssim, want, 1e-9);
-    image_free(&a);
     image_free(&b);
 }
 
@@ -336,21 +333,19 @@ static void test_ssim_equals_the_direct_definition(void)
 {
     static const int sizes[][2] = {{23, 17}, {11, 11}, {10, 20}, {30, 5}, {1, 1}, {12, 1}, {133, 12}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        struct image a = busy_image(sizes[i][0], sizes[i][1], 2);
-        struct image b = busy_image(sizes[i][0], sizes[i][1], 5);
+        struct image a OWNED(image_free) = busy_image(sizes[i][0], sizes[i][1], 2);
+        struct image b OWNED(image_free) = busy_image(sizes[i][0], sizes[i][1], 5);
         double got = compare(&a, &b, 67).ssim, want = direct_ssim(&a, &b);
         CHECK_CLOSE(got, want, 1e-9);
         CHECK(i > 0 || (want > 0.05 && want < 0.95));
-        image_free(&a);
-        image_free(&b);
     }
 }
 
 static void test_flip_of_plain_pictures_is_their_colour_difference(void)
 {
-    struct image green = plain_image(12, 9, 0, 255, 0), blue = plain_image(12, 9, 0, 0, 255);
-    struct image black = plain_image(12, 9, 0, 0, 0), white = plain_image(12, 9, 255, 255, 255);
-    struct image grey = plain_image(12, 9, 119, 119, 119), near = plain_image(12, 9, 122, 122, 122);
+    struct image green OWNED(image_free) = plain_image(12, 9, 0, 255, 0), blue = plain_image(12, 9, 0, 0, 255);
+    struct image black OWNED(image_free) = plain_image(12, 9, 0, 0, 0), white = plain_image(12, 9, 255, 255, 255);
+    struct image grey OWNED(image_free) = plain_image(12, 9, 119, 119, 119), near = plain_image(12, 9, 122, 122, 122);
     CHECK_CLOSE(compare(&green, &blue, 67).flip, 1, 1e-9);      /* the largest there is */
     /* black and white are 100 apart, to the power 0.7 */
     double most = 41.2761, want = 0.95 + (25.11886 / most - 0.4) / 0.6 * 0.05;
@@ -359,11 +354,8 @@ static void test_flip_of_plain_pictures_is_their_colour_difference(void)
     /* L* of code 119 is 50.0344, of 122 51.2231 */
     want = pow(51.2231 - 50.0344, 0.7) / most / 0.4 * 0.95;
     CHECK_CLOSE(compare(&grey, &near, 67).flip, want, 1e-5);
-    image_free(&green);
     image_free(&blue);
-    image_free(&black);
     image_free(&white);
-    image_free(&grey);
     image_free(&near);
 }
 
@@ -371,12 +363,11 @@ static void test_flip_equals_the_direct_definition(void)
 {
     static const double densities[] = {67, 34, 10, 100};
     for (size_t i = 0; i < sizeof densities / sizeof densities[0]; i++) {
-        struct image a = busy_image(24, 19, 3), b = busy_image(24, 19, 4);
+        struct image a OWNED(image_free) = busy_image(24, 19, 3), b = busy_image(24, 19, 4);
         double got = compare(&a, &b, densities[i]).flip, want = direct_flip(&a, &b, densities[i]);
         CHECK_CLOSE(got, want, 1e-7);
         CHECK(want > 0.02 && want < 0.98);
         CHECK_CLOSE(compare(&b, &a, densities[i]).flip, got, 1e-12);
-        image_free(&a);
         image_free(&b);
     }
 }
@@ -387,7 +378,7 @@ static void test_wide_pictures_alike_but_for_dots_equal_the_direct_definitions(v
     static const int sizes[][2] = {{300, 22}, {257, 21}, {128, 21}, {129, 40}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         int width = sizes[i][0], height = sizes[i][1];
-        struct image a = busy_image(width, height, 8), b = busy_image(width, height, 8);
+        struct image a OWNED(image_free) = busy_image(width, height, 8), b = busy_image(width, height, 8);
         int dots[][2] = {{2, 3}, {127, 20}, {width - 1, height - 1}};
         for (size_t k = 0; k < sizeof dots / sizeof dots[0]; k++)
             b.rgba[(dots[k][1] * width + dots[k][0]) * 4 + 1] ^= 0x80;
@@ -395,7 +386,6 @@ static void test_wide_pictures_alike_but_for_dots_equal_the_direct_definitions(v
         CHECK_CLOSE(got.ssim, direct_ssim(&a, &b), 1e-9);
         CHECK_CLOSE(got.flip, direct_flip(&a, &b, 34), 1e-7);
         CHECK(got.flip > 0 && got.ssim < 1);
-        image_free(&a);
         image_free(&b);
     }
 }
@@ -406,32 +396,29 @@ static void test_flip_of_tiny_pictures_and_extreme_densities_is_in_range(void)
     static const double densities[] = {1, 2.5, 500, 1000};
     for (size_t i = 0; i < 4; i++)
         for (size_t k = 0; k < 4; k++) {
-            struct image a = busy_image(sizes[i][0], sizes[i][1], 6);
-            struct image b = busy_image(sizes[i][0], sizes[i][1], 7);
+            struct image a OWNED(image_free) = busy_image(sizes[i][0], sizes[i][1], 6);
+            struct image b OWNED(image_free) = busy_image(sizes[i][0], sizes[i][1], 7);
             double got = compare(&a, &b, densities[k]).flip;
             CHECK(got >= 0 && got <= 1);
             if (densities[k] < 100)
                 CHECK_CLOSE(got, direct_flip(&a, &b, densities[k]), 1e-7);
-            image_free(&a);
-            image_free(&b);
         }
 }
 
 static void test_fine_noise_weighs_less_from_afar(void)
 {
-    struct image a = plain_image(64, 48, 128, 128, 128), b = plain_image(64, 48, 128, 128, 128);
+    struct image a OWNED(image_free) = plain_image(64, 48, 128, 128, 128), b = plain_image(64, 48, 128, 128, 128);
     for (int i = 0; i < 64 * 48; i++)
         memset(b.rgba + i * 4, (i + i / 64) % 2 == 0 ? 138 : 118, 3);
     double close = compare(&a, &b, 10).flip, middle = compare(&a, &b, 20).flip;
     double far = compare(&a, &b, 67).flip;
     CHECK(close > 0.2 && middle < close * 0.8 && far < middle * 0.25);
-    image_free(&a);
     image_free(&b);
 }
 
 static void test_pictures_that_cannot_be_compared_are_refused(void)
 {
-    struct image a = make_image(4, 4), b = make_image(4, 5), empty = {0};
+    struct image a OWNED(image_free) = make_image(4, 4), b = make_image(4, 5), empty = {0};
     struct image_distance d;
     struct failure f = {""}, g = {""}, h = {""};
     CHECK(!image_compare(&a, &b, 67, &d, &f) && strstr(f.text, "differ in size") != NULL);
@@ -440,7 +427,6 @@ static void test_pictures_that_cannot_be_compared_are_refused(void)
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         CHECK(!image_compare(&a, &a, wrong[i], &d, &h));
     CHECK(strstr(h.text, "pixels per degree") != NULL);
-    image_free(&a);
     image_free(&b);
 }
 

@@ -812,12 +812,11 @@ static bool load_channel(const char *path, const char *interpolation, const char
 /* The translation at each time. */
 static void check_translations(const struct model *m, bool looped, const double (*cases)[4], int n)
 {
-    struct model_pose pose = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     for (int i = 0; i < n; i++) {
         if (CHECK(poses(m, 0, cases[i][0], looped, &pose)))
             CHECK(world_column(&pose, 0, 3, cases[i][1], cases[i][2], cases[i][3]));
     }
-    model_pose_free(&pose);
 }
 
 static void test_step_holds_each_key_until_the_next(void)
@@ -1807,7 +1806,7 @@ static bool load_sample(const char *name, struct model *m)
 
 static void check_sample(const struct sample *sample, const struct model *m)
 {
-    struct model_pose pose = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     double min[3], max[3];
     int triangles = 0, joints = 0;
     for (int i = 0; i < m->mesh_count; i++) {
@@ -1830,7 +1829,6 @@ static void check_sample(const struct sample *sample, const struct model *m)
             CHECK(min[1] <= max[1] && max[1] - min[1] < 1000);
         }
     }
-    model_pose_free(&pose);
 }
 
 static void test_every_sample_model_loads_with_its_known_numbers(void)

@@ -175,7 +175,6 @@ static void test_all_methods_draw_the_same_streaks(void)
     static uint32_t first[2][PIXELS];
     for (int i = 4 * SMEAR_RECONSTRUCT; i < 4 * SMEAR_METHOD_COUNT; i++) {
         const int method = i / 4, blends = i & 1, fills = i & 2;
-        struct rig r;
         smear_point point[POINTS];
         const smear_points points = { point, POINTS };
         const smear_overlay overlay = { NULL, 0, &points };
@@ -191,13 +190,11 @@ static void test_all_methods_draw_the_same_streaks(void)
             if (!blends)
                 s.material[k].alpha = SMEAR_OPAQUE;
         }
-        if (rig_begin(&r, &desc, false)) {
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            if (method == SMEAR_RECONSTRUCT && !fills)
-                memcpy(first[blends], r.picture, sizeof first[blends]);
-            CHECK_EQ(differing((const uint8_t *)first[blends], r.picture), 0);
-        }
-        rig_end(&r);
+        RIG(r, &desc, false);
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        if (method == SMEAR_RECONSTRUCT && !fills)
+            memcpy(first[blends], r.picture, sizeof first[blends]);
+        CHECK_EQ(differing((const uint8_t *)first[blends], r.picture), 0);
     }
 }
 
@@ -229,7 +226,6 @@ static void test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposu
     for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
         for (int moves = 0; moves < 2; moves++)
             for (int near = 0; near < 2; near++) {
-                struct rig r;
                 struct scene s;
                 smear_point point = { .size = q16(2.0 / 18), .color = { 255, 255, 255 } };
                 const smear_points points = { &point, 1 };
@@ -239,18 +235,16 @@ static void test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposu
                 put(point.before, -30, 0);      /* 15 pixels to either side in a frame's time, half open */
                 wall(&s, near ? 9 : 11, moves != 0, method);
                 s.frame.overlay = &overlay;
-                if (rig_begin(&r, &desc, false)) {
-                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, 1), SMEAR_OK);
-                    const uint32_t *row = (const uint32_t *)(void *)r.picture + HEIGHT / 2 * WIDTH;
-                    if (method == SMEAR_NONE)
-                        CHECK(near ? (row[WIDTH / 2 + 1] & 255u) < 20 : (row[WIDTH / 2] & 255u) > 100);
-                    else
-                        for (int x = 8; x < 24; x++) {
-                            CHECK((row[WIDTH / 2 - x] & 255u) > 30);
-                            CHECK(near ? (row[WIDTH / 2 + x] & 255u) < 20 : (row[WIDTH / 2 + x] & 255u) > 30);
-                        }
-                }
-                rig_end(&r);
+                RIG(r, &desc, false);
+                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, 1), SMEAR_OK);
+                const uint32_t *row = (const uint32_t *)(void *)r.picture + HEIGHT / 2 * WIDTH;
+                if (method == SMEAR_NONE)
+                    CHECK(near ? (row[WIDTH / 2 + 1] & 255u) < 20 : (row[WIDTH / 2] & 255u) > 100);
+                else
+                    for (int x = 8; x < 24; x++) {
+                        CHECK((row[WIDTH / 2 - x] & 255u) > 30);
+                        CHECK(near ? (row[WIDTH / 2 + x] & 255u) < 20 : (row[WIDTH / 2 + x] & 255u) > 30);
+                    }
             }
 }
 

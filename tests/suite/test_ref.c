@@ -119,7 +119,7 @@ static void test_pixel_centres_on_edges_follow_the_top_left_rule(void)
     struct scene_camera camera = orthographic();
     for (int n = 1; n <= 20; n++) {
         float upper[9], lower[9];
-        struct ref_frame a, b;
+        struct ref_frame a OWNED(ref_frame_free), b;
         place(upper, &camera, 5.5, 7.5, 10.0);
         place(upper + 3, &camera, 5.5, 7.5 + n, 10.0);
         place(upper + 6, &camera, 5.5 + n, 7.5, 10.0);
@@ -133,7 +133,6 @@ static void test_pixel_centres_on_edges_follow_the_top_left_rule(void)
         CHECK_EQ(a.triangle[at(5, 7)], 0);
         CHECK_EQ(a.triangle[at(5 + n, 7)], -1);
         CHECK_EQ(a.triangle[at(5, 7 + n)], -1);
-        ref_frame_free(&a);
         ref_frame_free(&b);
     }
 }
@@ -160,14 +159,13 @@ static void check_grid_covers_once(struct scene_camera camera, double depth_step
         int cell = t / 2, a = cell / CELLS * SIDE + cell % CELLS;
         int around[4] = { a, a + SIDE, a + SIDE + 1, a + 1 };
         float position[9];
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free);
         for (int k = 0; k < 3; k++)
             memcpy(position + 3 * k, corner[around[t % 2 == 0 ? k : (k + 2) % 4]],
                    sizeof corner[0]);
         draw_triangle(position, camera, &frame);
         for (size_t i = 0; i < SIZE * SIZE; i++)
             covered[i] += frame.triangle[i] == 0;
-        ref_frame_free(&frame);
     }
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
@@ -295,7 +293,7 @@ static void test_back_faces_are_culled_and_mirrors_turn_the_winding(void)
     for (int way = 0; way < 8; way++) {
         bool turned = (way & 1) != 0, mirrored = (way & 2) != 0, both = (way & 4) != 0;
         struct scene_draw draw = draw_of(&surface);
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free);
         surface.material.double_sided = both;
         if (turned) {                       /* half a turn about y shows the back */
             draw.world[0] = draw.world[10] = -1.0;
@@ -306,7 +304,6 @@ static void test_back_faces_are_culled_and_mirrors_turn_the_winding(void)
         struct scene_instant now = instant_of(&draw, 1, camera);
         draw_now(&now, false, &frame);
         CHECK_EQ(count_drawn(&frame), turned && !both ? 0 : 32 * 32);
-        ref_frame_free(&frame);
     }
 }
 

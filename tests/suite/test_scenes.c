@@ -587,7 +587,7 @@ static void test_demos_repeat_after_60_frames(void)
         if (!is_in(scene_catalog[i].name, "demo/") || !open_scene(&s, scene_catalog[i].name))
             continue;
         for (int k = 0; k < 60; k += 19) {
-            struct ref_frame first = {0}, second = {0};
+            struct ref_frame first OWNED(ref_frame_free) = {0}, second = {0};
             if (draw_at(&s, k / 30.0, (k - 1) / 30.0, &first) &&
                 draw_at(&s, (k + 60) / 30.0, (k + 59) / 30.0, &second)) {
                 int picture = 0, motion = 0;
@@ -600,7 +600,6 @@ static void test_demos_repeat_after_60_frames(void)
                 CHECK_NEAR(picture, 0, 24);
                 CHECK_NEAR(motion, 0, 8);
             }
-            ref_frame_free(&first);
             ref_frame_free(&second);
         }
         close_scene(&s);
@@ -688,7 +687,7 @@ static void test_the_automatic_camera_is_that_of_the_contract(void)
 {
     static const double aspects[] = {4.0 / 3, 0.5};
     for (int i = 0; i < 2; i++) {
-        struct filed s;
+        struct filed s OWNED(close_file);
         struct scene_view view = {.clip = MODEL_CLIP_NONE, .camera = -1, .aspect = aspects[i]};
         if (open_file(&s, obj_text, &view)) {
             double r = sqrt(6) / 2, y = PI / 4, x = 2 * atan(aspects[i] * tan(y / 2));
@@ -707,7 +706,6 @@ static void test_the_automatic_camera_is_that_of_the_contract(void)
             CHECK_EQ(s.now.draw[0].surface->triangle_count, 2);
             CHECK(s.now.draw[0].node >= 0 && !s.now.draw[0].deformed);
         }
-        close_file(&s);
     }
 }
 

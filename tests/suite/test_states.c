@@ -311,18 +311,15 @@ static void test_callbacks_are_refused_what_changes_the_context(void)
 static void test_inspectors_are_refused_it_too(void)
 {
     smear_desc desc = desc_of(SMEAR_RECONSTRUCT, 400);
-    struct rig r;
     make_scenes(SMEAR_RECONSTRUCT);
     memset(called_from, 0, sizeof called_from);
     calls_from = INSPECT;
-    if (rig_begin(&r, &desc, true)) {
-        drawing = &r;
-        r.desc.debug.inspect = inspect_and_call;
-        CHECK_EQ(smear_init(&r.ctx, &r.desc, r.block + GUARD, r.bytes), SMEAR_OK);
-        CHECK_EQ(rig_frame(&r, &scene.frame, scene.draw, SCENE_DRAWS), SMEAR_OK);
-        CHECK_EQ(called_from[INSPECT], HEIGHT);
-    }
-    rig_end(&r);
+    RIG(r, &desc, true);
+    drawing = &r;
+    r.desc.debug.inspect = inspect_and_call;
+    CHECK_EQ(smear_init(&r.ctx, &r.desc, r.block + GUARD, r.bytes), SMEAR_OK);
+    CHECK_EQ(rig_frame(&r, &scene.frame, scene.draw, SCENE_DRAWS), SMEAR_OK);
+    CHECK_EQ(called_from[INSPECT], HEIGHT);
 }
 
 /* ------------------------------------------------------------------ wild arguments */
@@ -426,15 +423,12 @@ static void test_a_refused_call_changes_not_a_byte(void)
     random_state = 5;
     for (unsigned m = 0; m < sizeof methods; m++) {
         const smear_desc desc = desc_of(methods[m], 400);
-        struct rig r;
         make_scenes(methods[m]);
-        if (rig_begin(&r, &desc, false)) {
-            enter(&r, BEGUN);
-            for (int n = 0; n < 2000; n++)
-                refused += check_wild(&r, methods[m]);
-            CHECK_EQ(render_scene(&r, 0, methods[m]), SMEAR_OK);
-        }
-        rig_end(&r);
+        RIG(r, &desc, false);
+        enter(&r, BEGUN);
+        for (int n = 0; n < 2000; n++)
+            refused += check_wild(&r, methods[m]);
+        CHECK_EQ(render_scene(&r, 0, methods[m]), SMEAR_OK);
     }
     CHECK(refused > 6000);
 }

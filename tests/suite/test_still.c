@@ -109,7 +109,7 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
     static const uint8_t methods[] = { SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
     for (unsigned m = 0; m < sizeof methods; m++)
         for (uint32_t triangles = 16; triangles <= 400; triangles += 384) {       /* in parts; at once */
-            struct pair p;
+            struct pair p OWNED(pair_end);
             struct set s;
             set_up(&s, methods[m]);
             if (pair_begin(&p, desc_of(triangles, m != 1)))
@@ -117,7 +117,6 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
                     move_on(&s, i);
                     CHECK_EQ(kept(&p, &s), i >= 2);     /* the cube stands still where it is first seen */
                 }
-            pair_end(&p);
         }
 }
 
@@ -167,7 +166,7 @@ static void test_a_change_of_anything_that_stands_still_draws_it_again(void)
 
 static void test_what_stops_and_starts_joins_and_leaves(void)
 {
-    struct pair p;
+    struct pair p OWNED(pair_end);
     struct set s;
     set_up(&s, SMEAR_AUTO);
     move_on(&s, 3);
@@ -182,13 +181,12 @@ static void test_what_stops_and_starts_joins_and_leaves(void)
         CHECK(!kept(&p, &s));           /* it has stopped */
         CHECK(kept(&p, &s));
     }
-    pair_end(&p);
 }
 
 /* What does not move by a step of a 256th of a pixel is drawn among what stands still. */
 static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
 {
-    struct pair p;
+    struct pair p OWNED(pair_end);
     struct set s;
     set_up(&s, SMEAR_AUTO);
     if (pair_begin(&p, desc_of(400, true)))
@@ -201,13 +199,12 @@ static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
             else if (i > 9)
                 CHECK(is_kept);
         }
-    pair_end(&p);
 }
 
 static void test_other_methods_and_failures_between_do_no_harm(void)
 {
     static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
-    struct pair p;
+    struct pair p OWNED(pair_end);
     struct set s;
     set_up(&s, SMEAR_AUTO);
     if (pair_begin(&p, desc_of(400, false)))
@@ -227,7 +224,6 @@ static void test_other_methods_and_failures_between_do_no_harm(void)
         CHECK(!kept(&p, &s));
         CHECK(kept(&p, &s));
     }
-    pair_end(&p);
 }
 
 static void test_only_contexts_with_temporal_methods_reuse(void)
@@ -340,7 +336,7 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
     for (uint8_t format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
         for (int buffers = 1; buffers <= 3; buffers++)
             for (uint8_t keeps = 0; keeps < 2; keeps++) {
-                struct display d;
+                struct display d OWNED(display_end);
                 struct set s;
                 set_up(&s, methods[(format + buffers) % 3]);
                 for (int k = 0; k < 9 && keeps == 0; k++)
@@ -360,14 +356,13 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
                         if (i >= 10 + buffers)
                             CHECK_EQ(kept, 20);
                     }
-                display_end(&d);
             }
 }
 
 /* Of the floor, parts of a single tile, narrower than lanes, are drawn again below wide ones. */
 static void test_narrow_parts_are_drawn_again_below_wide_ones(void)
 {
-    struct display d;
+    struct display d OWNED(display_end);
     struct set s;
     set_up(&s, SMEAR_SUBFRAMES);
     smear_desc desc = desc_of(400, true);
@@ -386,12 +381,11 @@ static void test_narrow_parts_are_drawn_again_below_wide_ones(void)
             }
             shown(&d, &s);
         }
-    display_end(&d);
 }
 
 static void test_a_still_frame_sends_nothing_until_it_is_refreshed(void)
 {
-    struct display d;
+    struct display d OWNED(display_end);
     struct set s;
     set_up(&s, SMEAR_AUTO);
     s.count = 2;
@@ -411,13 +405,12 @@ static void test_a_still_frame_sends_nothing_until_it_is_refreshed(void)
         CHECK_EQ(shown(&d, &s), 0);
         CHECK_EQ(shown(&d, &s), 20);
     }
-    display_end(&d);
 }
 
 /* So slow that it never moves by a step of its vertices within an exposure, but from frame to frame. */
 static void test_what_creeps_is_sent_all_the_same(void)
 {
-    struct display d;
+    struct display d OWNED(display_end);
     struct set s;
     set_up(&s, SMEAR_AUTO);
     s.frame.shutter.degrees = 1;
@@ -428,14 +421,13 @@ static void test_what_creeps_is_sent_all_the_same(void)
             if (i > 4)
                 CHECK(kept >= 16 && kept < 20);
         }
-    display_end(&d);
 }
 
 /* Of two that are equally near the first is seen, though what creeps is assembled first. */
 static void test_what_creeps_stays_behind_what_came_before_it(void)
 {
     for (int buffers = 1; buffers <= 3; buffers++) {
-        struct display d;
+        struct display d OWNED(display_end);
         struct set s;
         set_up(&s, SMEAR_AUTO);
         s.material[PANE].alpha = SMEAR_OPAQUE;
@@ -447,7 +439,6 @@ static void test_what_creeps_stays_behind_what_came_before_it(void)
                 shown(&d, &s);
                 s.camera.pose.origin[0] += i == 5;      /* all is drawn again */
             }
-        display_end(&d);
     }
 }
 
@@ -455,7 +446,7 @@ static void test_the_display_is_right_after_other_methods_and_failures(void)
 {
     static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
     for (int buffers = 1; buffers <= 3; buffers++) {
-        struct display d;
+        struct display d OWNED(display_end);
         struct set s;
         set_up(&s, SMEAR_AUTO);
         if (display_begin(&d, desc_of(400, false), buffers)) {
@@ -476,7 +467,6 @@ static void test_the_display_is_right_after_other_methods_and_failures(void)
                     CHECK_EQ(shown(&d, &s) == 0, i < buffers);
             }
         }
-        display_end(&d);
     }
 }
 
@@ -540,7 +530,7 @@ static void test_a_display_is_sent_what_it_does_not_show_of_sharp_frames(void)
 {
     for (uint8_t format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++)
         for (int buffers = 1; buffers <= 3; buffers++) {
-            struct display d;
+            struct display d OWNED(display_end);
             struct set s;
             set_up(&s, SMEAR_NONE);
             for (int k = 0; k < 9 && format % 2 == 0; k++)
@@ -560,7 +550,6 @@ static void test_a_display_is_sent_what_it_does_not_show_of_sharp_frames(void)
                     else
                         CHECK_EQ(kept, 20);
                 }
-            display_end(&d);
         }
 }
 
@@ -629,7 +618,7 @@ static void test_sharp_frames_are_right_whatever_changes(void)
     uint32_t kept = 0;
     random_state = 71;
     for (int run = 0; run < 60; run++) {
-        struct display d;
+        struct display d OWNED(display_end);
         struct set s;
         smear_overlay_item item = { .width = 9, .height = 7, .color = { 20, 90, 200, 255 } };
         smear_overlay overlay = { &item, 1, NULL };
@@ -656,7 +645,6 @@ static void test_sharp_frames_are_right_whatever_changes(void)
                 }
                 kept += shown(&d, &s);
             }
-        display_end(&d);
     }
     CHECK(kept > 20000);
 }
@@ -664,7 +652,7 @@ static void test_sharp_frames_are_right_whatever_changes(void)
 /* Its vertices are elsewhere in every frame, at the same place in memory. */
 static void test_a_mesh_that_deforms_is_sent(void)
 {
-    struct display d;
+    struct display d OWNED(display_end);
     struct set s;
     int16_t corner[8 * 3];
     set_up(&s, SMEAR_NONE);
@@ -676,7 +664,6 @@ static void test_a_mesh_that_deforms_is_sent(void)
             corner[3 * (i % 8)] = (int16_t)(corner[3 * (i % 8)] / 2);
             shown(&d, &s);
         }
-    display_end(&d);
 }
 
 /* So many triangles that cores assemble parts of them; in the end some that moved stand still. */
@@ -686,7 +673,7 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
     for (int workers = 2; workers <= 5; workers++)
         for (int way = 0; way < 4; way++) {
             const int buffers = 1 + way % 2;
-            struct display d;
+            struct display d OWNED(display_end);
             struct set s;
             set_up(&s, methods[way]);
             s.material[FLOOR].texture = NULL;
@@ -717,7 +704,6 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
                 for (int i = 1; i < workers; i++)
                     pthread_join(core[i].thread, NULL);
             }
-            display_end(&d);
         }
 }
 

@@ -361,71 +361,66 @@ static void check_lit(uint32_t pixel, int shift, double want)
 
 static void test_a_frame_is_lit_from_where_it_says_in_the_colours_it_says(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(EDGE, EDGE);
     const smear_camera camera = camera_at(0, 0, 0, 0);
     desc.format = SMEAR_XRGB8888;
     random_state = 5;
-    if (rig_begin(&r, &desc, false))
-        for (int n = 0; n < LOOKS && test_state.failures_here == 0; n++) {
-            const smear_transform pose = pose_at(0, 0, -2, uniform(-0.7, 0.7), uniform(-0.7, 0.7));
-            const double size = pow(10, uniform(-2, 2));
-            smear_light given;
-            double towards[3], length = 0, cosine = 0;
-            for (int i = 0; i < 3; i++) {
-                towards[i] = uniform(-1, 1) + (i == 2);
-                given.direction[i] = q16(towards[i] * size);
-                given.ambient[i] = (uint16_t)between(0, 30000);
-                given.diffuse[i] = (uint16_t)between(0, 65535);
-            }
-            for (int i = 0; i < 3; i++) {
-                length += (double)given.direction[i] * given.direction[i];
-                cosine += (double)given.direction[i] * pose.basis[3 * i + 2] / (1 << 24);
-            }
-            cosine = fmax(0, cosine / sqrt(length));
-            const smear_material paint = { .color = { (uint8_t)between(20, 255), (uint8_t)between(20, 255),
-                                                      (uint8_t)between(20, 255), 255 }, .double_sided = 1 };
-            const smear_draw draw = { .mesh = &square, .material = &paint, .now = &pose };
-            const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .light = &given,
-                                        .light_space = (uint8_t)(n & 1) };
-            const uint32_t pixel = middle_of(&r, &frame, &draw);
-            for (int i = 0; i < 3; i++)
-                check_lit(pixel, 16 - 8 * i, fmin(1, decode(paint.color[i])
-                                                         * fmin(1, (given.ambient[i] + given.diffuse[i] * cosine) / 65535)));
+    RIG(r, &desc, false);
+    for (int n = 0; n < LOOKS && test_state.failures_here == 0; n++) {
+        const smear_transform pose = pose_at(0, 0, -2, uniform(-0.7, 0.7), uniform(-0.7, 0.7));
+        const double size = pow(10, uniform(-2, 2));
+        smear_light given;
+        double towards[3], length = 0, cosine = 0;
+        for (int i = 0; i < 3; i++) {
+            towards[i] = uniform(-1, 1) + (i == 2);
+            given.direction[i] = q16(towards[i] * size);
+            given.ambient[i] = (uint16_t)between(0, 30000);
+            given.diffuse[i] = (uint16_t)between(0, 65535);
         }
-    rig_end(&r);
+        for (int i = 0; i < 3; i++) {
+            length += (double)given.direction[i] * given.direction[i];
+            cosine += (double)given.direction[i] * pose.basis[3 * i + 2] / (1 << 24);
+        }
+        cosine = fmax(0, cosine / sqrt(length));
+        const smear_material paint = { .color = { (uint8_t)between(20, 255), (uint8_t)between(20, 255),
+                                                  (uint8_t)between(20, 255), 255 }, .double_sided = 1 };
+        const smear_draw draw = { .mesh = &square, .material = &paint, .now = &pose };
+        const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .light = &given,
+                                    .light_space = (uint8_t)(n & 1) };
+        const uint32_t pixel = middle_of(&r, &frame, &draw);
+        for (int i = 0; i < 3; i++)
+            check_lit(pixel, 16 - 8 * i, fmin(1, decode(paint.color[i])
+                                                     * fmin(1, (given.ambient[i] + given.diffuse[i] * cosine) / 65535)));
+    }
 }
 
 static void test_the_default_light_is_that_of_no_light_bit_for_bit(void)
 {
     static const smear_light standard = SMEAR_LIGHT_DEFAULT;
-    struct rig r;
     smear_desc desc = small_desc(64, 48);
     desc.format = SMEAR_XRGB8888;
     desc.methods |= SMEAR_SET_TEMPORAL;
-    if (rig_begin(&r, &desc, false))
-        for (int n = 0; n < 12; n++) {
-            struct scene s;
-            make_scene(&s, 0.2 * n, n & 2 ? SMEAR_RECONSTRUCT : SMEAR_NONE);
-            s.frame.light_space = (uint8_t)(n & 1);
-            uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-            s.frame.light = &standard;
-            s.frame.cut = 1;
-            uint8_t *lit = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-            s.frame.light = NULL;
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            CHECK(lit != NULL && same_picture(&r, lit));
-            if ((n & 2) == 0)
-                CHECK(picture != NULL && same_picture(&r, picture));
-            free(picture);
-            free(lit);
-        }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    for (int n = 0; n < 12; n++) {
+        struct scene s;
+        make_scene(&s, 0.2 * n, n & 2 ? SMEAR_RECONSTRUCT : SMEAR_NONE);
+        s.frame.light_space = (uint8_t)(n & 1);
+        uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+        s.frame.light = &standard;
+        s.frame.cut = 1;
+        uint8_t *lit = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+        s.frame.light = NULL;
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK(lit != NULL && same_picture(&r, lit));
+        if ((n & 2) == 0)
+            CHECK(picture != NULL && same_picture(&r, picture));
+        free(picture);
+        free(lit);
+    }
 }
 
 static void test_the_light_of_a_frame_is_copied(void)
 {
-    struct rig r;
     smear_desc desc = small_desc(EDGE, EDGE);
     smear_light given = { .direction = { 0, 0, 1 }, .ambient = { 30000, 20000, 10000 }, .diffuse = { 30000, 40000, 20000 } };
     const smear_camera camera = camera_at(0, 0, 0, 0);
@@ -433,17 +428,15 @@ static void test_the_light_of_a_frame_is_copied(void)
     const smear_draw draw = { .mesh = &square, .now = &pose };
     const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .light = &given };
     desc.format = SMEAR_XRGB8888;
-    if (rig_begin(&r, &desc, false)) {
-        uint8_t *picture = rig_copy(&r, &frame, &draw, 1);
-        rig_forget_output(&r);
-        CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK);
-        given = (smear_light){ .direction = { 0, 0, -1 } };
-        CHECK_EQ(smear_submit(r.ctx, &draw), SMEAR_OK);
-        CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-        CHECK(picture != NULL && same_picture(&r, picture));
-        free(picture);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    uint8_t *picture = rig_copy(&r, &frame, &draw, 1);
+    rig_forget_output(&r);
+    CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK);
+    given = (smear_light){ .direction = { 0, 0, -1 } };
+    CHECK_EQ(smear_submit(r.ctx, &draw), SMEAR_OK);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    CHECK(picture != NULL && same_picture(&r, picture));
+    free(picture);
 }
 
 #include "build/suites/light.h"
