@@ -2,13 +2,6 @@
 /* rig.c - see rig.h. */
 #include "tests/rig.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 int take_band(void *user, const smear_band *band)
 {
     struct rig *r = user;

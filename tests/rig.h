@@ -6,11 +6,7 @@
 
 #include "smear.h"
 
-#include "tests/test.h"
-
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "tests/host.h"
 
 /* ------------------------------------------------------------------ a context with everything around it */
 

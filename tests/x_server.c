@@ -5,9 +5,7 @@
 
 #include <poll.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>

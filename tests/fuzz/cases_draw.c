@@ -182,11 +182,13 @@ struct core {
     smear_context *ctx;
     int worker;
     pthread_t thread;
+    pthread_barrier_t *ready; /* all cores are there when the frame begins, else one draws a small one alone */
 };
 
 static void *core_main(void *argument)
 {
     struct core *core = argument;
+    pthread_barrier_wait(core->ready);
     smear_work(core->ctx, core->worker);
     return NULL;
 }
@@ -194,14 +196,18 @@ static void *core_main(void *argument)
 static int render(struct rig *r)
 {
     struct core core[SMEAR_LAYERS_MAX];
+    pthread_barrier_t ready;
     const int others = r->desc.workers > 1 ? r->desc.workers - 1 : 0;
+    pthread_barrier_init(&ready, NULL, (unsigned)others + 1);
     for (int i = 0; i < others; i++) {
-        core[i] = (struct core){ .ctx = r->ctx, .worker = i + 1 };
+        core[i] = (struct core){ .ctx = r->ctx, .worker = i + 1, .ready = &ready };
         require(pthread_create(&core[i].thread, NULL, core_main, &core[i]) == 0, "no threads");
     }
+    pthread_barrier_wait(&ready);
     const int result = smear_render(r->ctx);
     for (int i = 0; i < others; i++)
         pthread_join(core[i].thread, NULL);
+    pthread_barrier_destroy(&ready);
     return result;
 }
 

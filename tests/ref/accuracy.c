@@ -3,18 +3,14 @@
  * be compared on the very velocities it read. */
 #include "tests/ref/accuracy.h"
 
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "filter/probe.h"
 
 #include <dirent.h>
-#include <math.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 

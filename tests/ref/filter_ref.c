@@ -6,8 +6,7 @@
 #include "tools/ref/ref.h"
 #include "smear.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include "tests/host.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double slowest = 1.0 / 16.0;       /* px: smallest speed that divides a weight */

@@ -2,11 +2,7 @@
 /* jpeg_case.c - see jpeg_case.h. It shares no code with what it tests. */
 #include "tests/ref/jpeg_case.h"
 
-#include "tests/random.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 /* ---------------------------------------------------------------------- a picture */
 

@@ -2,11 +2,7 @@
 /* failures.c - pictures and measures of the failure catalogue; see failures.h. */
 #include "tests/suite/failures.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 /* One line per column of the table. */
 const struct fail_method fail_method[METHODS] = {

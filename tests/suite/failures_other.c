@@ -4,11 +4,7 @@
  * scene. */
 #include "tests/suite/failures.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 #define PI 3.14159265358979323846
 

@@ -3,10 +3,7 @@
  * and what hides what. */
 #include "tests/suite/failures.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "tests/host.h"
 
 #define PI 3.14159265358979323846
 

@@ -3,11 +3,7 @@
  * no past, what stops, what flickers, and how streaks follow the shutter. */
 #include "tests/suite/failures.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 #define GREY 0x303848u
 #define CREAM 0xffe9b0u

@@ -4,12 +4,7 @@
  * Every figure is printed, and held to a bar. */
 #include "tests/ref/accuracy.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 void suite_accuracy(void);
 

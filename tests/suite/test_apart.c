@@ -2,16 +2,12 @@
 /* test_apart.c - whether outputs are one file, in folders full of links (tools/options/apart.c), against a search that
  * writes out every name of every pattern and follows each. APART_FOLDERS=n makes n folders. */
 #define _XOPEN_SOURCE 700               /* realpath, mkdtemp */
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/options/apart.h"
 #include "tools/options/say.h"
 
 #include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

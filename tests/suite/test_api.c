@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_api.c - the library through its public interface: arguments, order, memory, capacities, poses kept from frame
  * to frame, bands, workers and the filter alone. Host only: threads and floating point. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ------------------------------------------------------------------ memory */
 
@@ -432,6 +427,58 @@ struct helper {
     smear_context *ctx;
     int worker, frames;
 };
+
+static void *help(void *argument)
+{
+    struct helper *h = argument;
+    for (int i = 0; i < h->frames; i++)
+        smear_work(h->ctx, h->worker);
+    return NULL;
+}
+
+/* Sharp frames of which nothing is blended: cores draw their rows apart where there is memory of temporal methods. */
+static int render_opaque(struct rig *r, double t)
+{
+    struct scene s;
+    make_scene(&s, t, SMEAR_NONE);
+    s.material[3].alpha = SMEAR_OPAQUE;
+    return rig_frame(r, &s.frame, s.draw, SCENE_DRAWS);
+}
+
+static void test_a_negative_answer_of_flush_ends_the_frame_of_several_workers(void)
+{
+    enum { FRAMES = 12 };
+    for (int k = 0; k < 6; k++) {
+        smear_desc desc = small_desc(48, 64);
+        desc.methods = SMEAR_SET_TEMPORAL;
+        desc.bands = (uint8_t)(1 + k % 2);
+        smear_desc shared = desc;
+        shared.workers = (uint8_t)(2 + k / 2);
+        shared.idle = yield;
+        RIG(r, &shared, false);
+        RIG(fresh, &desc, false);
+        pthread_t thread[8];
+        struct helper helper[8];
+        r.reports_sent = fresh.reports_sent = desc.bands == 2;
+        for (int i = 1; i < shared.workers; i++) {
+            helper[i] = (struct helper){ r.ctx, i, FRAMES };
+            CHECK_EQ(pthread_create(&thread[i], NULL, help, &helper[i]), 0);
+        }
+        for (int i = 0; i < FRAMES; i++) {
+            CHECK_EQ(render_opaque(&fresh, 0.1 * i), SMEAR_OK);
+            CHECK(fresh.bands > 2);
+            r.fail_at = i & 1 ? -1 : i / 2 % fresh.bands;
+            r.fail_with = -77 - i;
+            CHECK_EQ(render_opaque(&r, 0.1 * i), i & 1 ? SMEAR_OK : -77 - i);
+            if (i & 1)
+                same_picture(&fresh, r.picture);
+            else
+                CHECK_EQ(r.bands, r.fail_at + 1);
+        }
+        for (int i = 1; i < shared.workers; i++)
+            pthread_join(thread[i], NULL);
+    }
+}
 
 /* ------------------------------------------------------------------ motion */
 

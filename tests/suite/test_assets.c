@@ -3,12 +3,7 @@
  * reference, cameras and animations of the file included. */
 #include "tests/ref/accuracy.h"
 
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 enum { WIDTH = 320, HEIGHT = 240 };
 

@@ -5,12 +5,7 @@
 #include "tests/ref/accuracy.h"
 
 #include "tests/ref/filter_ref.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 void suite_blur(void);
 

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_bounds.c - smear_mesh.bounds: draws beyond a side of the view are left out, and no picture changes. Host only. */
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 64, HEIGHT = 48, CUBES = 12 };
 

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_budget.c - smear_frame.budget: a frame is as fine as it may be, and is the same as by that target. Host only. */
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
 
 enum { CUBES = 3 };
 

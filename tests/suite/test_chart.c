@@ -5,11 +5,8 @@
 #include "tools/bench/labels.h"
 #include "tools/bench/truth.h"
 
-#include "tests/test.h"
+#include "tests/host.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #define FOLDER "build/test"

@@ -8,12 +8,8 @@
 #include "tools/convert/build.h"
 #include "tools/model/exact.h"
 #include "tools/convert/track.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "tests/data/arm_blob.h"

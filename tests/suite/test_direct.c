@@ -8,10 +8,7 @@
 #include "raster/texture.h"
 #include "tools/scenes/present.h"
 
-#include "tests/test.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 enum { WIDTH = 150, HEIGHT = 110, PIXELS = WIDTH * HEIGHT };
 

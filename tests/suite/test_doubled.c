@@ -4,10 +4,6 @@
 #include "smear_overlay.h"
 
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 45, HEIGHT = 38, FRAMES = 3, WORDS = 2 * WIDTH * 2 * HEIGHT };
 

@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_edges_truth.c - smooth edges against the truth over pixel and exposure. Host only. */
-#include "tests/test.h"
+#include "tests/host.h"
 #include "tools/player/picture.h"
 #include "tools/scenes/present.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SIZE = 120, INSTANTS = 24 };
 

@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_errors.c - every field that may be wrong: its number is its own, and its text names it. */
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "smear_overlay.h"
-
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* True when `result` stands for that field: a number of its own, a sentence that begins with the name. */
 static bool names(int result, const char *field)

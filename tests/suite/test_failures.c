@@ -4,11 +4,8 @@
  * found is written to build/test/failures.txt, so that the table tells today's numbers. */
 #include "tests/suite/failures.h"
 
-#include "tests/test.h"
+#include "tests/host.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 
 void suite_failures(void);

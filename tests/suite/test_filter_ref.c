@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_filter_ref.c - the reference filter on pictures whose answer is known without it. */
-#include "tests/test.h"
-
+#include "tests/host.h"
 #include "tests/ref/filter_ref.h"
 #include "tools/ref/ref.h"
 #include "smear.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 60, HEIGHT = 44, PIXELS = WIDTH * HEIGHT, TILE = 16 };
 

@@ -4,12 +4,7 @@
 #include "tests/ref/accuracy.h"
 
 #include "filter/pingpong.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 /* ------------------------------------------------------------------ taps of passes */
 

@@ -1,14 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_fog.c - fog against what each pixel's own depth gives; what is cut is fog all over; the same picture from any method
  * where nothing moves, with any number of workers and in parts; what is refused. Host only. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 #include "tools/player/crew.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FOG = 0xa0b4c8, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
 

@@ -2,16 +2,12 @@
 /* test_foreign.c - files as other programs write them: extensions that smear has never heard of, instances, buffers of which
  * nothing is there, OBJ with numbers that are none. Each is drawn from a generator, which knows what has to become of it: it
  * is drawn, and what it is drawn without is named, or it is refused by name. FOREIGN_FILES=n draws n of each kind. */
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/model/model.h"
 #include "tools/model/obj.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
 static int files_of_each(void)
 {

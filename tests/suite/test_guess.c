@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_guess.c - what a misspelt name may have meant (tools/guess.h), against the definition, and by slips made on purpose. */
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/guess.h"
 #include "tools/scenes/scene.h"
-
-#include <stdio.h>
 
 /* By trying all: the least of leaving out, adding, changing, and swapping neighbours that are not touched again. */
 static int slowly(const char *a, const char *b)

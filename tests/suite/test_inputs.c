@@ -3,12 +3,8 @@
  * each bit of each is turned, and turned back, and the pictures are those of a context that keeps nothing. The lists of fields
  * name all that the structs have: a new field does not compile until it has a line here. Host only. */
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "smear_overlay.h"
-
-#include <stdio.h>
-#include <string.h>
 
 enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 

@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jpeg.c - JPEG pictures: files of all kinds at random against what they show by the definitions, pictures of
  * libjpeg's, damage, and what is refused. JPEG_CASES=100000 asks for as many damaged files, and tells what they took. */
-#include "tests/random.h"
+#include "tests/host.h"
 #include "tests/ref/jpeg_case.h"
-#include "tests/test.h"
 
 #include "tools/image/image.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <time.h>
 

@@ -3,18 +3,14 @@
  * not meet, of nodes, cameras and morph weights. Random files by the thousand, each against one that says the same without
  * jumps: as the reader poses it, as it looks, and as an actor of the converted model plays it. Motion without jumps stays as it
  * is, to the bit. */
-#include "tests/random.h"
+#include "tests/host.h"
 #include "tests/ref/accuracy.h"
-#include "tests/test.h"
 
 #include "tools/convert/build.h"
 #include "tools/model/channel.h"
 #include "tools/scenes/present.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ------------------------------------------------------------------ files */
 

@@ -4,11 +4,7 @@
 #include "layers/streak.h"
 #include "tools/bench/kinds.h"
 #include "tools/bench/take.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 /* ------------------------------------------------------------------ takes of the suite */
 

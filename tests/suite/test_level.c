@@ -5,11 +5,6 @@
 #include "geometry/vertex.h"
 
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #if SMEAR_FIND_FLAT
 

@@ -4,11 +4,6 @@
 #include "smear_math.h"
 
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { EDGE = 64, LEVELS = 6, TEXELS = (4 * EDGE * EDGE - 1) / 3 };
 

@@ -3,15 +3,12 @@
  * values worked out by hand. Most files are made here, from accessors given as plain numbers; the
  * few that must lie on disk are in tests/fuzz/corpus/model. SMEAR_ASSETS names the folder of sample
  * models; without it their tests are left out, and a line says so. */
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/model/model.h"
 #include "tools/model/obj.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 void suite_model(void);

@@ -2,14 +2,8 @@
 /* test_motion.c - where velocities come from: motion modes, deformation, billboards, zooms; what is still to the eye; scales;
  * the frame-rate modes of the shutter. */
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "filter/probe.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <stdio.h>
-#include <string.h>
 
 void say(const char *format, ...);      /* accuracy.h, whose scenes are others */
 

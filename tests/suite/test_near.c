@@ -2,9 +2,6 @@
 /* test_near.c - surfaces that lie closely above each other while both pass the near plane: the upper one is seen by every
  * method as the mean of many instants has it. */
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
 
 enum { WIDTH = 120, HEIGHT = 80, BYTES = WIDTH * HEIGHT * 4 };
 

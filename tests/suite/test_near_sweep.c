@@ -2,14 +2,7 @@
 /* test_near_sweep.c - random cameras that drive low over endless surfaces of one colour, and cubes that pass close by. A surface
  * without end looks the same however fast the camera goes along it; a cube is as the mean of exact instants has it.
  * SMEAR_CASES=5000 draws as many cases of each kind; SMEAR_FIRST=17 begins with that one, and names what is off. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { PIXELS_MAX = 160 * 120, BYTES_MAX = PIXELS_MAX * 4, SIDE_MAX = 64, VERTICES_MAX = (SIDE_MAX + 1) * (SIDE_MAX + 1), DRAWS = 4 };
 

@@ -7,10 +7,6 @@
 #include "display/pixel_format.h"
 
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, ITEMS = 11 };
 

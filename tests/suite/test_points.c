@@ -4,16 +4,10 @@
 #include "smear_math.h"
 #include "smear_overlay.h"
 
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <sched.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 24 };
 

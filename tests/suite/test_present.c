@@ -4,11 +4,7 @@
 #include "tools/scenes/present.h"
 
 #include "tools/scenes/tape.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/host.h"
 
 /* ------------------------------------------------------------------ a scene that tests fill in */
 

@@ -2,13 +2,9 @@
 /* test_ref.c - the reference renderer against closed forms: it has to be right before anything is
  * measured with it. Most scenes are seen by an orthographic camera of one world unit per pixel,
  * whose arithmetic is exact, so that claims about pixel centres on edges can be made. */
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/ref/ref.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SIZE = 64 };
 

@@ -8,11 +8,7 @@
 #include "geometry/assemble.h"
 #include "geometry/assemble_path.h"
 #include "geometry/ranges.h"
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <stdlib.h>
 
 enum { WIDTH = 96, HEIGHT = 64, DRAWS = 12, MOST = 20000 };
 

@@ -1,14 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_rooms.c - rooms of a few large textured squares around a camera that goes in a circle, falls or turns: the default method is
  * near the mean of exact instants. SMEAR_CASES=1000 draws as many; SMEAR_FIRST=17 begins with that one, and names those far off. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 120, ROWS = 90, BYTES = WIDTH * ROWS * 4, SIDES = 6, TEXELS = 32, CASES_MAX = 20000 };
 

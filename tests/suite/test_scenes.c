@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_scenes.c - built-in scenes are what their names promise, and files become the scenes of the
  * command-line contract. Pictures come from the reference renderer. */
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/ref/ref.h"
 
@@ -10,10 +10,6 @@
 #include "tools/scenes/color.h"
 #include "tools/scenes/scene.h"
 #include "tools/scenes/stage.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #define PI 3.14159265358979323846
 

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_sight.c - why nothing of a scene is seen (tools/scenes/sight.h, tools/player/unseen.h): triangles are put before a camera, behind
  * it, beside what it sees and so on, and each must be counted for what it is. SIGHT_SCENES=n makes n scenes. */
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/scenes/sight.h"
 #include "tools/scenes/xform.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum place { TRANSPARENT, NEAR, FAR, BESIDE, BACK, FACING, PLACES };
 enum { MOST = 24 };

@@ -7,14 +7,7 @@
  * across each other or anyhow; over a plain colour, a still picture or one that moves; in tiles of every size and in both kinds
  * of light. Their error is that against 256 instants of the same poses. CASES=2000 in the environment draws so many scenes.
  * Host only. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { THINGS_MAX = 200, TARGETS = 4, CASES = 48, DISTANCE = 16, TRUTH = 256 };
 

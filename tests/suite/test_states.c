@@ -1,15 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_states.c - every public function in every state of a context, from every callback: what is out of turn is refused, and what
  * is refused, for whatever reason, changes not a byte of the context. And what a context knows of ids. Host only. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "smear_overlay.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 void suite_states(void);
 

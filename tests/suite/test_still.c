@@ -2,16 +2,12 @@
 /* test_still.c - smear_desc.cache_static and smear_desc.buffer_age: the pictures are those of a context that draws and
  * sends everything in every frame, to the bit, and what stands still is drawn, and sent, only where it must be.
  * Host only. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "smear_overlay.h"
 
 #include <pthread.h>
 #include <sched.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 70, HEIGHT = 52, FLOOR = 0, POST, PANE, MOVER, DRAWS, BYTES = WIDTH * HEIGHT * 4 };
 

@@ -2,7 +2,7 @@
 /* test_view.c - the parts of `smear view` that need no screen: layouts of pixels, the panel's
  * place, what a bus makes of a frame, bytes of terminals, recorded input, the turned camera,
  * wires. */
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/player/picture.h"
 #include "tools/scenes/methods.h"
@@ -21,10 +21,6 @@
 #include "tools/view/wire.h"
 #include "tools/view/x11_auth.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* ------------------------------------------------------------------ layouts */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_x11.c - a window at servers that promise what no server should (tools/view/x11.c, screen_x11.c). Whoever sits
  * behind $DISPLAY is believed nothing that memory or time depends on. */
-#include "tests/test.h"
+#include "tests/host.h"
 #include "tests/x_server.h"
 #include "tools/view/screen.h"
 #include "tools/view/x11.h"
-
-#include <string.h>
 
 static bool connects(const uint8_t *bytes, size_t size, struct failure *f)
 {

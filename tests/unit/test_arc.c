@@ -2,11 +2,7 @@
 /* test_arc.c - poses between two poses, against rotations in double precision. */
 #include "geometry/arc.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 enum { ONE = 1 << 24 };
 

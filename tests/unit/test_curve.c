@@ -5,12 +5,7 @@
 #include "geometry/pose.h"
 #include "geometry/shot.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 enum { ONE = 1 << 24 };
 

@@ -4,10 +4,7 @@
 #define smear_assemble_path assemble_path_of_this_suite
 #include "geometry/assemble_path.c"
 
-#include "tests/random.h"
-#include "tests/test.h"
-
-#include <math.h>
+#include "tests/host.h"
 
 enum { PHASES = 9, HALF_WIDTH = 160, HALF_HEIGHT = 120 };
 

@@ -3,11 +3,10 @@
  * call returns. Host only: threads. */
 #include "base/jobs.h"
 
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include <pthread.h>
 #include <sched.h>
-#include <string.h>
 
 enum { JOBS = 200, FRAMES = 20 };
 

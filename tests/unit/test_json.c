@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_json.c - the JSON reader: what it reads, what it refuses, and where it says the trouble
  * is. */
-#include "tests/test.h"
+#include "tests/host.h"
 
 #include "tools/model/json.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 static bool parse(const char *text, struct json *out, struct failure *f)
 {

@@ -4,12 +4,7 @@
 #include "geometry/light.h"
 
 #include "base/tables.h"
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 /* What lights a frame that says nothing. */
 static const struct smear_sun *default_sun(void)

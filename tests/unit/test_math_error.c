@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* test_math_error.c - the largest errors of smear_math.h against double precision, as its comments state them. For
  * hosts; test_math.c holds what is exact. */
-#include <math.h>
 #include <smear_math.h>
-#include <stdlib.h>
 
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 
 #define STEP (1.0 / (1 << 24))
 #define TAU 6.283185307179586476925

@@ -4,10 +4,7 @@
 #include "geometry/matrix.h"
 
 #include "geometry/transform.h"
-#include "tests/random.h"
-#include "tests/test.h"
-
-#include <math.h>
+#include "tests/host.h"
 
 static int32_t wild(void)
 {

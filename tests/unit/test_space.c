@@ -5,12 +5,8 @@
 
 #include "temporal/row_space.h"
 
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 #include "tests/unit/store.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 enum { W = 70, H = 44, POOL_WORDS = 400, SCALE = 14, EVEN_SCALE = 16, CORNERS = 4, KEYS = 3 };
 

@@ -9,8 +9,7 @@
 #include "geometry/space.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 #include "tests/unit/store.h"
 
 enum { W = 70, H = 44, RING = 51, POOL_WORDS = 16000, SEGMENTS = 10, MOVERS = 400, TILE_MAX = 64 };

@@ -6,8 +6,7 @@
 #include "base/pixel.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
-#include "tests/random.h"
-#include "tests/test.h"
+#include "tests/host.h"
 #include "tests/unit/store.h"
 
 enum {

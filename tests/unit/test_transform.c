@@ -3,10 +3,7 @@
  * precision: rigid, scaled, sheared, mirrored, tiny and huge transforms. Host only. */
 #include "geometry/transform.h"
 
-#include "tests/random.h"
-#include "tests/test.h"
-
-#include <math.h>
+#include "tests/host.h"
 
 /* A random rotation times `scale`, q24. */
 static void random_rotation(int32_t basis[9], double scale)
