@@ -36,6 +36,20 @@ input() { # SUBJECT ARGUMENTS...
     claim "bad input: smear $(shift; echo "$*")" fails 1 "$@"
 }
 
+bad() { # OPTION VALUES...
+    option=$1
+    shift
+    for value; do usage "$option" render "$plate" "$option" "$value"; done
+}
+
+drawn() { # same|differ OTHER FILE ARGUMENTS...: drawn into the file, which is compared with another one
+    compares=$1
+    other=$2
+    file=$3
+    shift 3
+    render "$@" -o "$file" && $compares "$other" "$file"
+}
+
 out_has() { has "$base/out" "$1"; }
 err_has() { has "$base/err" "$1"; }
 starts_with() { # FILE OCTAL-BYTES
@@ -148,8 +162,7 @@ claim "PFM in colour is PF" starts_with out.pfm "120 106 012"
 claim "GIF" starts_with out.gif "107 111 106 070 071 141"
 claim "APNG has PNG's signature" starts_with out.apng "211 120 116 107"
 claim "APNG has an animation chunk" grep -c acTL out.apng
-claim "endings may be capitals" render $moving -o OUT.PPM
-claim "which changes nothing" same out.ppm OUT.PPM
+claim "endings may be capitals which changes nothing" drawn same out.ppm OUT.PPM $moving
 claim "PPM header" equals "$(sed -n 2p out.ppm)" "48 32"
 claim "PFM header" equals "$(sed -n 2,3p out.pfm | tr '\n' ' ')" "48 32 -1.0 "
 claim "PFM has the bottom row first and codes / 255" equals \
@@ -167,10 +180,8 @@ claim "patterns of other files" exists d02.pfm
 claim "animations hold many frames" render "$plate" $small --frames 2-5 -o four.gif
 claim "a true-colour one" render "$plate" $small --frames 2-5 -o four.apng
 claim "and are larger than a single frame" is_true "$(wc -c <four.apng) > $(wc -c <out.apng)"
-claim "A-A is one frame and fits a still file" render "$plate" $small --frames 2-2 -o one.ppm
-claim "the same one" same one.ppm out.ppm
-claim "--option=value" render "$plate" --size=48x32 --fps=4 --time=0.5 --reach=8 -o equals.ppm
-claim "is --option value" same equals.ppm out.ppm
+claim "A-A is one frame and fits a still file the same one" drawn same out.ppm one.ppm "$plate" $small --frames 2-2
+claim "--option=value is --option value" drawn same out.ppm equals.ppm "$plate" --size=48x32 --fps=4 --time=0.5 --reach=8
 cp "$plate" ./--odd.gltf
 claim "-- ends the options" render $small --time 0.5 -o dashes.ppm -- --odd.gltf
 claim "what follows is a file" same dashes.ppm out.ppm
@@ -181,10 +192,8 @@ claim "written-out defaults" render "$plate" --size 320x240 --fps 30 --time 0 --
     --shutter 180 --exposure centred --poses previous --method auto --samples 8 --quality balanced \
     --reach 5% --tile 16 --shutter-mode native --light linear --filter nearest --clear 000000 \
     --format rgb888 --dither ordered --threads 1 -o written.ppm
-claim "no options" render "$plate" -o nothing.ppm
-claim "are the same" same written.ppm nothing.ppm
-claim "the target of balanced" render $moving --target 1.5 -o target.ppm
-claim "is the default" same target.ppm out.ppm
+claim "no options are the same" drawn same written.ppm nothing.ppm "$plate"
+claim "the target of balanced is the default" drawn same out.ppm target.ppm $moving --target 1.5
 turn="$plate $small --time 0.25 --clip spin"
 claim "what auto aims at" render $turn --method accumulate --samples 256 -o truth.ppm
 for quality in draft balanced fine; do
@@ -193,51 +202,33 @@ for quality in draft balanced fine; do
     eval "rmse_$quality=\$(value_of rmse)"
 done
 claim "fine is better than draft" is_true "$rmse_fine < $rmse_draft && $rmse_balanced <= $rmse_draft"
-claim "the target of fine" render $turn --target 0.5 -o target.ppm
-claim "is fine" same target.ppm fine.ppm
+claim "the target of fine is fine" drawn same fine.ppm target.ppm $turn --target 0.5
 claim "--target" render $moving --method reconstruct --target 0.5 -o target.ppm
-claim "without a target" render $moving --method reconstruct -o reconstruct.ppm
-claim "does not change reconstruct" same target.ppm reconstruct.ppm
+claim "without a target does not change reconstruct" drawn same target.ppm reconstruct.ppm $moving --method reconstruct
 
 claim "--method none" render $moving --method none -o none.ppm
-claim "--shutter 0" render $moving --shutter 0 -o shut.ppm
-claim "is none" same none.ppm shut.ppm
-claim "--method auto" render $moving --method auto -o auto.ppm
-claim "is the default" same auto.ppm out.ppm
-claim "--method reconstruct" render $moving --method reconstruct -o reconstruct.ppm
-claim "it blurs" differ none.ppm reconstruct.ppm
+claim "--shutter 0 is none" drawn same none.ppm shut.ppm $moving --shutter 0
+claim "--method auto is the default" drawn same out.ppm auto.ppm $moving --method auto
+claim "--method reconstruct it blurs" drawn differ none.ppm reconstruct.ppm $moving --method reconstruct
 claim "--method subframes" render $moving --method subframes -o subframes.ppm
-claim "32 instants at most" render $moving --method subframes --samples 32 -o instants.ppm
-claim "are the default" same subframes.ppm instants.ppm
-claim "2 instants" render $moving --method subframes --samples 2 -o instants.ppm
-claim "are fewer" differ subframes.ppm instants.ppm
+claim "32 instants at most are the default" drawn same subframes.ppm instants.ppm $moving --method subframes --samples 32
+claim "2 instants are fewer" drawn differ subframes.ppm instants.ppm $moving --method subframes --samples 2
 claim "--method timemask" render $moving --method timemask -o timemask.ppm
-claim "32 slots" render $moving --method timemask --samples 32 -o slots.ppm
-claim "are the default" same timemask.ppm slots.ppm
+claim "32 slots are the default" drawn same timemask.ppm slots.ppm $moving --method timemask --samples 32
 claim "32 slots of a turn" render $turn --method timemask -o turn32.ppm
-claim "8 slots" render $turn --method timemask --samples 8 -o turn8.ppm
-claim "are fewer" differ turn32.ppm turn8.ppm
+claim "8 slots are fewer" drawn differ turn32.ppm turn8.ppm $turn --method timemask --samples 8
 for method in object layered; do
-    claim "--method $method" render $moving --method $method --stats $method.json -o $method.ppm
-    claim "it blurs" differ none.ppm $method.ppm
+    claim "--method $method it blurs" drawn differ none.ppm $method.ppm $moving --method $method --stats $method.json
     claim "tiles are told" is_true "$(sed -n "s/.*\"$method\":\([0-9]*\).*/\1/p" $method.json) > 0"
-    claim "with 3 threads" render $moving --method $method --threads 3 -o threads.ppm
-    claim "the same" same threads.ppm $method.ppm
-    claim "of a masked node" render $moving --method $method --mask plate -o masked.ppm
-    claim "the same, for nothing else moves" same masked.ppm $method.ppm
-    claim "by its root's index" render $moving --method $method --mask 0 -o masked.ppm
-    claim "the same again" same masked.ppm $method.ppm
-    claim "of one that opts out" render $moving --method $method --motion plate=none -o calm.ppm
-    claim "is the sharp frame" same calm.ppm none.ppm
-    claim "with a shutter of 0" render $moving --method $method --shutter 0 -o calm.ppm
-    claim "too" same calm.ppm none.ppm
+    claim "with 3 threads the same" drawn same $method.ppm threads.ppm $moving --method $method --threads 3
+    claim "of a masked node the same, for nothing else moves" drawn same $method.ppm masked.ppm $moving --method $method --mask plate
+    claim "by its root's index the same again" drawn same $method.ppm masked.ppm $moving --method $method --mask 0
+    claim "of one that opts out is the sharp frame" drawn same none.ppm calm.ppm $moving --method $method --motion plate=none
+    claim "with a shutter of 0 too" drawn same none.ppm calm.ppm $moving --method $method --shutter 0
 done
-claim "--method accumulate" render $moving --method accumulate -o accumulate.ppm
-claim "it blurs, too" differ none.ppm accumulate.ppm
-claim "8 instants" render $moving --method accumulate --samples 8 -o eight.ppm
-claim "are the default" same accumulate.ppm eight.ppm
-claim "one instant" render $moving --method accumulate --samples 1 -o first.ppm
-claim "is the sharp frame" same first.ppm none.ppm
+claim "--method accumulate it blurs, too" drawn differ none.ppm accumulate.ppm $moving --method accumulate
+claim "8 instants are the default" drawn same accumulate.ppm eight.ppm $moving --method accumulate --samples 8
+claim "one instant is the sharp frame" drawn same none.ppm first.ppm $moving --method accumulate --samples 1
 claim "64 instants" render $moving --method accumulate --samples 64 -o many.ppm
 claim "exact instants" render $moving --method accumulate --samples 64 --exact -o exact.ppm
 run compare many.ppm exact.ppm
@@ -246,46 +237,31 @@ for method in "auto --quality fine" subframes timemask; do
     claim "$method of linear motion" render $moving --method $method -o timed.ppm
     run compare timed.ppm exact.ppm
     claim "is near the truth" is_true "$(value_of rmse) < 1.5"
-    claim "$method with a shutter of 0" render $moving --method $method --shutter 0 -o timed.ppm
-    claim "is none" same timed.ppm none.ppm
-    claim "$method with a cut" render "$plate" $small --frames 2-2 --cut 2 --method $method -o timed.ppm
-    claim "is none" same timed.ppm none.ppm
+    claim "$method with a shutter of 0 is none" drawn same none.ppm timed.ppm $moving --method $method --shutter 0
+    claim "$method with a cut is none" drawn same none.ppm timed.ppm "$plate" $small --frames 2-2 --cut 2 --method $method
 done
-claim "exact instants of a turn" render "$plate" $small --clip spin --time 0.5 --method accumulate \
-    --samples 32 --exact -o turn.ppm
-claim "differ from the sharp frame" differ turn.ppm none.ppm
-claim "an exact frame that is cut" render "$plate" $small --clip slide --frames 2-2 --cut 2 \
-    --method accumulate --exact -o exactcut.ppm
-claim "is sharp" same exactcut.ppm none.ppm
-claim "an exact shutter of 0" render $moving --method accumulate --exact --shutter 0 \
-    -o exactshut.ppm
-claim "is sharp" same exactshut.ppm none.ppm
-claim "fractions of a degree are rounded" render $moving --shutter 180.3 -o rounded.ppm
-claim "to whole ones" same rounded.ppm out.ppm
-claim "a longer shutter" render $moving --shutter 360 -o longer.ppm
-claim "blurs more" differ longer.ppm out.ppm
+claim "exact instants of a turn differ from the sharp frame" drawn differ none.ppm turn.ppm "$plate" $small --clip spin --time 0.5 \
+    --method accumulate --samples 32 --exact
+claim "an exact frame that is cut is sharp" drawn same none.ppm exactcut.ppm "$plate" $small --clip slide --frames 2-2 --cut 2 \
+    --method accumulate --exact
+claim "an exact shutter of 0 is sharp" drawn same none.ppm exactshut.ppm $moving --method accumulate --exact --shutter 0
+claim "fractions of a degree are rounded to whole ones" drawn same out.ppm rounded.ppm $moving --shutter 180.3
+claim "a longer shutter blurs more" drawn differ out.ppm longer.ppm $moving --shutter 360
 
 sed 's/"input":2,"output":3}/"input":2,"output":3,"interpolation":"STEP"}/' "$plate" >"$base/in/held.gltf"
 claim "a held key" render "$base/in/held.gltf" $small --frames 4-4 -o held.ppm
-claim "the same frame, cut" render "$base/in/held.gltf" $small --frames 4-4 --cut 4 -o cut.ppm
-claim "is joined by no path" same held.ppm cut.ppm
+claim "the same frame, cut is joined by no path" drawn same held.ppm cut.ppm "$base/in/held.gltf" $small --frames 4-4 --cut 4
 exact="--method accumulate --exact --samples 16 --clip slide"
 claim "an exposure around t" render $moving $exact -o centred.ppm
-claim "one that ends at t" render "$plate" $small $exact --exposure trailing --time 0.5625 \
-    -o trailing.ppm
-claim "are the same instants" same centred.ppm trailing.ppm
-claim "one that starts at t" render "$plate" $small $exact --exposure leading --time 0.4375 \
-    -o leading.ppm
-claim "as well" same centred.ppm leading.ppm
+claim "one that ends at t are the same instants" drawn same centred.ppm trailing.ppm "$plate" $small $exact --exposure trailing --time 0.5625
+claim "one that starts at t as well" drawn same centred.ppm leading.ppm "$plate" $small $exact --exposure leading --time 0.4375
 for exposure in trailing leading; do
-    claim "the filter's exposure" render $moving --exposure $exposure -o filter-$exposure.ppm
-    claim "may be $exposure" differ filter-$exposure.ppm out.ppm
+    claim "the filter's exposure may be $exposure" drawn differ out.ppm filter-$exposure.ppm $moving --exposure $exposure
 done
 turning="$plate $small --time 0.5 --clip spin --method accumulate"
 claim "the pose a frame ago, joined by lines" render $turning --poses previous --path line -o previous.ppm
 claim "and by a curve" render $turning --poses previous -o curve.ppm
-claim "the poses of the shutter" render $turning --poses shutter -o poses.ppm
-claim "are different things for what turns" differ previous.ppm poses.ppm
+claim "the poses of the shutter are different things for what turns" drawn differ previous.ppm poses.ppm $turning --poses shutter
 claim "but a curve turns as evenly" same curve.ppm poses.ppm
 
 for flag in fence corner box direction uniform fence,corner,box,direction,uniform; do
@@ -296,8 +272,7 @@ claim "a box is no tent" differ flag-box.ppm reconstruct.ppm
 # ------------------------------------------------------------------ what moves, what is seen
 
 claim "clips by name" render "$plate" $small --time 0.25 --clip spin -o spin.ppm
-claim "clips by index" render "$plate" $small --time 0.25 --clip 1 -o one.ppm
-claim "are the same" same spin.ppm one.ppm
+claim "clips by index are the same" drawn same spin.ppm one.ppm "$plate" $small --time 0.25 --clip 1
 turned="$plate $small --clip none --shutter 0"
 claim "a camera that goes round" render $turned --frames 0-3 --orbit 1 -o round%d.ppm
 claim "a quarter of the way" render $turned --orbit 0.25 -o quarter.ppm
@@ -306,33 +281,22 @@ claim "and begins where it is without" eval 'render $turned -o begin.ppm && work
 claim "which is elsewhere" differ begin.ppm quarter.ppm
 claim "no clip" render "$plate" $small --time 0.25 --clip none -o still.ppm --stats still.json
 claim "holds still" equals "$(stat_of still.json still)" "$(stat_of still.json none)"
-claim "all clips" render "$plate" $small --time 0.25 --clip all -o all.ppm
-claim "do both" differ all.ppm spin.ppm
+claim "all clips do both" drawn differ spin.ppm all.ppm "$plate" $small --time 0.25 --clip all
 claim "clips stop at their end" render "$plate" $small --time 1.5 -o end.ppm
-claim "and stay there" render "$plate" $small --time 7 -o later.ppm
-claim "without moving" same end.ppm later.ppm
-claim "or loop" render "$plate" $small --time 1.5 --loop -o loop.ppm
-claim "from their start" same loop.ppm out.ppm
+claim "and stay there without moving" drawn same end.ppm later.ppm "$plate" $small --time 7
+claim "or loop from their start" drawn same out.ppm loop.ppm "$plate" $small --time 1.5 --loop
 
 claim "cameras by name" render $moving --camera flat --method none -o flat.ppm
-claim "cameras by index" render $moving --camera 1 --method none -o camera1.ppm
-claim "are the same" same flat.ppm camera1.ppm
+claim "cameras by index are the same" drawn same flat.ppm camera1.ppm $moving --camera 1 --method none
 claim "and others are not" differ flat.ppm none.ppm
-claim "an eye of one's own" render $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none \
-    -o eye.ppm
-claim "may be the file's" same eye.ppm none.ppm
+claim "an eye of one's own may be the file's" drawn same none.ppm eye.ppm $moving --eye 0,0,4 --look 0,0,0 --fov 90 --method none
 claim "--fov has a default" render $moving --eye 0,0,4 --look 0,0,0 -o fov.ppm
-claim "of 45 degrees" render $moving --eye 0,0,4 --look 0,0,0 --fov 45 -o fov45.ppm
-claim "indeed" same fov.ppm fov45.ppm
+claim "of 45 degrees indeed" drawn same fov.ppm fov45.ppm $moving --eye 0,0,4 --look 0,0,0 --fov 45
 
-claim "a node without motion" render $moving --motion plate=none --stats none.json -o calm.ppm
-claim "is not blurred" same calm.ppm none.ppm
-claim "nor with the camera's, which stands" render $moving --motion plate=camera -o calm.ppm
-claim "either" same calm.ppm none.ppm
-claim "by index, and all below" render $moving --motion 0=none -o calm.ppm
-claim "the same" same calm.ppm none.ppm
-claim "the last setting" render $moving --motion root=none --motion plate=full -o full.ppm
-claim "counts" same full.ppm out.ppm
+claim "a node without motion is not blurred" drawn same none.ppm calm.ppm $moving --motion plate=none --stats none.json
+claim "nor with the camera's, which stands either" drawn same none.ppm calm.ppm $moving --motion plate=camera
+claim "by index, and all below the same" drawn same none.ppm calm.ppm $moving --motion 0=none
+claim "the last setting counts" drawn same out.ppm full.ppm $moving --motion root=none --motion plate=full
 claim "a cut" render "$plate" $small --frames 1-3 --cut 2 -o 'cut%d.ppm'
 claim "has no motion" same cut2.ppm none.ppm
 claim "the frame before" same cut1.ppm f-001.ppm
@@ -341,12 +305,10 @@ claim "and the one after have" same cut3.ppm f-003.ppm
 claim "clear colour" render $moving --clear 204060 --method none -o clear.ppm
 claim "in the corner" equals "$(ppm_pixel clear.ppm 48 0 31)" "32 64 96"
 claim "the plate is red" equals "$(ppm_pixel clear.ppm 48 24 16)" "255 0 0"
-claim "light may be encoded" render $moving --light encoded -o encoded.ppm
-claim "which mixes darker" differ encoded.ppm out.ppm
+claim "light may be encoded which mixes darker" drawn differ out.ppm encoded.ppm $moving --light encoded
 claim "a texture" render builtin:demo/race --size 16x16 -o "$base/in/card.png"
 claim "nearest texels" render "$base/in/card.obj" --size 64x64 -o nearest.ppm
-claim "bilinear texels" render "$base/in/card.obj" --size 64x64 --filter bilinear -o bilinear.ppm
-claim "are not the same" differ nearest.ppm bilinear.ppm
+claim "bilinear texels are not the same" drawn differ nearest.ppm bilinear.ppm "$base/in/card.obj" --size 64x64 --filter bilinear
 
 claim "a built-in scene has its size" render builtin:suite/translate -o builtin.ppm
 works info builtin:suite/translate
@@ -415,8 +377,7 @@ claim "--double-sided" works render "$base/in/inwards.obj" $small --double-sided
 # ------------------------------------------------------------------ depth and velocity
 
 planes="$plate $small --time 0.5"
-claim "depth and velocity" render $planes --depth d.pfm --velocity v.pfm -o planes.ppm
-claim "leave the picture alone" same planes.ppm out.ppm
+claim "depth and velocity leave the picture alone" drawn same out.ppm planes.ppm $planes --depth d.pfm --velocity v.pfm
 claim "depth has one channel" starts_with d.pfm "120 146 012"
 claim "velocity has three" starts_with v.pfm "120 106 012"
 claim "depth in scene units" is_true "$(pfm_value d.pfm 48 32 1 24 16 0) - 4 < 0.004 &&
@@ -446,11 +407,9 @@ claim "is in scene units" is_true "$(pfm_value d4.pfm 48 32 1 24 16 0) - 4 < 0.0
 claim "grey of 50 % is dithered" render $moving --clear 7f7f7f --format l1 -o l1.ppm
 claim "to black and white" equals "$(ppm_bytes l1.ppm | sort -nu | tr '\n' ' ')" "0 255 "
 claim "pages of 8 rows" render builtin:demo/race --size 45x30 --format l1pages -o pages.ppm
-claim "hold the same" render builtin:demo/race --size 45x30 --format l1 -o l1.ppm
-claim "picture" same pages.ppm l1.ppm
+claim "hold the same picture" drawn same pages.ppm l1.ppm builtin:demo/race --size 45x30 --format l1
 claim "diffused" render builtin:demo/race --size 45x30 --format l1 --dither diffuse -o diffused.ppm
-claim "by cores in pages" render builtin:demo/race --size 45x30 --format l1pages --dither diffuse --threads 3 -o pages.ppm
-claim "the same" same pages.ppm diffused.ppm
+claim "by cores in pages the same" drawn same diffused.ppm pages.ppm builtin:demo/race --size 45x30 --format l1pages --dither diffuse --threads 3
 claim "not dithered" differ l1.ppm diffused.ppm
 claim "doubled" render builtin:demo/race --size 45x30 --format l1 --double 2x1 -o doubled.ppm
 claim "wider" equals "$(sed -n 2p doubled.ppm)" "90 30"
@@ -486,8 +445,7 @@ claim "ordered is the default" same dither-ordered.ppm rgb332.ppm
 claim "blue is another" differ dither-blue.ppm dither-ordered.ppm
 claim "none a third" differ dither-none.ppm dither-ordered.ppm
 
-claim "statistics" render $moving --stats s.json -o out2.ppm
-claim "leave the picture alone" same out2.ppm out.ppm
+claim "statistics leave the picture alone" drawn same out.ppm out2.ppm $moving --stats s.json
 for key in frames frame time_s us submit raster reduce class blur merge convert total triangles in \
     drawn dropped split pixels samples tiles still uniform complex methods none accumulate \
     reconstruct subframes timemask arena_bytes crc32; do
@@ -516,8 +474,7 @@ claim "statistics of an exact frame" render $moving --method accumulate --exact 
     --format l8 --stats acc.json -o acc.ppm
 claim "as well" equals "$(stat_of acc.json samples)" 6144
 claim "and its triangles" equals "$(stat_of acc.json in)" 16
-claim "medians" render $moving --repeat 5 --stats five.json -o five.ppm
-claim "of the same picture" same five.ppm out.ppm
+claim "medians of the same picture" drawn same out.ppm five.ppm $moving --repeat 5 --stats five.json
 claim "with the same CRC" equals "$(stat_of five.json crc32)" "$(stat_of s.json crc32)"
 claim "medians of an exact frame" render $moving --method accumulate --exact --repeat 3 \
     --stats five.json
@@ -538,8 +495,7 @@ for threads in 2 3 8; do
     claim "show the same" equals "$(crcs_of kept.json)" "$(crcs_of kept1.json)"
 done
 claim "several cores and sharp frames" render $race --threads 2 --method accumulate -o a2.ppm
-claim "draw" render $race --method accumulate -o a1.ppm
-claim "the same" same a1.ppm a2.ppm
+claim "draw the same" drawn same a2.ppm a1.ppm $race --method accumulate
 
 claim "an ample arena" render $race --arena 10000000 -o ample.ppm --stats ample.json
 claim "changes nothing" same ample.ppm core1.ppm
@@ -565,8 +521,7 @@ claim "in parts" is_true "$parts > 0"
 
 render $moving --method timemask -o mask.ppm
 for tile in 8 16 32 64; do
-    claim "--tile $tile" render $moving --tile $tile --method timemask -o tile.ppm
-    claim "does not change what blurs in closed form" same tile.ppm mask.ppm
+    claim "--tile $tile does not change what blurs in closed form" drawn same mask.ppm tile.ppm $moving --tile $tile --method timemask
     render $moving --tile $tile -o tile.ppm
     works compare tile.ppm out.ppm
     claim "and auto's instants by little" is_true "$(value_of rmse) < 1.5"
@@ -577,11 +532,9 @@ for method in reconstruct subframes timemask; do
 done
 claim "no other method" equals "$(stat_of tile.json subframes)" 0
 claim "a reach in pixels" render $moving --reach 4 -o reach4.ppm
-claim "a reach of a share" render $moving --reach 12.5% -o reach12.ppm
-claim "of the height" same reach4.ppm reach12.ppm
+claim "a reach of a share of the height" drawn same reach4.ppm reach12.ppm $moving --reach 12.5%
 claim "the default reach is at most a tile" render "$plate" --size 64x240 --method reconstruct --tile 8 -o tile8.ppm
-claim "as large as it" render "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8 -o tile88.ppm
-claim "so" same tile8.ppm tile88.ppm
+claim "as large as it so" drawn same tile8.ppm tile88.ppm "$plate" --size 64x240 --method reconstruct --tile 8 --reach 8
 claim "tiles of 4" render "$plate" --size 64x48 --method reconstruct --tile 4 -o tile4.ppm
 claim "1x1" warns "too small" render "$plate" --size 1x1 -o tiny.ppm
 claim "2048 wide" render "$plate" --size 2048x1 -o wide.ppm
@@ -838,31 +791,18 @@ usage --orbit render "$plate" --orbit 0
 usage --orbit render "$plate" --orbit 101
 usage --size render "$plate" --size
 usage --loop render "$plate" --loop=yes
-for size in 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' \
-    99999999999999999999x1; do
-    usage --size render "$plate" --size "$size"
-done
-for fps in 0 -1 nan inf -inf 30x '' 1e99 0x10 ' 30' + .; do
-    usage --fps render "$plate" --fps "$fps"
-done
-for time in -1 nan inf 1s '' 1e99; do
-    usage --time render "$plate" --time "$time"
-done
+bad --size 0x10 10x0 -1x10 2049x10 10x2049 10 10x 10x10x ax10 10x10z 1e1x10 '' ' 10x10' 99999999999999999999x1
+bad --fps 0 -1 nan inf -inf 30x '' 1e99 0x10 ' 30' + .
+bad --time -1 nan inf 1s '' 1e99
 for frames in 1 1- -3 3-1 a-b 1-2-3 -1-2 1.5-2 '' 1-99999999999; do
     usage --frames render "$plate" --frames "$frames" -o '%d.png'
 done
 usage --frames render "$plate" --frames 7 -o 7.png
 claim "which says how to ask for one" has "$base/err" "7-7 is frame 7 alone"
-for shutter in -1 nan inf 3601 180deg ''; do
-    usage --shutter render "$plate" --shutter "$shutter"
-done
-for samples in 0 -1 nan 1.5 65537 8x ''; do
-    usage --samples render "$plate" --samples "$samples"
-done
+bad --shutter -1 nan inf 3601 180deg ''
+bad --samples 0 -1 nan 1.5 65537 8x ''
 usage --samples render "$plate" --samples 1025
-for reach in 0 -1 nan 0% -5% 'nan%' '%' 12px 1.5 101% ''; do
-    usage --reach render "$plate" --reach "$reach"
-done
+bad --reach 0 -1 nan 0% -5% 'nan%' '%' 12px 1.5 101% ''
 usage --reach render "$plate" --reach 65
 usage --reach render "$plate" --reach 17 --tile 16
 usage --tile render "$plate" --method auto --tile 4
@@ -871,30 +811,16 @@ usage --edges render "$plate" --method timemask --edges smooth
 usage --edges render "$plate" --edges soft
 usage --edges render "$plate" --edges smooth --keep-display
 claim "smooth edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 --edges smooth -o edges.ppm
-claim "hard edges without a shutter" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.ppm
-claim "smooth edges are others than hard ones" differ edges.ppm sharp.ppm
+claim "hard edges without a shutter smooth edges are others than hard ones" drawn differ edges.ppm sharp.ppm builtin:suite/cross \
+    --size 64x48 --shutter 0
 usage --reach render "$plate" --reach 50%
-for tile in 0 2 12 128 16.0 -8 ''; do
-    usage --tile render "$plate" --tile "$tile"
-done
-for target in 0 -1 nan inf 256 ''; do
-    usage --target render "$plate" --target "$target"
-done
-for clear in fff 0000000 '#00000' 00000g -00000 ''; do
-    usage --clear render "$plate" --clear "$clear"
-done
-for arena in 0 -1 1.5 64k nan ''; do
-    usage --arena render "$plate" --arena "$arena"
-done
-for threads in 0 9 -1 two ''; do
-    usage --threads render "$plate" --threads "$threads"
-done
-for repeat in 0 -1 1.5 ''; do
-    usage --repeat render "$plate" --repeat "$repeat"
-done
-for cut in -1 x 1.5 ''; do
-    usage --cut render "$plate" --cut "$cut"
-done
+bad --tile 0 2 12 128 16.0 -8 ''
+bad --target 0 -1 nan inf 256 ''
+bad --clear fff 0000000 '#00000' 00000g -00000 ''
+bad --arena 0 -1 1.5 64k nan ''
+bad --threads 0 9 -1 two ''
+bad --repeat 0 -1 1.5 ''
+bad --cut -1 x 1.5 ''
 for vector in 1,2 1,2,3,4 a,b,c 1,,3 nan,0,0 0,0,inf '' '1, 2,3'; do
     usage --eye render "$plate" --eye "$vector" --look 0,0,0
     usage --look render "$plate" --eye 9,9,9 --look "$vector"
@@ -943,24 +869,17 @@ for weights in mcguire guertin jimenez; do
 done
 claim "weights differ" differ mcguire.png guertin.png
 claim "a shutter in seconds" render builtin:suite/cross --size 64x48 --fps 30 --shutter 16.6667ms -o seconds.png
-claim "is that in degrees" render builtin:suite/cross --size 64x48 --fps 30 --shutter 180 -o degrees.png
-claim "of the same length" same seconds.png degrees.png
+claim "is that in degrees of the same length" drawn same seconds.png degrees.png builtin:suite/cross --size 64x48 --fps 30 --shutter 180
 claim "at 10 Hz, fixed" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode fixed --poses shutter -o fixed.png
-claim "it is as at 30 Hz" render builtin:suite/cross --size 64x48 --fps 30 --poses shutter -o native.png
-claim "bit for bit" same fixed.png native.png
-claim "capped, too" render builtin:suite/cross --size 64x48 --fps 10 --shutter-mode capped --poses shutter -o capped.png
-claim "bit for bit" same capped.png native.png
+claim "it is as at 30 Hz bit for bit" drawn same fixed.png native.png builtin:suite/cross --size 64x48 --fps 30 --poses shutter
+claim "capped, too bit for bit" drawn same native.png capped.png builtin:suite/cross --size 64x48 --fps 10 --shutter-mode capped --poses shutter
 claim "at 60 Hz, fixed at 60" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode fixed:60 -o fixed.png
-claim "it is native" render builtin:suite/cross --size 64x48 --fps 60 -o native.png
-claim "bit for bit" same fixed.png native.png
-claim "capped does not lengthen" render builtin:suite/cross --size 64x48 --fps 60 --shutter-mode capped -o capped.png
-claim "bit for bit" same capped.png native.png
+claim "it is native bit for bit" drawn same fixed.png native.png builtin:suite/cross --size 64x48 --fps 60
+claim "capped does not lengthen bit for bit" drawn same native.png capped.png builtin:suite/cross --size 64x48 --fps 60 --shutter-mode capped
 claim "no motion of objects" render builtin:suite/cross --size 64x48 --scale objects=0 -o scaled.png
-claim "is the sharp frame" render builtin:suite/cross --size 64x48 --shutter 0 -o sharp.png
-claim "before a still camera" same scaled.png sharp.png
+claim "is the sharp frame before a still camera" drawn same scaled.png sharp.png builtin:suite/cross --size 64x48 --shutter 0
 claim "no motion of the camera" render builtin:suite/pan --size 64x48 --scale turn=0,way=0 -o scaled.png
-claim "is the sharp frame" render builtin:suite/pan --size 64x48 --shutter 0 -o sharp.png
-claim "of what stands still" same scaled.png sharp.png
+claim "is the sharp frame of what stands still" drawn same scaled.png sharp.png builtin:suite/pan --size 64x48 --shutter 0
 usage --shutter-mode render "$plate" --shutter-mode fixed:0
 
 claim "what stands still is drawn in every frame" render builtin:suite/arena --size 64x48 --frames 0-3 -o drawn%d.png
@@ -980,8 +899,7 @@ claim "of those that are not" same_crcs drawn.json kept.json
 claim "what stands still counts as kept" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still --stats kept.json -o kept%d.png
 claim "with statistics, too" grep -q '"static_cached":1' kept.json
 claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
-claim "as coarse as a draft" render builtin:suite/cross --size 64x48 --quality draft -o drawn3.png
-claim "which it is" same drawn3.png kept3.png
+claim "as coarse as a draft which it is" drawn same kept3.png drawn3.png builtin:suite/cross --size 64x48 --quality draft
 usage --budget render "$plate" --budget 0
 usage --budget render "$plate" --budget 10 --method subframes
 usage --keep-still render "$plate" --keep-still --method reconstruct
@@ -1008,9 +926,7 @@ usage --clip render "$plate" --clip nosuch
 usage --clip render "$plate" --clip 2
 usage --camera render "$plate" --camera nosuch
 usage --camera render "$plate" --camera 2
-for motion in plate plate=frob =none nosuch=none 5=none ''; do
-    usage --motion render "$plate" --motion "$motion"
-done
+bad --motion plate plate=frob =none nosuch=none 5=none ''
 for option in '--clip 0' --loop '--camera 0' '--eye 1,2,3 --look 0,0,0' '--filter nearest' \
     '--motion a=none'; do
     usage "${option%% *}" render builtin:suite/still $option

@@ -72,6 +72,7 @@ static float any_place(void)
 struct glb {
     struct bytes json, bin;
     size_t limit;
+    unsigned count;     /* how often what is repeated first came */
 };
 
 static void write_glb(struct glb *g, FILE *to)
@@ -95,7 +96,7 @@ static void write_glb(struct glb *g, FILE *to)
     fwrite(out.at, 1, out.size, to);
 }
 
-/* Corners of `n` triangles at random, and their numbers: accessors 0 and 1. */
+/* Corners of triangles at random, and their numbers: accessors 0 and 1. */
 static void triangles(struct glb *g, unsigned vertices, unsigned corners)
 {
     for (unsigned i = 0; i < vertices * 3; i++)
@@ -104,169 +105,122 @@ static void triangles(struct glb *g, unsigned vertices, unsigned corners)
         put32(&g->bin, i < vertices ? i : any(vertices));
 }
 
-static void begin(struct glb *g)
-{
-    say(&g->json, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0");
-}
-
 /* Accessors 0 (positions) and 1 (indices) of triangles() and the views 0 and 1 behind them. */
-static void end(struct glb *g, unsigned vertices, unsigned corners, const char *more)
+static void end(struct glb *g, unsigned vertices, unsigned corners)
 {
-    say(&g->json, ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%u,\"type\":\"VEC3\"},"
-        "{\"bufferView\":1,\"componentType\":5125,\"count\":%u,\"type\":\"SCALAR\"}%s]", vertices, corners, more);
-    say(&g->json, ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":%u},{\"buffer\":0,\"byteOffset\":%u,\"byteLength\":%u}],"
-        "\"buffers\":[{\"byteLength\":%zu}]}", vertices * 12, vertices * 12, corners * 4, g->bin.size);
+    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':%u,'type':'VEC3'},"
+        "{'bufferView':1,'componentType':5125,'count':%u,'type':'SCALAR'}]", vertices, corners);
+    say(&g->json, ",'bufferViews':[{'buffer':0,'byteLength':%u},{'buffer':0,'byteOffset':%u,'byteLength':%u}],"
+        "'buffers':[{'byteLength':%zu}]}", vertices * 12, vertices * 12, corners * 4, g->bin.size);
 }
 
-static bool fits(const struct glb *g)
+/* ------------------------------------------------------------------ text that is repeated */
+
+/* Whether text number i may come once more: each letter of `how` says up to when.
+ *
+ *     f           the file has room for the rest         1 to 9      the text is below so many twelfths of the file
+ *     o p q       there is room for 40, 60, 100 bytes    n           as many as in the first repetition
+ *     j           a sixtieth of the limit, or 60,000 */
+static bool goes_on(const struct glb *g, const char *how, unsigned i)
 {
-    return g->json.size + g->bin.size + 2000 < g->limit;
+    bool ok = true;
+    for (; *how != '|'; how++)
+        ok = ok && (*how == 'f'   ? g->json.size + g->bin.size + 2000 < g->limit
+                    : *how == 'n' ? i <= g->count
+                    : *how == 'j' ? i < g->limit / 60 && i < 60000
+                    : *how > '9'  ? g->json.size + (*how == 'o' ? 40u : *how == 'p' ? 60u : 100u) < g->limit
+                                  : g->json.size < g->limit * (size_t)(*how - '0') / 12);
+    return ok;
 }
 
-static void one_scene(struct glb *g)
+/* Text of which `<HOW|TEXT>` is repeated. In there \1 stands for its number, from 1, \2 for the next and \3 for the one before, in
+ * hexadecimal where % follows; \4 and \5 for 0 to 9 and 1 to 3 at random. */
+static void tell(struct glb *g, const char *text)
 {
-    say(&g->json, ",\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]");
+    bool first = g->count == 0;
+    for (; *text != '\0'; text++) {
+        if (*text != '<') {
+            put(&g->json, text, 1);
+            continue;
+        }
+        const char *how = text + 1, *from = strchr(text, '|') + 1;
+        unsigned i = 1;
+        for (text = strchr(from, '>'); goes_on(g, how, i); i++)
+            for (const char *c = from; c < text; c++) {
+                if (*c > 5)
+                    put(&g->json, c, 1);
+                else if (*c >= 4)
+                    say(&g->json, "%u", *c == 4 ? any(10) : 1 + any(3));
+                else
+                    say(&g->json, text[1] == '%' ? "%x" : "%u", *c == 1 ? i : *c == 2 ? i + 1 : i - 1);
+            }
+        text += text[1] == '%';
+        if (first)
+            g->count = i - 1;
+        first = false;
+    }
 }
 
-static void json_deep(struct glb *g)
+#define BEGIN "{'asset':{'version':'2.0'}"
+#define POINTS "{'attributes':{'POSITION':0},'indices':1"
+#define MESH ",'meshes':[{'primitives':[" POINTS "}]}]"
+#define ONE_SCENE ",'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"
+#define SHARES ",{'mesh':0}>]"
+
+/* One skin of many joints, and many nodes that wear it. */
+static void skins(struct glb *g)
 {
-    say(&g->json, "{\"asset\":{\"version\":\"2.0\"},\"extras\":");
-    for (size_t i = 0; i < g->limit / 2; i++)
-        put(&g->json, "[", 1);
-    for (size_t i = 0; i < g->limit / 2; i++)
-        put(&g->json, "]", 1);
-    put(&g->json, "}", 1);
+    const float corner[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    for (int i = 0; i < 9; i++)
+        put_float(&g->bin, corner[i]);
+    for (unsigned i = 0; i < 3; i++)
+        put32(&g->bin, i);
+    for (unsigned i = 0; i < 12; i++)           /* joints of three vertices, and their weights */
+        put(&g->bin, i % 4 == 0 ? "\1\0" : "\0\0", 2);
+    for (unsigned i = 0; i < 12; i++)
+        put_float(&g->bin, 0.25f);
+    tell(g, BEGIN ",'scene':0,'nodes':[{}<f6|,{'mesh':0,'skin':0}>],'scenes':[{'nodes':[0<n9|,\1>]}],'skins':[{'joints':[0<njf|,\1>]}],"
+         "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3},'indices':1}]}]");
+    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':36,'componentType':5125,'count':3,'type':'SCALAR'},"
+        "{'bufferView':0,'byteOffset':48,'componentType':5123,'count':3,'type':'VEC4'},"
+        "{'bufferView':0,'byteOffset':72,'componentType':5126,'count':3,'type':'VEC4'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':%zu}],'buffers':[{'byteLength':%zu}]}", g->bin.size, g->bin.size);
 }
 
-static void json_wide(struct glb *g)
+static void clip(struct glb *g, unsigned keys, const char *text)
 {
-    say(&g->json, "{\"asset\":{\"version\":\"2.0\"},\"extras\":[0");
-    while (fits(g))
-        put(&g->json, ",0", 2);
-    put(&g->json, "]}", 2);
-}
-
-static void json_keys(struct glb *g)
-{
-    begin(g);
-    for (unsigned i = 0; fits(g); i++)
-        say(&g->json, ",\"%x\":0", i);
-    put(&g->json, "}", 1);
-}
-
-static void json_escapes(struct glb *g)
-{
-    say(&g->json, "{\"asset\":{\"version\":\"2.0\"},\"extras\":\"");
-    while (fits(g))
-        say(&g->json, "\\ud83d\\ude00");
-    put(&g->json, "\"}", 2);
-}
-
-/* Many nodes that show one triangle. */
-static void nodes_flat(struct glb *g)
-{
-    unsigned n = 0;
     triangles(g, 3, 3);
-    begin(g);
-    say(&g->json, ",\"nodes\":[{}");
-    for (; fits(g) && g->json.size < g->limit * 2 / 3; n++)
-        say(&g->json, ",{\"mesh\":0}");
-    say(&g->json, "],\"scenes\":[{\"nodes\":[0");
-    for (unsigned i = 1; i <= n && fits(g); i++)
-        say(&g->json, ",%u", i);
-    say(&g->json, "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]");
-    end(g, 3, 3, "");
+    for (unsigned i = 0; i < keys; i++)
+        put_float(&g->bin, (float)i / 64.0f);
+    for (unsigned i = 0; i < keys * 3; i++)
+        put_float(&g->bin, any_place());
+    say(&g->json, BEGIN ",'scene':0" MESH ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':36,'componentType':5125,'count':3,'type':'SCALAR'},"
+        "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':%u,'type':'SCALAR'},"
+        "{'bufferView':0,'byteOffset':%u,'componentType':5126,'count':%u,'type':'VEC3'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':%zu}],'buffers':[{'byteLength':%zu}]", keys, 48 + keys * 4, keys,
+        g->bin.size, g->bin.size);
+    tell(g, text);
 }
 
-/* One below the other. */
-static void nodes_deep(struct glb *g)
+#define CLIP "'samplers':[{'input':2,'output':3}],'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}"
+
+static void keys(struct glb *g)
 {
-    unsigned n = 0;
-    triangles(g, 3, 3);
-    begin(g);
-    say(&g->json, ",\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[1]}");
-    for (n = 1; fits(g); n++)
-        say(&g->json, ",{\"mesh\":0,\"children\":[%u]}", n + 1);
-    say(&g->json, ",{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]");
-    end(g, 3, 3, "");
+    clip(g, (unsigned)(g->limit / 17), ONE_SCENE ",'animations':[{" CLIP "]}]}");
 }
 
-static void primitives(struct glb *g, unsigned vertices, unsigned corners)
+/* Channels that share their keys. */
+static void channels(struct glb *g)
 {
-    triangles(g, vertices, corners);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}");
-    while (fits(g))
-        say(&g->json, ",{\"attributes\":{\"POSITION\":0},\"indices\":1}");
-    say(&g->json, "]}]");
-    end(g, vertices, corners, "");
+    clip(g, 1000, ",'nodes':[{'mesh':0}<3|" SHARES ",'scenes':[{'nodes':[0<n6|,\1>]}],'animations':[{" CLIP
+         "<nf|,{'sampler':0,'target':{'node':\1,'path':'translation'}}>]}]}");
 }
 
-static void primitives_small(struct glb *g)
+static void clips(struct glb *g)
 {
-    primitives(g, 3, 3);
-}
-
-static void primitives_large(struct glb *g)
-{
-    primitives(g, (unsigned)(g->limit / 60), (unsigned)(g->limit / 40));
-}
-
-static void primitives_of_materials(struct glb *g)
-{
-    unsigned n = 0;
-    triangles(g, 3, 3);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}");
-    for (; fits(g) && g->json.size < g->limit / 2; n++)
-        say(&g->json, ",{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":%u}", n);
-    say(&g->json, "]}],\"materials\":[{}");
-    for (unsigned i = 1; i <= n; i++)
-        say(&g->json, ",{\"pbrMetallicRoughness\":{\"baseColorFactor\":[%u.%u,0,0,1]}}", 0u, i);
-    say(&g->json, "]");
-    end(g, 3, 3, "");
-}
-
-static void meshes(struct glb *g)
-{
-    unsigned n = 0;
-    triangles(g, 3, 3);
-    begin(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}");
-    for (; fits(g) && g->json.size < g->limit * 2 / 3; n++)
-        say(&g->json, ",{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}");
-    say(&g->json, "],\"nodes\":[{\"mesh\":0}");
-    for (unsigned i = 1; i <= n && g->json.size < g->limit * 9 / 10; i++)
-        say(&g->json, ",{\"mesh\":%u}", i);
-    say(&g->json, "],\"scenes\":[{\"nodes\":[0");
-    for (unsigned i = 1; i <= n && fits(g); i++)
-        say(&g->json, ",%u", i);
-    say(&g->json, "]}]");
-    end(g, 3, 3, "");
-}
-
-/* As many triangles as there is room for. */
-static void many_triangles(struct glb *g)
-{
-    unsigned corners = (unsigned)(g->limit / 6) / 3 * 3, vertices = (unsigned)(g->limit / 40);
-    triangles(g, vertices, corners);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]");
-    end(g, vertices, corners, "");
-}
-
-/* More: a strip makes one of each corner. */
-static void strip(struct glb *g)
-{
-    unsigned corners = (unsigned)(g->limit / 5), vertices = (unsigned)(g->limit / 80);
-    triangles(g, vertices, corners);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"mode\":5,\"attributes\":{\"POSITION\":0},\"indices\":1}]}]");
-    end(g, vertices, corners, "");
+    clip(g, 100, ONE_SCENE ",'animations':[{'samplers':[],'channels':[]}<f|,{" CLIP "]}>]}");
 }
 
 /* Triangles each of which covers the whole picture. */
@@ -278,187 +232,22 @@ static void layers(struct glb *g)
         put_float(&g->bin, far[i]);
     for (unsigned i = 0; i < corners; i++)
         put32(&g->bin, i % 3);
-    begin(g);
-    say(&g->json, ",\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0,0,3]}],"
-        "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0.1}}],\"materials\":[{\"doubleSided\":true,"
-        "\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.5]}}]");
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]");
-    end(g, 3, corners, "");
+    say(&g->json, BEGIN ",'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'camera':0,'translation':[0,0,3]}],"
+        "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}],'materials':[{'doubleSided':true,"
+        "'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}]"
+        ",'meshes':[{'primitives':[" POINTS ",'material':0}]}]");
+    end(g, 3, corners);
 }
 
-/* Shapes that are mixed: targets that are all the same. */
-static void targets(struct glb *g)
+/* Brackets within brackets. */
+static void json_deep(struct glb *g)
 {
-    unsigned n = 0, vertices = (unsigned)(g->limit / 48);
-    triangles(g, vertices, vertices / 3 * 3);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"targets\":[{\"POSITION\":0}");
-    for (; fits(g); n++)
-        say(&g->json, ",{\"POSITION\":0}");
-    say(&g->json, "]}]}]");
-    end(g, vertices, vertices / 3 * 3, "");
-}
-
-static void targets_small(struct glb *g)
-{
-    triangles(g, 3, 3);
-    begin(g);
-    one_scene(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"targets\":[{\"POSITION\":0}");
-    while (fits(g))
-        say(&g->json, ",{\"POSITION\":0}");
-    say(&g->json, "]}]}]");
-    end(g, 3, 3, "");
-}
-
-/* One skin of many joints, and many nodes that wear it. */
-static void skins(struct glb *g)
-{
-    unsigned n = 0, joints = (unsigned)(g->limit / 60);
-    const float corner[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
-    for (int i = 0; i < 9; i++)
-        put_float(&g->bin, corner[i]);
-    for (unsigned i = 0; i < 3; i++)
-        put32(&g->bin, i);
-    for (unsigned i = 0; i < 12; i++)           /* joints of three vertices, and their weights */
-        put(&g->bin, i % 4 == 0 ? "\1\0" : "\0\0", 2);
-    for (unsigned i = 0; i < 12; i++)
-        put_float(&g->bin, 0.25f);
-    begin(g);
-    say(&g->json, ",\"nodes\":[{}");
-    for (n = 1; fits(g) && g->json.size < g->limit / 2; n++)
-        say(&g->json, ",{\"mesh\":0,\"skin\":0}");
-    say(&g->json, "],\"scenes\":[{\"nodes\":[0");
-    for (unsigned i = 1; i < n && g->json.size < g->limit * 3 / 4; i++)
-        say(&g->json, ",%u", i);
-    say(&g->json, "]}],\"skins\":[{\"joints\":[0");
-    for (unsigned i = 1; i < n && i < joints && i < 60000 && fits(g); i++)
-        say(&g->json, ",%u", i);
-    say(&g->json, "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":3},"
-        "\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-        "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"},"
-        "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5123,\"count\":3,\"type\":\"VEC4\"},"
-        "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}", g->bin.size, g->bin.size);
-}
-
-static void clip_head(struct glb *g, unsigned keys)
-{
-    triangles(g, 3, 3);
-    for (unsigned i = 0; i < keys; i++)
-        put_float(&g->bin, (float)i / 64.0f);
-    for (unsigned i = 0; i < keys * 3; i++)
-        put_float(&g->bin, any_place());
-    begin(g);
-    say(&g->json, ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]"
-        ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-        "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"},"
-        "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":%u,\"type\":\"SCALAR\"},"
-        "{\"bufferView\":0,\"byteOffset\":%u,\"componentType\":5126,\"count\":%u,\"type\":\"VEC3\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]", keys, 48 + keys * 4, keys,
-        g->bin.size, g->bin.size);
-}
-
-static void keys(struct glb *g)
-{
-    clip_head(g, (unsigned)(g->limit / 17));
-    one_scene(g);
-    say(&g->json, ",\"animations\":[{\"samplers\":[{\"input\":2,\"output\":3}],\"channels\":[{\"sampler\":0,\"target\":"
-        "{\"node\":0,\"path\":\"translation\"}}]}]}");
-}
-
-/* Channels that share their keys. */
-static void channels(struct glb *g)
-{
-    unsigned n = 0;
-    clip_head(g, 1000);
-    say(&g->json, ",\"nodes\":[{\"mesh\":0}");
-    for (; g->json.size < g->limit / 4; n++)
-        say(&g->json, ",{\"mesh\":0}");
-    say(&g->json, "],\"scenes\":[{\"nodes\":[0");
-    for (unsigned i = 1; i <= n && g->json.size < g->limit / 2; i++)
-        say(&g->json, ",%u", i);
-    say(&g->json, "]}],\"animations\":[{\"samplers\":[{\"input\":2,\"output\":3}],\"channels\":[{\"sampler\":0,\"target\":"
-        "{\"node\":0,\"path\":\"translation\"}}");
-    for (unsigned i = 1; i <= n && fits(g); i++)
-        say(&g->json, ",{\"sampler\":0,\"target\":{\"node\":%u,\"path\":\"translation\"}}", i);
-    say(&g->json, "]}]}");
-}
-
-static void clips(struct glb *g)
-{
-    clip_head(g, 100);
-    one_scene(g);
-    say(&g->json, ",\"animations\":[{\"samplers\":[],\"channels\":[]}");
-    while (fits(g))
-        say(&g->json, ",{\"samplers\":[{\"input\":2,\"output\":3}],\"channels\":[{\"sampler\":0,\"target\":"
-            "{\"node\":0,\"path\":\"translation\"}}]}");
-    say(&g->json, "]}");
-}
-
-/* ------------------------------------------------------------------ OBJ */
-
-static const char corners[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-
-static void obj_vertices(struct glb *g)
-{
-    while (g->json.size + 40 < g->limit)
-        say(&g->json, "v %u %u 1\n", any(10), any(10));
-    say(&g->json, "f 1 2 3\n");
-}
-
-static void obj_faces(struct glb *g)
-{
-    say(&g->json, corners);
-    while (g->json.size + 40 < g->limit)
-        say(&g->json, "f 1 2 3\n");
-}
-
-static void obj_polygon(struct glb *g)
-{
-    say(&g->json, "%sf", corners);
-    while (g->json.size + 40 < g->limit)
-        say(&g->json, " %u", 1 + any(3));
-    say(&g->json, "\n");
-}
-
-static void obj_groups(struct glb *g)
-{
-    say(&g->json, corners);
-    for (unsigned i = 0; g->json.size + 40 < g->limit; i++)
-        say(&g->json, "g %x\nf 1 2 3\n", i);
-}
-
-static void obj_objects(struct glb *g)
-{
-    say(&g->json, corners);
-    for (unsigned i = 0; g->json.size + 40 < g->limit; i++)
-        say(&g->json, "o %x\ng %x\nf 1 2 3\n", i, i);
-}
-
-static void obj_materials(struct glb *g)
-{
-    say(&g->json, corners);
-    for (unsigned i = 0; g->json.size + 40 < g->limit; i++)
-        say(&g->json, "usemtl %x\nf 1 2 3\n", i);
-}
-
-/* The file itself again and again. */
-static void obj_libraries(struct glb *g)
-{
-    say(&g->json, corners);
-    while (g->json.size + 60 < g->limit)
-        say(&g->json, "mtllib obj-libraries.obj\n");
-    say(&g->json, "f 1 2 3\n");
-}
-
-static void obj_lines(struct glb *g)
-{
-    say(&g->json, corners);
-    while (g->json.size + 60 < g->limit)
-        say(&g->json, "\\\n#");
-    say(&g->json, "\nf 1 2 3\n");
+    say(&g->json, BEGIN ",'extras':");
+    for (size_t i = 0; i < g->limit / 2; i++)
+        put(&g->json, "[", 1);
+    for (size_t i = 0; i < g->limit / 2; i++)
+        put(&g->json, "]", 1);
+    put(&g->json, "}", 1);
 }
 
 /* ------------------------------------------------------------------ pictures */
@@ -541,45 +330,46 @@ static void zeros(struct bytes *out, size_t size)
     put_high(out, high << 16 | sum);
 }
 
+static void begin_png(struct bytes *out, uint32_t width, uint32_t height, const char *kind)
+{
+    struct bytes head = { 0 };
+    put_high(&head, width);
+    put_high(&head, height);
+    put(&head, kind, 5);
+    put(out, "\x89PNG\r\n\x1a\n", 8);
+    chunk(out, "IHDR", &head);
+}
+
+static void end_png(struct bytes *out, const struct bytes *data)
+{
+    chunk(out, "IDAT", data);
+    chunk(out, "IEND", &(struct bytes){ 0 });
+}
+
 static void picture_bomb(struct glb *g)
 {
-    struct bytes head = { 0 }, data = { 0 }, none = { 0 };
+    struct bytes data = { 0 };
     const uint32_t edge = g->limit < 8000000 ? 4096 : 16384;
-    put_high(&head, edge);
-    put_high(&head, edge);
-    put(&head, "\x10\x06\0\0\0", 5);
+    begin_png(&g->json, edge, edge, "\x10\x06\0\0\0");
     zeros(&data, ((size_t)edge * 8 + 1) * edge);
-    put(&g->json, "\x89PNG\r\n\x1a\n", 8);
-    chunk(&g->json, "IHDR", &head);
-    chunk(&g->json, "IDAT", &data);
-    chunk(&g->json, "IEND", &none);
+    end_png(&g->json, &data);
 }
 
 /* The largest that is compared. */
 static void picture_large(struct glb *g)
 {
-    struct bytes head = { 0 }, data = { 0 }, none = { 0 };
-    put_high(&head, 4096);
-    put_high(&head, 2048);
-    put(&head, "\x08\x02\0\0\0", 5);
+    struct bytes data = { 0 };
+    begin_png(&g->json, 4096, 2048, "\x08\x02\0\0\0");
     zeros(&data, ((size_t)4096 * 3 + 1) * 2048);
-    put(&g->json, "\x89PNG\r\n\x1a\n", 8);
-    chunk(&g->json, "IHDR", &head);
-    chunk(&g->json, "IDAT", &data);
-    chunk(&g->json, "IEND", &none);
+    end_png(&g->json, &data);
 }
 
 static void picture_chunks(struct glb *g)
 {
-    struct bytes head = { 0 }, none = { 0 };
-    put_high(&head, 64);
-    put_high(&head, 64);
-    put(&head, "\x08\x02\0\0\0", 5);
-    put(&g->json, "\x89PNG\r\n\x1a\n", 8);
-    chunk(&g->json, "IHDR", &head);
+    begin_png(&g->json, 64, 64, "\x08\x02\0\0\0");
     while (g->json.size + 100 < g->limit)
-        chunk(&g->json, "IDAT", &none);
-    chunk(&g->json, "IEND", &none);
+        chunk(&g->json, "IDAT", &(struct bytes){ 0 });
+    chunk(&g->json, "IEND", &(struct bytes){ 0 });
 }
 
 /* A model whose pictures are all one file. */
@@ -588,26 +378,15 @@ static void pictures_of(struct glb *g, const struct bytes *file)
     triangles(g, 3, 3);
     size_t at = g->bin.size;
     put(&g->bin, file->at, file->size);
-    begin(g);
-    one_scene(g);
-    unsigned n = (unsigned)((g->limit - file->size) / 300);
-    n = n > 20000 ? 20000 : n;
-    say(&g->json, ",\"images\":[{\"bufferView\":2}");
-    for (unsigned i = 1; i < n; i++)
-        say(&g->json, ",{\"bufferView\":2}");
-    say(&g->json, "],\"textures\":[{\"source\":0}");
-    for (unsigned i = 1; i < n; i++)
-        say(&g->json, ",{\"source\":%u}", i);
-    say(&g->json, "],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}");
-    for (unsigned i = 1; i < n; i++)
-        say(&g->json, ",{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":%u}}}", i);
-    say(&g->json, "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}");
-    for (unsigned i = 1; i < n; i++)
-        say(&g->json, ",{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":%u}", i);
-    say(&g->json, "]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-        "{\"bufferView\":1,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,"
-        "\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12},{\"buffer\":0,\"byteOffset\":%zu,"
-        "\"byteLength\":%zu}],\"buffers\":[{\"byteLength\":%zu}]}", at, file->size, g->bin.size);
+    const unsigned n = (unsigned)((g->limit - file->size) / 300);
+    g->count = (n > 20000 ? 20000 : n) - 1;
+    tell(g, BEGIN ",'scene':0" ONE_SCENE ",'images':[{'bufferView':2}<n|,{'bufferView':2}>],'textures':[{'source':0}<n|,{'source':\1}>],"
+         "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}<n|,{'pbrMetallicRoughness':{'baseColorTexture':"
+         "{'index':\1}}}>],'meshes':[{'primitives':[" POINTS ",'material':0}<n|," POINTS ",'material':\1}>]}]");
+    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+        "{'bufferView':1,'componentType':5125,'count':3,'type':'SCALAR'}],'bufferViews':[{'buffer':0,"
+        "'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':12},{'buffer':0,'byteOffset':%zu,"
+        "'byteLength':%zu}],'buffers':[{'byteLength':%zu}]}", at, file->size, g->bin.size);
 }
 
 static void pictures(struct glb *g)
@@ -620,17 +399,12 @@ static void pictures(struct glb *g)
 /* Of one pixel each, behind half of the file. */
 static void pictures_chunks(struct glb *g)
 {
-    struct bytes b = { 0 }, head = { 0 }, data = { 0 }, none = { 0 };
-    put_high(&head, 1);
-    put_high(&head, 1);
-    put(&head, "\x08\x02\0\0\0", 5);
+    struct bytes b = { 0 }, data = { 0 };
+    begin_png(&b, 1, 1, "\x08\x02\0\0\0");
     zeros(&data, 4);
-    put(&b, "\x89PNG\r\n\x1a\n", 8);
-    chunk(&b, "IHDR", &head);
     while (b.size + 200 < g->limit / 2)
-        chunk(&b, "IDAT", &none);
-    chunk(&b, "IDAT", &data);
-    chunk(&b, "IEND", &none);
+        chunk(&b, "IDAT", &(struct bytes){ 0 });
+    end_png(&b, &data);
     pictures_of(g, &b);
 }
 
@@ -707,38 +481,90 @@ static void picture_text(struct glb *g)
         say(&g->json, "%u ", any(10));
 }
 
-/* ------------------------------------------------------------------ lines */
+/* ------------------------------------------------------------------ kinds */
 
-static void input_lines(struct glb *g)
-{
-    while (g->json.size + 100 < g->limit)
-        say(&g->json, "0 key b\n");
-}
+#define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+#define FACE "f 1 2 3\n"
 
-static void list_lines(struct glb *g)
-{
-    while (g->json.size + 100 < g->limit)
-        say(&g->json, "frame=0 crc32=0\n");
-}
-
+/* What is written by a function, or a text; that of a GLB begins with its brace and stands before a triangle, or as many vertices and
+ * corners as the limit has so many bytes. */
 static const struct kind {
     const char *name, *ending;
     void (*write)(struct glb *g);
+    const char *text;
+    unsigned per_vertex, per_corner;
 } kinds[] = {
-    { "json-deep", "gltf", json_deep }, { "json-wide", "gltf", json_wide }, { "json-keys", "gltf", json_keys },
-    { "json-escapes", "gltf", json_escapes }, { "nodes-flat", "glb", nodes_flat }, { "nodes-deep", "glb", nodes_deep },
-    { "primitives-small", "glb", primitives_small }, { "primitives-large", "glb", primitives_large },
-    { "primitives-of-materials", "glb", primitives_of_materials }, { "meshes", "glb", meshes },
-    { "triangles", "glb", many_triangles }, { "strip", "glb", strip }, { "layers", "glb", layers },
-    { "targets", "glb", targets }, { "targets-small", "glb", targets_small }, { "skins", "glb", skins }, { "keys", "glb", keys },
-    { "channels", "glb", channels }, { "clips", "glb", clips }, { "pictures", "glb", pictures },
-    { "pictures-chunks", "glb", pictures_chunks }, { "jpeg-scans", "glb", jpeg_scans }, { "jpeg-tables", "glb", jpeg_tables },
-    { "obj-vertices", "obj", obj_vertices }, { "obj-faces", "obj", obj_faces }, { "obj-polygon", "obj", obj_polygon },
-    { "obj-groups", "obj", obj_groups }, { "obj-objects", "obj", obj_objects }, { "obj-materials", "obj", obj_materials },
-    { "obj-libraries", "obj", obj_libraries }, { "obj-lines", "obj", obj_lines }, { "picture-bomb", "png", picture_bomb },
-    { "picture-large", "png", picture_large }, { "picture-chunks", "png", picture_chunks }, { "picture-text", "ppm", picture_text },
-    { "input-lines", "play", input_lines }, { "list-lines", "check", list_lines },
+    { "json-deep", "gltf", json_deep, NULL, 0, 0 },
+    { "json-wide", "gltf", NULL, BEGIN ",'extras':[0<f|,0>]}", 0, 0 },
+    { "json-keys", "gltf", NULL, BEGIN ",'scene':0<f|,'\3':0>%}", 0, 0 },
+    { "json-escapes", "gltf", NULL, BEGIN ",'extras':'<f|\\ud83d\\ude00>'}", 0, 0 },
+    /* Many nodes that show one triangle; one below the other. */
+    { "nodes-flat", "glb", NULL, ",'nodes':[{}<f8|" SHARES ",'scenes':[{'nodes':[0<nf|,\1>]}]" MESH, 0, 0 },
+    { "nodes-deep", "glb", NULL,
+      ",'scenes':[{'nodes':[0]}],'nodes':[{'children':[1]}<f|,{'mesh':0,'children':[\2]}>,{'mesh':0}]" MESH, 0, 0 },
+    { "primitives-small", "glb", NULL, ONE_SCENE ",'meshes':[{'primitives':[" POINTS "}<f|," POINTS "}>]}]", 0, 0 },
+    { "primitives-large", "glb", NULL, ONE_SCENE ",'meshes':[{'primitives':[" POINTS "}<f|," POINTS "}>]}]", 60, 40 },
+    { "primitives-of-materials", "glb", NULL,
+      ONE_SCENE ",'meshes':[{'primitives':[" POINTS ",'material':0}<f6|," POINTS ",'material':\3}>]}],'materials':[{}<n|,"
+                "{'pbrMetallicRoughness':{'baseColorFactor':[0.\1,0,0,1]}}>]", 0, 0 },
+    { "meshes", "glb", NULL,
+      ",'meshes':[{'primitives':[" POINTS "}]}<f8|,{'primitives':[" POINTS "}]}>],'nodes':[{'mesh':0}<n9|,{'mesh':\1}>],"
+      "'scenes':[{'nodes':[0<nf|,\1>]}]", 0, 0 },
+    /* As many triangles as there is room for; more: a strip makes one of each corner. */
+    { "triangles", "glb", NULL, ONE_SCENE MESH, 40, 6 },
+    { "strip", "glb", NULL, ONE_SCENE ",'meshes':[{'primitives':[{'mode':5,'attributes':{'POSITION':0},'indices':1}]}]", 80, 5 },
+    { "layers", "glb", layers, NULL, 0, 0 },
+    /* Shapes that are mixed: targets that are all the same. */
+    { "targets", "glb", NULL,
+      ONE_SCENE ",'meshes':[{'primitives':[" POINTS ",'targets':[{'POSITION':0}<f|,{'POSITION':0}>]}]}]", 48, 48 },
+    { "targets-small", "glb", NULL,
+      ONE_SCENE ",'meshes':[{'primitives':[" POINTS ",'targets':[{'POSITION':0}<f|,{'POSITION':0}>]}]}]", 0, 0 },
+    { "skins", "glb", skins, NULL, 0, 0 },
+    { "keys", "glb", keys, NULL, 0, 0 },
+    { "channels", "glb", channels, NULL, 0, 0 },
+    { "clips", "glb", clips, NULL, 0, 0 },
+    { "pictures", "glb", pictures, NULL, 0, 0 },
+    { "pictures-chunks", "glb", pictures_chunks, NULL, 0, 0 },
+    { "jpeg-scans", "glb", jpeg_scans, NULL, 0, 0 },
+    { "jpeg-tables", "glb", jpeg_tables, NULL, 0, 0 },
+    { "obj-vertices", "obj", NULL, "<o|v \4 \4 1\n>" FACE, 0, 0 },
+    { "obj-faces", "obj", NULL, CORNERS "<o|" FACE ">", 0, 0 },
+    { "obj-polygon", "obj", NULL, CORNERS "f<o| \5>\n", 0, 0 },
+    { "obj-groups", "obj", NULL, CORNERS "<o|g \3\n" FACE ">%", 0, 0 },
+    { "obj-objects", "obj", NULL, CORNERS "<o|o \3\ng \3\n" FACE ">%", 0, 0 },
+    { "obj-materials", "obj", NULL, CORNERS "<o|usemtl \3\n" FACE ">%", 0, 0 },
+    { "obj-libraries", "obj", NULL, CORNERS "<p|mtllib obj-libraries.obj\n>" FACE, 0, 0 },    /* the file itself again and again */
+    { "obj-lines", "obj", NULL, CORNERS "<p|\\\n#>\n" FACE, 0, 0 },
+    { "picture-bomb", "png", picture_bomb, NULL, 0, 0 },
+    { "picture-large", "png", picture_large, NULL, 0, 0 },
+    { "picture-chunks", "png", picture_chunks, NULL, 0, 0 },
+    { "picture-text", "ppm", picture_text, NULL, 0, 0 },
+    { "input-lines", "play", NULL, "<q|0 key b\n>", 0, 0 },
+    { "list-lines", "check", NULL, "<q|frame=0 crc32=0\n>", 0, 0 },
 };
+
+static void write_kind(const struct kind *k, struct glb *g)
+{
+    const bool is_glb = strcmp(k->ending, "glb") == 0;
+    const unsigned vertices = k->per_vertex ? (unsigned)g->limit / k->per_vertex : 3,
+                   corners = k->per_corner ? (unsigned)g->limit / k->per_corner / 3 * 3 : 3;
+    if (k->write != NULL) {
+        k->write(g);
+    } else if (is_glb) {
+        triangles(g, vertices, corners);
+        tell(g, BEGIN ",'scene':0");
+        tell(g, k->text);
+        end(g, vertices, corners);
+    } else {
+        tell(g, k->text);
+    }
+    for (size_t i = 0; (is_glb || strcmp(k->ending, "gltf") == 0) && i < g->json.size; i++)
+        g->json.at[i] = g->json.at[i] == '\'' ? '"' : g->json.at[i];
+    if (is_glb)
+        write_glb(g, stdout);
+    else
+        fwrite(g->json.at, 1, g->json.size, stdout);
+}
 
 int main(int argc, char **argv)
 {
@@ -747,11 +573,7 @@ int main(int argc, char **argv)
         if (argc < 3) {
             printf("%s.%s\n", kinds[i].name, kinds[i].ending);
         } else if (strcmp(argv[1], kinds[i].name) == 0) {
-            kinds[i].write(&g);
-            if (strcmp(kinds[i].ending, "glb") == 0)
-                write_glb(&g, stdout);
-            else
-                fwrite(g.json.at, 1, g.json.size, stdout);
+            write_kind(&kinds[i], &g);
             return fflush(stdout) != 0;
         }
     }
