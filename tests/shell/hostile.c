@@ -127,9 +127,9 @@ static bool goes_on(const struct glb *g, const char *how, unsigned i)
     for (; *how != '|'; how++)
         ok = ok && (*how == 'f'   ? g->json.size + g->bin.size + 2000 < g->limit
                     : *how == 'n' ? i <= g->count
-                    : *how == 'j' ? i < g->limit / 60 && i < 60000
+                                                                             : *how == 'j' ? i < g->limit / 60 && i < 60000
                     : *how > '9'  ? g->json.size + (*how == 'o' ? 40u : *how == 'p' ? 60u : 100u) < g->limit
-                                  : g->json.size < g->limit * (size_t)(*how - '0') / 12);
+                                                                                          : g->json.size < g->limit * (size_t)(*how - '0') / 12);
     return ok;
 }
 
