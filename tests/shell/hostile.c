@@ -125,11 +125,15 @@ static bool goes_on(const struct glb *g, const char *how, unsigned i)
 {
     bool ok = true;
     for (; *how != '|'; how++)
-        ok = ok && (*how == 'f'   ? g->json.size + g->bin.size + 2000 < g->limit
-                    : *how == 'n' ? i <= g->count
-                                                                             : *how == 'j' ? i < g->limit / 60 && i < 60000
-                    : *how > '9'  ? g->json.size + (*how == 'o' ? 40u : *how == 'p' ? 60u : 100u) < g->limit
-                                                                                          : g->json.size < g->limit * (size_t)(*how - '0') / 12);
+        switch (*how) {
+        case 'f': ok = ok && g->json.size + g->bin.size + 2000 < g->limit; break;
+        case 'n': ok = ok && i <= g->count; break;
+        case 'j': ok = ok && i < g->limit / 60 && i < 60000; break;
+        case 'o': ok = ok && g->json.size + 40 < g->limit; break;
+        case 'p': ok = ok && g->json.size + 60 < g->limit; break;
+        case 'q': ok = ok && g->json.size + 100 < g->limit; break;
+        default: ok = ok && g->json.size < g->limit * (size_t)(*how - '0') / 12; break;
+        }
     return ok;
 }
 

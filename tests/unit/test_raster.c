@@ -101,6 +101,14 @@ static void draw_list(struct planes *p)
     smear_raster_list(&frame, &t, 0);
 }
 
+/* Draws a triangle of segment 0, and nothing else. */
+static void draw_alone(const uint16_t v[3])
+{
+    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
+    planes_clear(&full);
+    draw_list(&full);
+}
+
 /* ------------------------------------------------------------------ exact coverage */
 
 static int64_t area_of(int32_t (*p)[2])
@@ -598,39 +606,64 @@ static int32_t code_of(int64_t units_q11)
     return (int32_t)(units < 32768 ? units : 32768 + ((units_q11 - (32768 << 11) + (8 << 11)) >> 15));
 }
 
+/* Corners within `size` of a place in the frame, of at least so much area; false when luck is out. */
+static bool small_triangle(int32_t (*p)[2], int32_t size, int64_t least)
+{
+    int32_t x = between(600, 12000), y = between(600, 8000);
+    for (int i = 0; i < 3; i++) {
+        p[i][0] = x + between(-size, size);
+        p[i][1] = y + between(-size, size);
+    }
+    return area_of(p) >= least || area_of(p) <= -least;
+}
+
+static void draw_depths(int32_t (*p)[2], const int32_t q[3])
+{
+    uint16_t v[3];
+    list_begin();
+    for (int i = 0; i < 3; i++)
+        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
+    draw_alone(v);
+}
+
+/* The depth of a pixel is what its weights make of the corners'. */
+static bool check_depth(int32_t (*p)[2], const int32_t q[3], int32_t x, int32_t y, int32_t slack)
+{
+    int64_t weight[3];
+    weights_at(p, x, y, weight);
+    return CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), slack);
+}
+
+static bool check_depths(int32_t (*p)[2], const int32_t q[3], int32_t slack)
+{
+    draw_depths(p, q);
+    for (int32_t y = 0; y < H; y++)
+        for (int32_t x = 0; x < W; x++)
+            if (covers(p, x, y) && !check_depth(p, q, x, y, slack))
+                return false;
+    return true;
+}
+
 static void test_depth_is_the_plane_through_the_corners(void)
 {
     random_state = 11;
-    for (int n = 0; n < 120; n++) {
+    for (int n = 0; n < 320; n++) {
         const int32_t guard = SMEAR_GUARD_PX << 8;
         int32_t p[3][2], q[3];
-        bool large = n % 4 == 3;
-        if (!fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
+        const bool tiny = n >= 120, large = !tiny && n % 4 == 3;
+        if (tiny ? !small_triangle(p, 300 << n % 3, 30000)
+                 : !fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
             continue;
         /* Everywhere from the far end to the near plane; a third of them reaches over its break. */
         int32_t level = between(0, 13);
         for (int i = 0; i < 3; i++)
-            q[i] = n % 3 == 0 ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
-                 : n % 3 == 1 ? (32768 << 11) + between(-(1 << 24), 1 << 24)
+            q[i] = tiny        ? (1 << 20 << n % 9) + between(0, 1 << 18 << n % 9)
+                 : n % 3 == 0  ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
+                 : n % 3 == 1  ? (32768 << 11) + between(-(1 << 24), 1 << 24)
                               : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
-        list_begin();
-        uint16_t v[3];
-        for (int i = 0; i < 3; i++)
-            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
-        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
         /* Gradients are rounded to 1/2 step of q11 per pixel: 1/32 unit over 64 px, two over 4096. */
-        int32_t slack = large ? 3 : 1;
-        for (int32_t y = 0; y < H; y++)
-            for (int32_t x = 0; x < W; x++) {
-                if (!covers(p, x, y))
-                    continue;
-                int64_t weight[3];
-                weights_at(p, x, y, weight);
-                if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), slack))
-                    return;
-            }
+        if (!check_depths(p, q, large ? 3 : 1))
+            return;
     }
 }
 
@@ -644,6 +677,8 @@ static void test_depth_stays_between_the_corners_even_of_slivers(void)
             p[i][0] = x + between(-size, size);
             p[i][1] = y + between(-size, size);
             q[i] = between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
+            low = min_i32(low, q[i]);
+            high = max_i32(high, q[i]);
         }
         if (n & 1) {            /* all but on a line */
             p[2][0] = (p[0][0] + p[1][0]) / 2 + between(-2, 2);
@@ -651,16 +686,7 @@ static void test_depth_stays_between_the_corners_even_of_slivers(void)
         }
         if (area_of(p) == 0)
             continue;
-        list_begin();
-        uint16_t v[3];
-        for (int i = 0; i < 3; i++) {
-            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
-            low = low < q[i] ? low : q[i];
-            high = high > q[i] ? high : q[i];
-        }
-        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
+        draw_depths(p, q);
         for (int i = 0; i < W * H; i++)
             if (full.depth[i] != 0
                 && !CHECK(full.depth[i] >= code_of(low) - 1 && full.depth[i] <= code_of(high) + 1))
@@ -692,39 +718,6 @@ static void test_depth_codes_grow_over_the_break(void)
     CHECK_EQ(code_of((int64_t)SMEAR_DEPTH_NEAR << 11), 65535);
 }
 
-static void test_tiny_and_small_triangles_have_the_depth_of_large_ones(void)
-{
-    random_state = 13;
-    for (int n = 0; n < 200; n++) {
-        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000);
-        int32_t size = 300 << n % 3;
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-            q[i] = (1 << 20 << n % 9) + between(0, 1 << 18 << n % 9);
-        }
-        int64_t area = area_of(p);
-        if (area < 30000 && area > -30000)
-            continue;
-        list_begin();
-        uint16_t v[3];
-        for (int i = 0; i < 3; i++)
-            v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
-        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
-        for (int32_t py = 0; py < H; py++)
-            for (int32_t px = 0; px < W; px++) {
-                if (!covers(p, px, py))
-                    continue;
-                int64_t weight[3];
-                weights_at(p, px, py, weight);
-                if (!CHECK_NEAR(full.depth[py * W + px], code_of(weighted(weight, q)), 1))
-                    return;
-            }
-    }
-}
-
 /* Channel c of a working pixel. */
 static int32_t code_in(uint32_t pixel, int c)
 {
@@ -748,16 +741,14 @@ static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, b
         v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
         set_color(0, v[i], channel[i]);
     }
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-    planes_clear(&full);
-    draw_list(&full);
+    draw_alone(v);
     for (int32_t y = 0; y < H; y++)
         for (int32_t x = 0; x < W; x++) {
             if (!covers(p, x, y))
                 continue;
             int64_t weight[3], sum = 0;
             weights_at(p, x, y, weight);
-            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), 1))
+            if (!check_depth(p, q, x, y, 1))
                 return false;
             for (int i = 0; i < 3; i++) {
                 weight[i] = flat_depth ? weight[i] : (weight[i] >> 8) * (q[i] >> 14);
@@ -776,48 +767,21 @@ static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, b
     return true;
 }
 
-static void test_colors_are_interpolated_within_a_code(void)
+static void test_colors_are_interpolated_in_perspective_too(void)
 {
+    static const struct { int32_t low, high, least, slack; } kinds[] = {       /* slack: in linear light, one more */
+        { 1 << 20, 1 << 28, 64, 1 }, { 2 << 25, 3 << 25, 400, 3 }, { 1 << 26, 1 << 26, 0, 1 }
+    };
     random_state = 14;
-    for (int n = 0; n < 60; n++) {
+    for (int n = 0; n < 360; n++) {
         int32_t p[3][2], q[3];
+        const int kind = n < 60 ? 0 : n < 120 ? 1 : 2;
         for (int i = 0; i < 3; i++)
-            q[i] = between(1 << 20, 1 << 28);
-        if (!fat_triangle(p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
+            q[i] = between(kinds[kind].low, kinds[kind].high);
+        if (kind == 2 ? !small_triangle(p, 350 << n % 3, 60000)
+                      : !fat_triangle(p, kinds[kind].least, -2000, W * 256 + 2000, H * 256 + 2000))
             continue;
-        if (!check_colors(p, q, true, n & 1, n & 1 ? 2 : 1))
-            return;
-    }
-}
-
-static void test_colors_are_right_in_perspective(void)
-{
-    random_state = 15;
-    for (int n = 0; n < 60; n++) {
-        int32_t p[3][2], q[3];
-        for (int i = 0; i < 3; i++)
-            q[i] = between(2 << 25, 3 << 25);
-        if (!fat_triangle(p, 400, -2000, W * 256 + 2000, H * 256 + 2000))
-            continue;
-        if (!check_colors(p, q, false, n & 1, n & 1 ? 4 : 3))
-            return;
-    }
-}
-
-static void test_colors_of_small_triangles_are_interpolated_within_a_code(void)
-{
-    random_state = 16;
-    for (int n = 0; n < 150; n++) {
-        int32_t p[3][2], q[3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-            q[i] = 1 << 26;
-        }
-        int64_t area = area_of(p);
-        if (area < 60000 && area > -60000)
-            continue;
-        if (!check_colors(p, q, false, n & 1, n & 1 ? 2 : 1))
+        if (!check_colors(p, q, kind != 1, n & 1, kinds[kind].slack + (n & 1)))
             return;
     }
 }
@@ -923,77 +887,45 @@ static bool check_texels(struct textured *t)
         v[i] = add_vertex(0, t->p[i][0], t->p[i][1], t->q[i]);
         set_uv(0, v[i], t->uv[i][0], t->uv[i][1]);
     }
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-    planes_clear(&full);
-    draw_list(&full);
+    draw_alone(v);
     int32_t (*p)[2] = t->p;
     for (int32_t y = 0; y < H; y++)
         for (int32_t x = 0; x < W; x++) {
             if (!covers(p, x, y))
                 continue;
-            int64_t weight[3];
-            weights_at(p, x, y, weight);
-            if (!CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, t->q)), 1)
+            if (!check_depth(p, t->q, x, y, 1)
                 || !check_texel_at(t, x, y, full.color[y * W + x] & 0xffffffu))
                 return false;
         }
     return true;
 }
 
-static void test_texels_in_perspective_are_within_half_a_texel_or_half_a_pixel(void)
+/* In perspective; small ones; of little perspective, whose coordinates are polynomials, up to the error at which these give way to
+ * quotients. */
+static void test_texels_are_within_half_a_texel_or_half_a_pixel(void)
 {
     static const int32_t size[][2] = { { 16, 16 }, { 64, 64 }, { 8, 64 }, { 1, 1 }, { 64, 2 }, { 50, 37 },
                                        { 3, 5 }, { 33, 64 }, { 64, 63 } };
     random_state = 17;
-    for (int n = 0; n < 180; n++) {
-        struct textured t = {
-            .width = size[n % 9][0], .height = size[n % 9][1], .wrap_u = n % 3, .wrap_v = n / 3 % 3,
-            .uv_shift = n % 2 ? 15 : 13
-        };
-        if (!fat_triangle(t.p, 64, -2000, W * 256 + 2000, H * 256 + 2000))
-            continue;
-        for (int i = 0; i < 3; i++) {
-            t.q[i] = between(1350, 4000) * (1 << 18);
-            for (int axis = 0; axis < 2; axis++)
-                t.uv[i][axis] = between(-32768, 32767) / (n % 3 == 0 ? 1 : 8);
-        }
-        if (!check_texels(&t))
-            return;
-    }
-}
-
-static void test_texels_of_small_triangles_are_within_half_a_texel_or_half_a_pixel(void)
-{
-    random_state = 27;
-    for (int n = 0; n < 150; n++) {
-        struct textured t = { .width = 32, .height = 16, .uv_shift = 15 };
-        int32_t x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
-        for (int i = 0; i < 3; i++) {
-            t.p[i][0] = x + between(-size, size);
-            t.p[i][1] = y + between(-size, size);
-            t.q[i] = between(2400, 2600) * (1 << 18);
-            for (int axis = 0; axis < 2; axis++)
-                t.uv[i][axis] = between(0, 8191);
-        }
-        int64_t area = area_of(t.p);
-        if ((area > 60000 || area < -60000) && !check_texels(&t))
-            return;
-    }
-}
-
-/* Whose coordinates are polynomials, up to the error at which these give way to quotients. */
-static void test_texels_of_little_perspective_are_within_half_a_texel_or_half_a_pixel(void)
-{
-    random_state = 37;
-    for (int n = 0; n < 200; n++) {
+    for (int n = 0; n < 530; n++) {
+        const int kind = n < 180 ? 0 : n < 330 ? 1 : 2;
         struct textured t = { .width = 64, .height = 64, .uv_shift = 15 };
-        if (!fat_triangle(t.p, 64, 0, W * 256, H * 256))
+        if (kind == 0)
+            t = (struct textured){ .width = size[n % 9][0], .height = size[n % 9][1], .wrap_u = n % 3, .wrap_v = n / 3 % 3,
+                                   .uv_shift = n % 2 ? 15 : 13 };
+        else if (kind == 1)
+            t = (struct textured){ .width = 32, .height = 16, .uv_shift = 15 };
+        const int32_t beyond = kind == 0 ? 2000 : 0;
+        if (kind == 1 ? !small_triangle(t.p, 350 << n % 3, 60000)
+                      : !fat_triangle(t.p, 64, -beyond, W * 256 + beyond, H * 256 + beyond))
             continue;
-        int32_t nearest = between(1600, 2400);
+        const int32_t nearest = between(1600, 2400);
         for (int i = 0; i < 3; i++) {
-            t.q[i] = between(1500, nearest) * (1 << 18);
+            t.q[i] = (kind == 0 ? between(1350, 4000) : kind == 1 ? between(2400, 2600) : between(1500, nearest)) * (1 << 18);
             for (int axis = 0; axis < 2; axis++)
-                t.uv[i][axis] = between(0, 1) * 24576 + between(-2000, 2000);
+                t.uv[i][axis] = kind == 0   ? between(-32768, 32767) / (n % 3 == 0 ? 1 : 8)
+                              : kind == 1 ? between(0, 8191)
+                                          : between(0, 1) * 24576 + between(-2000, 2000);
         }
         if (!check_texels(&t))
             return;
@@ -1041,9 +973,7 @@ static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], 
         for (int pose = 0; pose < poses; pose++)
             set_motion(0, v[i], pose, motion[pose][i][0], motion[pose][i][1], motion[pose][i][2]);
     }
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-    planes_clear(&full);
-    draw_list(&full);
+    draw_alone(v);
     for (int32_t y = 0; y < H; y++)
         for (int32_t x = 0; x < W; x++) {
             if (!covers(p, x, y)) {
@@ -1083,62 +1013,25 @@ static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], 
     return true;
 }
 
-static void test_velocities_of_unchanging_depth_are_planes(void)
+/* Planes where the depth does not change, of large triangles and small ones; else quotients. */
+static void test_velocities_are_those_of_the_surface(void)
 {
-    random_state = 18;
-    for (int n = 0; n < 60; n++) {
+    for (int n = 0; n < 270; n++) {
         int32_t p[3][2], motion[2][3][3];
-        if (!fat_triangle(p, 64, -1000, W * 256 + 1000, H * 256 + 1000))
+        const int kind = n < 60 ? 0 : n < 120 ? 1 : 2;
+        if (n % 60 == 0 && n <= 120)
+            random_state = kind == 0 ? 18 : kind == 1 ? 19 : 28;
+        if (kind == 2 ? !small_triangle(p, 350 << n % 3, 60000)
+                      : !fat_triangle(p, kind == 0 ? 64 : 400, -1000, W * 256 + 1000, H * 256 + 1000))
             continue;
-        int32_t size = 16 << n % 8;
+        const int32_t size = kind == 0 ? 16 << n % 8 : kind == 1 ? 2000 : 500;
         for (int pose = 0; pose < 2; pose++)
             for (int i = 0; i < 3; i++) {
                 motion[pose][i][0] = between(-size, size);
                 motion[pose][i][1] = between(-size, size);
-                motion[pose][i][2] = 1 << 20;
+                motion[pose][i][2] = kind == 1 ? between(3500, 4800) << 8 : 1 << 20;
             }
-        if (!check_velocity(p, 1 + n % 2, motion, 8))
-            return;
-    }
-}
-
-static void test_velocities_of_changing_depth_are_quotients(void)
-{
-    random_state = 19;
-    for (int n = 0; n < 60; n++) {
-        int32_t p[3][2], motion[2][3][3];
-        if (!fat_triangle(p, 400, -1000, W * 256 + 1000, H * 256 + 1000))
-            continue;
-        for (int pose = 0; pose < 2; pose++)
-            for (int i = 0; i < 3; i++) {
-                motion[pose][i][0] = between(-2000, 2000);
-                motion[pose][i][1] = between(-2000, 2000);
-                motion[pose][i][2] = between(3500, 4800) << 8;
-            }
-        if (!check_velocity(p, 1 + n % 2, motion, 48))
-            return;
-    }
-}
-
-static void test_velocities_of_small_triangles_are_planes(void)
-{
-    random_state = 28;
-    for (int n = 0; n < 150; n++) {
-        int32_t p[3][2], motion[2][3][3], x = between(600, 12000), y = between(600, 8000), size = 350 << n % 3;
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-        }
-        int64_t area = area_of(p);
-        if (area < 60000 && area > -60000)
-            continue;
-        for (int pose = 0; pose < 2; pose++)
-            for (int i = 0; i < 3; i++) {
-                motion[pose][i][0] = between(-500, 500);
-                motion[pose][i][1] = between(-500, 500);
-                motion[pose][i][2] = 1 << 20;
-            }
-        if (!check_velocity(p, 1 + n % 2, motion, 8))
+        if (!check_velocity(p, 1 + n % 2, motion, kind == 1 ? 48 : 8))
             return;
     }
 }
@@ -1156,9 +1049,7 @@ static void test_long_velocities_keep_their_direction_and_end_at_the_reach(void)
             v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 28);
             set_motion(0, v[i], 0, -dx, -dy, 1 << 20);
         }
-        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
+        draw_alone(v);
         int64_t vx = full.velocity[2 * (3 * W + 3)], vy = full.velocity[2 * (3 * W + 3) + 1];
         int64_t square = vx * vx + vy * vy, want = ((int64_t)dx * dx + (int64_t)dy * dy) / (64 * 64);
         if (want > (15 * 8) * (15 * 8))
@@ -1659,9 +1550,7 @@ static void test_columns_within_long_blocks_draw_their_own_pixels(void)
             const int32_t s = x / 2 + between(-500, 500), t = between(-500, 500);
             set_uv(0, v[i], s, t);
         }
-        add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
+        draw_alone(v);
         for (int32_t x0 = 0; x0 < W; x0++)
             if (!check_columns(x0, min_i32(x0 + between(1, 24), W)))
                 return;
