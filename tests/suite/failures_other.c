@@ -11,7 +11,7 @@
 /* Picture and truth of a whole scene. */
 static double scene_rmse(const char *scene, const struct fail_method *method)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double error = NAN;
     if (!subject_open(&s, scene))
         return NAN;
@@ -21,14 +21,13 @@ static double scene_rmse(const char *scene, const struct fail_method *method)
     if (rgb != NULL && truth != NULL)
         error = fail_rmse(&s, rgb, truth, fail_whole(&s));
     free(rgb);
-    subject_close(&s);
     return error;
 }
 
 /* The largest error of velocities away from edges of draws, against those of the reference. */
 static double velocity_error(const char *scene, const struct fail_method *method)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     struct ref_frame frame;
     struct shot shot;
     struct ref_difference d;
@@ -47,7 +46,6 @@ static double velocity_error(const char *scene, const struct fail_method *method
         }
         ref_frame_free(&frame);
     }
-    subject_close(&s);
     return worst;
 }
 
@@ -126,7 +124,7 @@ static void deformed(const struct fail_method *method, double number[])
 
 static void light(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     number[0] = scene_rmse("fail/light", method);
     if (!subject_open(&s, "fail/light"))
         return;
@@ -136,7 +134,6 @@ static void light(const struct fail_method *method, double number[])
         number[1] = fail_difference(&s, rgb, sharp, fail_whole(&s));
     free(rgb);
     free(sharp);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 24 velocity quantisation */
@@ -145,7 +142,7 @@ static void light(const struct fail_method *method, double number[])
 static double held_difference(const char *scene, const struct fail_method *method, int width,
                               int height)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double worst = NAN;
     if (!subject_open(&s, scene) || !CHECK(subject_hold(&s)))
         return NAN;
@@ -159,14 +156,13 @@ static double held_difference(const char *scene, const struct fail_method *metho
         worst = fail_difference(&s, rgb, sharp, fail_whole(&s));
     free(rgb);
     free(sharp);
-    subject_close(&s);
     return worst;
 }
 
 /* In degrees; of half the exposure in 1/8 px, as the filter reads it. */
 static double direction_error(const struct fail_method *method)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double worst = 0.0;
     bool ok = subject_open(&s, "fail/sweep");
     if (!ok)
@@ -184,7 +180,6 @@ static double direction_error(const struct fail_method *method)
         if (ok)
             shot_free(&shot);
     }
-    subject_close(&s);
     return ok ? worst : NAN;
 }
 
@@ -201,7 +196,7 @@ static void velocity_steps(const struct fail_method *method, double number[])
 static void ground(const struct fail_method *method, double number[])
 {
     enum { TOP = 40, ROWS = 80 };
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double row[ROWS];
     if (!subject_open(&s, "fail/ground"))
         return;
@@ -227,7 +222,6 @@ static void ground(const struct fail_method *method, double number[])
         }
     }
     free(rgb);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ what an exposure can show */
@@ -261,7 +255,7 @@ static double beyond_colors(struct subject *s, const struct present_options *pre
 static double moving_beyond(const char *scene, const struct fail_method *method, int width,
                             int height)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double worst = NAN;
     if (!subject_open(&s, scene))
         return NAN;
@@ -274,7 +268,6 @@ static double moving_beyond(const char *scene, const struct fail_method *method,
     if (rgb != NULL)
         worst = beyond_colors(&s, &present, rgb);
     free(rgb);
-    subject_close(&s);
     return worst;
 }
 
@@ -295,7 +288,7 @@ static void tiny(const struct fail_method *method, double number[])
     }
     number[0] = held;
     number[1] = beyond;
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "fail/tiny"))
         return;
     s.width = 7;
@@ -306,7 +299,6 @@ static void tiny(const struct fail_method *method, double number[])
     if (rgb != NULL && truth != NULL)
         number[2] = fail_rmse(&s, rgb, truth, fail_whole(&s));
     free(rgb);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 33 highlights */
@@ -321,7 +313,7 @@ static void highlight(const struct fail_method *method, double number[])
 
 static void layers(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "fail/layers"))
         return;
     struct present_options present = fail_options(&s, method);
@@ -333,7 +325,6 @@ static void layers(const struct fail_method *method, double number[])
     }
     free(rgb);
     free(sharp);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 36 large coordinates */
@@ -341,7 +332,7 @@ static void layers(const struct fail_method *method, double number[])
 static void far_away(const struct fail_method *method, double number[])
 {
     static const int offset[][3] = {{10000, -10000, 10000}, {-10000, 3, 9999}};
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "fail/far"))
         return;
     struct present_options present = fail_options(&s, method);
@@ -355,7 +346,6 @@ static void far_away(const struct fail_method *method, double number[])
     }
     number[0] = worst;
     free(here);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ every scene */
@@ -385,7 +375,7 @@ static void every_scene(const struct fail_method *method, double number[])
  * of the shutter. */
 static void exposures(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "fail/edge"))
         return;
     for (int i = 0; i < 2; i++) {
@@ -402,7 +392,6 @@ static void exposures(const struct fail_method *method, double number[])
         }
         number[i] = worst;
     }
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ rows */

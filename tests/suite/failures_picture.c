@@ -25,6 +25,7 @@ static void put_away(struct taken *t)
 {
     free(t->rgb);
     subject_close(&t->s);
+    *t = (struct taken){0};
 }
 
 /* With other options than fail_options; they are filled in after taken_open. */
@@ -196,33 +197,31 @@ static double border_step(const struct taken *t, struct area area)
 
 static void longer(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/long", method))
         return;
     struct area middle = fail_around(&t.s, 0, -1, 76, 6);
     number[0] = length_error(&t, middle, CREAM, GREY);
     number[1] = border_step(&t, middle);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 4 opposite */
 
 static void opposite(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/opposite", method))
         return;
     number[0] = fmax(length_error(&t, fail_around(&t.s, 0, -15, 60, 4), CREAM, GREY),
                      length_error(&t, fail_around(&t.s, 0, 15, 60, 4), RED, GREY));
     number[1] = rmse(&t);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 5 slow */
 
 static void slow(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/slow", method))
         return;
     uint8_t *sharp = fail_sharp(&t.s, &t.present);
@@ -238,7 +237,6 @@ static void slow(const struct fail_method *method, double number[])
     if (sharp != NULL)
         number[0] = worst;
     free(sharp);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 6 thin */
@@ -246,7 +244,7 @@ static void slow(const struct fail_method *method, double number[])
 static void thin(const struct fail_method *method, double number[])
 {
     static double alpha[PIXELS];
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     double got = 0.0, want = 0.0;
     if (!take(&t, "fail/thin", method))
         return;
@@ -258,7 +256,6 @@ static void thin(const struct fail_method *method, double number[])
         want += alpha[i];
     number[0] = 100.0 * fabs(got / want - 1.0);
     number[1] = rmse(&t);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 7 fence */
@@ -271,7 +268,7 @@ static bool is_picket(const struct subject *s, int x)
 
 static void fence(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/fence", method))
         return;
     double worst = 0.0, sum = 0.0;
@@ -287,14 +284,13 @@ static void fence(const struct fail_method *method, double number[])
     }
     number[0] = worst;
     number[1] = sqrt(sum / columns);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 8 edge */
 
 static void edge(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     double column[COLUMNS], want[COLUMNS];
     if (!take(&t, "fail/edge", method))
         return;
@@ -303,7 +299,6 @@ static void edge(const struct fail_method *method, double number[])
     number[0] = 0.0;
     for (int x = 0; x < middle.x1 - middle.x0; x++)
         number[0] = fmax(number[0], fabs(column[x] - want[x]));
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 9 sprites */
@@ -319,21 +314,20 @@ static double spread(const double *column, struct area area, const struct subjec
 
 static void sprites(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     double column[COLUMNS], want[COLUMNS];
     if (!take(&t, "fail/sprites", method))
         return;
     struct area middle = fail_around(&t.s, 0, 0, 60, 12);
     profiles(&t, middle, CREAM, 0x28503c, column, want);
     number[0] = 100.0 * (1.0 - spread(column, middle, &t.s) / spread(want, middle, &t.s));
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 10 enter */
 
 static void enter(const struct fail_method *method, double number[])
 {
-    struct taken t, inside;
+    struct taken t OWNED(put_away) = { 0 }, inside;
     if (!take(&t, "fail/enter", method))
         return;
     if (take(&inside, "fail/enter_inside", method)) {
@@ -344,7 +338,6 @@ static void enter(const struct fail_method *method, double number[])
         number[1] = rmse(&t);
         put_away(&inside);
     }
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 11 near plane */
@@ -354,7 +347,7 @@ static void enter(const struct fail_method *method, double number[])
 static bool near_velocities(struct subject *s, const struct present_options *present, double way,
                             double *angle, double *length)
 {
-    struct shot shot;
+    struct shot shot OWNED(shot_free) = { 0 };
     int seen = 0;
     if (!fail_look(s, present, &shot))
         return false;
@@ -370,7 +363,6 @@ static bool near_velocities(struct subject *s, const struct present_options *pre
             *length = fmax(*length, fabs(size - FAIL_REACH));
             seen++;
         }
-    shot_free(&shot);
     return CHECK(seen > 100);
 }
 
@@ -400,21 +392,20 @@ static void near_plane(const struct fail_method *method, double number[])
 
 static void hidden(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     int reach = FAIL_HIDDEN_STREAK / 4;
     if (!take(&t, "fail/hidden", method))
         return;
     struct area left = fail_around(&t.s, -FAIL_HIDDEN_HALF - reach, 0, reach, FAIL_HIDDEN_HALF);
     struct area right = fail_around(&t.s, FAIL_HIDDEN_HALF + reach, 0, reach, FAIL_HIDDEN_HALF);
     number[0] = hypot(rmse_in(&t, left), rmse_in(&t, right)) / sqrt(2.0);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 15 pane */
 
 static void pane(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/pane", method))
         return;
     int half = FAIL_PANE_HALF + FAIL_PANE_STREAK / 2;
@@ -422,7 +413,6 @@ static void pane(const struct fail_method *method, double number[])
     struct area back = {0, 0, t.s.width, above};
     number[0] = rmse_in(&t, fail_around(&t.s, 0, 0, half, FAIL_PANE_HALF));
     number[1] = rmse_in(&t, back);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 16 leaf */
@@ -452,13 +442,12 @@ static double hole_velocity(struct subject *s, const struct present_options *pre
 
 static void leaf(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/leaf", method))
         return;
     number[0] = rmse(&t);
     if (method->method == SMEAR_RECONSTRUCT)
         number[1] = hole_velocity(&t.s, &t.present);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 27 roll, 28 zoom, 29 sky */
@@ -466,7 +455,7 @@ static void leaf(const struct fail_method *method, double number[])
 static void roll(const struct fail_method *method, double number[])
 {
     enum { CORNER = 32 };
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     double sum = 0.0;
     if (!take(&t, "fail/roll", method))
         return;
@@ -476,12 +465,11 @@ static void roll(const struct fail_method *method, double number[])
         sum += pow(rmse_in(&t, (struct area){x, y, x + CORNER, y + CORNER}), 2);
     }
     number[1] = sqrt(sum / 4);
-    put_away(&t);
 }
 
 static void zoom(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take(&t, "fail/zoom", method))
         return;
     uint8_t *sharp = fail_sharp(&t.s, &t.present);
@@ -490,12 +478,11 @@ static void zoom(const struct fail_method *method, double number[])
         number[1] = fail_difference(&t.s, t.rgb, sharp,
                                     fail_around(&t.s, 0, 0, FAIL_INSET_HALF, FAIL_INSET_HALF));
     free(sharp);
-    put_away(&t);
 }
 
 static void sky(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     double star[COLUMNS], post[COLUMNS], want[COLUMNS];
     if (!take(&t, "fail/sky", method))
         return;
@@ -504,7 +491,6 @@ static void sky(const struct fail_method *method, double number[])
     profiles(&t, posts, 0xfff4d8, 0x183058, post, want);
     number[0] = 100.0 * fabs(fail_half_length(star, 36) / fail_half_length(post, 36) - 1.0);
     number[1] = rmse(&t);
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ 37 sign, 38 fan, 39 rotor, 40 wheel */
@@ -540,23 +526,21 @@ static double roughness(const struct taken *t, struct area area)
 
 static void sign(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take_default(&t, "fail/sign", method))
         return;
     number[0] = rmse(&t);
     number[1] = roughness(&t, fail_around(&t.s, 0, 0, 60, 24));
-    put_away(&t);
 }
 
 static void fan(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take_default(&t, "fail/fan", method))
         return;
     const int half = FAIL_FAN_RADIUS - FAIL_FAN_ASIDE;
     number[0] = rmse(&t);
     number[1] = rmse_in(&t, fail_around(&t.s, 0, 0, half, 30));
-    put_away(&t);
 }
 
 /* The largest error of a mean of 3 x 3 pixels in a ring. */
@@ -578,22 +562,20 @@ static double worst_in_ring(const struct taken *t, double low, double high)
 
 static void rotor(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take_default(&t, "fail/rotor", method))
         return;
     number[0] = rmse(&t);
     number[1] = worst_in_ring(&t, 0.8 * FAIL_ROTOR_RADIUS, FAIL_ROTOR_RADIUS);
-    put_away(&t);
 }
 
 static void wheel(const struct fail_method *method, double number[])
 {
-    struct taken t;
+    struct taken t OWNED(put_away) = { 0 };
     if (!take_default(&t, "fail/wheel", method))
         return;
     number[0] = rmse(&t);
     number[1] = rmse_in(&t, fail_around(&t.s, 0, 0, FAIL_ROLLING_RADIUS, FAIL_ROLLING_RADIUS));
-    put_away(&t);
 }
 
 /* ------------------------------------------------------------------ rows */

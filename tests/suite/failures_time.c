@@ -128,7 +128,7 @@ enum { SEAM_INSTANTS = 16 };            /* 3 px */
 static double change_half_a_tile_aside(const char *scene, const struct fail_method *method)
 {
     enum { HALF = FAIL_TILE / 2, MARGIN = 24 };
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double sum = 0.0;
     int count = 0;
     if (!subject_open(&s, scene))
@@ -146,13 +146,12 @@ static double change_half_a_tile_aside(const char *scene, const struct fail_meth
     bool ok = here != NULL && aside != NULL;
     free(here);
     free(aside);
-    subject_close(&s);
     return ok ? sqrt(sum / count) : NAN;
 }
 
 static void seams(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     struct seams got = {0}, want = {0};
     double change[3] = {
         change_half_a_tile_aside("fail/rotation", method),
@@ -177,7 +176,6 @@ static void seams(const struct fail_method *method, double number[])
     }
     if (ok)
         number[0] = fail_seam_ratio(&got, &want);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 20 jitter */
@@ -209,7 +207,7 @@ static double column_noise(const struct subject *s, const uint8_t *rgb,
 
 static void jitter(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     bool ok = subject_open(&s, "fail/jitter");
     if (!ok)
         return;
@@ -236,7 +234,6 @@ static void jitter(const struct fail_method *method, double number[])
         number[1] = sqrt(flicker);
     }
     free(before);
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 21 rate, 22 strobe */
@@ -264,7 +261,7 @@ static void rate(const struct fail_method *method, double number[])
 {
     static const double rates[] = {144, 60, 30, 20, 10};
     const double exposure = 1.0 / 60, want = FAIL_RATE_SPEED * exposure;
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double column[BAR_COLUMNS], worst = 0.0;
     if (!subject_open(&s, "fail/rate"))
         return;
@@ -280,7 +277,6 @@ static void rate(const struct fail_method *method, double number[])
     }
     if (ok)
         number[0] = 100 * worst;
-    subject_close(&s);
 }
 
 enum { STROBE_FRAMES = 4 };
@@ -317,7 +313,7 @@ static bool strobe_at(struct subject *s, const struct fail_method *method, doubl
 
 static void strobe(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     double gaps[3], ripple[3];
     if (!subject_open(&s, "fail/strobe"))
         return;
@@ -329,7 +325,6 @@ static void strobe(const struct fail_method *method, double number[])
         number[0] = gaps[2] + (gaps[0] > 0 ? 0 : 100) + (gaps[1] > 0 ? 0 : 100);
         number[1] = ripple[2];
     }
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ 23 sub-pixel motion */
@@ -340,7 +335,7 @@ enum { SWEEP_STEPS = 40, SWEEP_INSTANTS = 32 };
  * does not have; `fall`: the most by which the error gets smaller again. */
 static bool sweep(const char *scene, const struct fail_method *method, double *pop, double *fall)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, scene))
         return false;
     size_t values = 3 * (size_t)s.width * (size_t)s.height;
@@ -366,7 +361,6 @@ static bool sweep(const char *scene, const struct fail_method *method, double *p
         free(rgb);
     }
     free(before);
-    subject_close(&s);
     return ok;
 }
 
@@ -424,7 +418,7 @@ static double largest_step(struct subject *s, const struct present_options *pres
 
 static void ghosts(const struct fail_method *method, double number[])
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "fail/ghosts"))
         return;
     struct present_options present = fail_options(&s, method);
@@ -438,7 +432,6 @@ static void ghosts(const struct fail_method *method, double number[])
         }
         number[1] = worst;
     }
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ rows */

@@ -108,7 +108,7 @@ static void look_closer(const struct ref_frame *frame, const struct ref_planes *
 static bool compare(struct subject *s, const struct present_options *present, int width, int height,
                     struct ref_difference *d, struct detail *detail, double *bar)
 {
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     struct shot shot[3] = {{0}};
     struct scene_instant now;
     struct failure f = {{0}};
@@ -128,7 +128,6 @@ static bool compare(struct subject *s, const struct present_options *present, in
     }
     for (int i = 0; i < 3; i++)
         shot_free(&shot[i]);
-    ref_frame_free(&frame);
     return ok;
 }
 
@@ -182,12 +181,11 @@ static void test_rasterizer_is_the_reference_on_trials(void)
 {
     raster_heading();
     for (int i = 0; i < TRIAL_KINDS; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, trial_kind[i]))
             continue;
         for (int k = 0; k < 4; k++)
             check_raster(&s, s.width, s.height, k & 1, k & 2);
-        subject_close(&s);
     }
 }
 
@@ -201,11 +199,10 @@ static void test_rasterizer_is_the_reference_at_odd_sizes(void)
     };
     raster_heading();
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, odd[i].name))
             continue;
         check_raster(&s, odd[i].width, odd[i].height, i & 1, i & 2);
-        subject_close(&s);
     }
 }
 
@@ -224,7 +221,7 @@ static void test_rasterizer_is_the_reference_on_models(void)
     raster_heading();
     for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
         char path[400];
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         int width = i & 1 ? 240 : 320;
         snprintf(path, sizeof path, "%s/%s", folder, file[i]);
         if (!subject_open_file(&s, path, width, 240))
@@ -232,7 +229,6 @@ static void test_rasterizer_is_the_reference_on_models(void)
         CHECK(subject_circle(&s, 6.0));
         for (int k = 0; k < 4; k++)
             check_raster(&s, width, 240, k & 1, k & 2);
-        subject_close(&s);
     }
 }
 
@@ -258,7 +254,7 @@ enum { TRUTH_INSTANTS = 256 };
 
 static double accumulate_error(struct subject *s, bool shutter_poses, smear_light_space light)
 {
-    struct shot shot;
+    struct shot shot OWNED(shot_free) = { 0 };
     struct present_options present = subject_options(s);
     present.method = SMEAR_ACCUMULATE;
     present.samples = 64;
@@ -268,7 +264,6 @@ static double accumulate_error(struct subject *s, bool shutter_poses, smear_ligh
     if (truth == NULL || !shot_take(s, &present, &(struct shot_options){0}, &shot))
         return INFINITY;
     double error = rmse_to_truth(shot.rgb, truth);
-    shot_free(&shot);
     return error;
 }
 
@@ -277,7 +272,7 @@ static void test_accumulation_of_linear_motion_is_the_truth(void)
     say("    %-18s %8s %8s %8s %8s\n", "accumulate, 64", "previous", "shutter", "linear:p",
         "linear:s");
     for (int i = 0; i < SUITE_KINDS; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         double error[4] = {0};
         if (!subject_open(&s, suite_kind[i]))
             continue;
@@ -294,7 +289,6 @@ static void test_accumulation_of_linear_motion_is_the_truth(void)
         for (int k = 0; k < cases; k++)
             if ((k & 1) || is_linear(s.name, false))
                 CHECK_BAR(error[k], accumulate_bar, s.name);
-        subject_close(&s);
     }
 }
 

@@ -51,8 +51,8 @@ static struct likeness likeness_of(const struct ref_frame *frame, const struct s
 
 static void check_subject(struct subject *s)
 {
-    struct shot sharp = {0}, under = {0}, blurred = {0};
-    struct ref_frame frame;
+    struct shot sharp OWNED(shot_free) = {0}, under = {0}, blurred = {0};
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     const struct shot_options plain = {0}, look = {.look = true};
     struct present_options present = subject_options(s), none;
     present.shutter_poses = true;
@@ -78,10 +78,8 @@ static void check_subject(struct subject *s)
         if (l.moving == 0)
             CHECK_EQ(blurred.stats.crc32, sharp.stats.crc32);
     }
-    shot_free(&sharp);
     shot_free(&under);
     shot_free(&blurred);
-    ref_frame_free(&frame);
 }
 
 /* As the files are, and with a camera that circles them, so that all of them move. */
@@ -100,12 +98,11 @@ static void check_files(bool circling)
         circling ? "model, camera circles" : "model", "time", "in", "drawn", "fill%", "cover%",
         "rms", "moving", "v rms");
     for (char **path = list; *path != NULL; path++, count++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open_file(&s, *path, WIDTH, HEIGHT))
             continue;
         if (!circling || CHECK(subject_circle(&s, 4.0)))
             check_subject(&s);
-        subject_close(&s);
     }
     CHECK(count > 0);
     asset_list_free(list);

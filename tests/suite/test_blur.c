@@ -15,7 +15,7 @@ void suite_blur(void);
  * draws. */
 static void check_packed(struct subject *s, int reach)
 {
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     struct shot shot;
     struct present_options present = subject_options(s);
     int compared = 0, off = 0, worst = 0, worst_x = -1, worst_y = -1;
@@ -57,7 +57,6 @@ static void check_packed(struct subject *s, int reach)
         CHECK_BAR((double)off / compared, 0.1, s->name);
         shot_free(&shot);
     }
-    ref_frame_free(&frame);
 }
 
 static void test_packed_velocities_are_half_of_the_exposure(void)
@@ -66,13 +65,12 @@ static void test_packed_velocities_are_half_of_the_exposure(void)
                                         "suite/long", "suite/pan", "suite/roll", "suite/fence_fg",
                                         "test/floor256", "test/terrain", "test/ortho"};
     for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, scene[i]))
             continue;
         check_packed(&s, 12);
         check_packed(&s, 15);
         check_packed(&s, 40);
-        subject_close(&s);
     }
 }
 
@@ -151,7 +149,7 @@ struct port_case {
 /* Adds to `worst` what is worse; the place is that of the largest share of far pixels. */
 static void compare_port(struct subject *s, const struct port_case *c, struct distance *worst)
 {
-    struct shot shot;
+    struct shot shot OWNED(shot_free) = { 0 };
     struct distance d;
     struct present_options present = subject_options(s);
     int reach = c->reach != 0 ? c->reach : s->height * 5 / 100;
@@ -178,7 +176,6 @@ static void compare_port(struct subject *s, const struct port_case *c, struct di
         worst->changed = d.changed > worst->changed ? d.changed : worst->changed;
     }
     free(code);
-    shot_free(&shot);
 }
 
 static void say_distance(const struct distance *d)
@@ -208,7 +205,7 @@ static void test_filter_is_its_port_with_every_option(void)
         say("  %5s %6s %5s", "rmse", ">12 %", "max");
     say("\n");
     for (int i = 0; i < PORT_SCENES; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, port_scene[i]))
             continue;
         struct distance d[sizeof flags / sizeof *flags] = {{0}};
@@ -221,7 +218,6 @@ static void test_filter_is_its_port_with_every_option(void)
             CHECK(d[k].changed > 0);
         }
         say("\n");
-        subject_close(&s);
     }
 }
 
@@ -251,11 +247,10 @@ static void test_filter_is_its_port_at_every_size(void)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct distance d = {0};
         for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {
-            struct subject s;
+            struct subject s OWNED(subject_close) = { 0 };
             if (!subject_open(&s, scene[i]))
                 continue;
             compare_port(&s, &cases[k].c, &d);
-            subject_close(&s);
         }
         say("    %-20s", cases[k].what);
         say_distance(&d);
@@ -283,7 +278,7 @@ static void check_same(struct subject *s, const struct present_options *present,
                        const struct shot_options *options, const struct shot *want,
                        const char *what)
 {
-    struct shot shot;
+    struct shot shot OWNED(shot_free) = { 0 };
     int differing;
     if (!shot_take(s, present, options, &shot))
         return;
@@ -291,12 +286,11 @@ static void check_same(struct subject *s, const struct present_options *present,
     if (!CHECK(differing == 0))
         say("    %s, %s: %d pixels differ, by up to %d codes\n", s->name, what, differing, worst);
     CHECK_EQ(shot.stats.crc32, want->stats.crc32);
-    shot_free(&shot);
 }
 
 static void check_still(struct subject *s, smear_light_space light)
 {
-    struct shot none;
+    struct shot none OWNED(shot_free) = { 0 };
     struct present_options present = method_options(s, SMEAR_NONE, 0, light);
     const struct shot_options plain = {0}, wide = {.reach = 24};
     if (!shot_take(s, &present, &plain, &none))
@@ -316,20 +310,18 @@ static void check_still(struct subject *s, smear_light_space light)
     }
     present.samples = 7;
     check_same(s, &present, &plain, &none, "accumulate 7");
-    shot_free(&none);
 }
 
 static void test_still_scenes_stay_as_they_are_by_any_method(void)
 {
     static const char *const still[] = {"suite/still", "test/boxes", "test/room", "test/leaves"};
     for (size_t i = 0; i < sizeof still / sizeof *still; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, still[i]))
             continue;
         CHECK(subject_hold(&s));
         check_still(&s, SMEAR_LIGHT_LINEAR);
         check_still(&s, SMEAR_LIGHT_ENCODED);
-        subject_close(&s);
     }
 }
 
@@ -369,13 +361,12 @@ enum { QUALITY_CASES = sizeof quality_cases / sizeof *quality_cases };
 
 static double quality_of(struct subject *s, const struct quality_case *c)
 {
-    struct shot shot;
+    struct shot shot OWNED(shot_free) = { 0 };
     struct present_options present = method_options(s, c->method, c->flags, SMEAR_LIGHT_ENCODED);
     const struct ref_truth *truth = truth_of(s, &present, TRUTH_INSTANTS);
     if (truth == NULL || !shot_take(s, &present, &(struct shot_options){0}, &shot))
         return INFINITY;
     double error = rmse_to_truth(shot.rgb, truth);
-    shot_free(&shot);
     return error;
 }
 
@@ -403,7 +394,7 @@ static void test_filter_is_as_close_to_the_truth_as_the_study(void)
         say(" %5s", quality_cases[k].name);
     say("\n");
     for (int i = 0; i < SUITE_KINDS; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, suite_kind[i]))
             continue;
         say("    %-16s", s.name);
@@ -416,7 +407,6 @@ static void test_filter_is_as_close_to_the_truth_as_the_study(void)
                 camera[k] += log(error);
         }
         say("\n");
-        subject_close(&s);
     }
     say_means("object, mean", object, OBJECT_KINDS);
     say_means("camera, mean", camera, CAMERA_KINDS);

@@ -412,7 +412,7 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
 /* The frame that stands for a scene, as the program draws it with --exact. */
 static bool exact_picture(const char *name, struct image *out, struct failure *f)
 {
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     if (!scene_builtin(name, &scene, f))
         return false;
     struct presenter *presenter = presenter_new(&scene, f);
@@ -422,7 +422,6 @@ static bool exact_picture(const char *name, struct image *out, struct failure *f
            && presenter_exact(presenter, scene.time, &options, scene.width, scene.height,
                               TRUTH_INSTANTS, out, f);
     presenter_free(presenter);
-    scene_free(&scene);
     return ok;
 }
 
@@ -430,7 +429,7 @@ static void test_the_truth_is_that_of_the_command_line(void)
 {
     struct failure f = { "" };
     struct float_image truth;
-    struct image rounded, exact;
+    struct image rounded, exact OWNED(image_free) = { 0 };
     struct image_distance distance = { .rmse = 99.0 };
     if (!make_folder() || !CHECK(exact_picture("suite/teleport", &exact, &f)))
         return;
@@ -445,7 +444,6 @@ static void test_the_truth_is_that_of_the_command_line(void)
         }
         float_image_free(&truth);
     }
-    image_free(&exact);
 }
 
 #include "build/suites/chart.h"

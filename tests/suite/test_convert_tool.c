@@ -170,7 +170,7 @@ static bool compare_pictures(const struct converted_file *file, const char *path
                              struct differences *out)
 {
     struct failure f = { { 0 } };
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     struct scene_instant instant = { 0 };
     struct shot from_file[2] = { { 0 }, { 0 } };
     uint8_t *rgb = calloc(3, WIDTH * HEIGHT), *black = calloc(3, WIDTH * HEIGHT);
@@ -210,7 +210,6 @@ static bool compare_pictures(const struct converted_file *file, const char *path
     shot_free(&from_file[0]);
     shot_free(&from_file[1]);
     scene_instant_free(&s.scene, &instant);
-    subject_close(&s);
     free(actor);
     free(rgb);
     free(black);
@@ -529,10 +528,10 @@ static void test_functions_of_our_own_are_those_of_the_maths_library(void)
 
 static void check_track(const char *path)
 {
-    struct model model;
+    struct model model OWNED(model_free) = { 0 };
     struct failure f = { { 0 } };
     struct track_pose track;
-    struct model_pose pose = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     const double root[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
     if (!CHECK(model_load(path, &model, &f)))
         return;
@@ -547,8 +546,6 @@ static void check_track(const char *path)
                                  1e-9 * (1 + fabs(pose.node_world[k])));
         }
     track_pose_free(&track);
-    model_pose_free(&pose);
-    model_free(&model);
 }
 
 static void test_clips_are_seen_as_the_model_poses_them(void)
@@ -913,7 +910,7 @@ static void test_palettes_serve_their_picture(void)
 {
     enum { EDGE = 64 };
     struct model_material material = { .alpha = MODEL_ALPHA_OPAQUE, .image = 0 };
-    struct image image;
+    struct image image OWNED(image_free) = { 0 };
     struct model model = { .material_count = 1, .material = &material, .image_count = 1, .image = &image };
     struct convert_options o = plain_options();
     struct failure f = { { 0 } };
@@ -946,7 +943,6 @@ static void test_palettes_serve_their_picture(void)
         pile_free(pile);
     }
     CHECK_BAR(before, 5.5, "256 colours of a gradient");
-    image_free(&image);
 }
 
 static void test_nodes_that_stand_still_go_into_the_vertices_unless_kept(void)

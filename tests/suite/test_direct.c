@@ -46,7 +46,7 @@ static int compare_under(const char *name, int count, bool texels_565, smear_des
 {
     static uint16_t direct[PIXELS], window[PIXELS];
     struct failure f = { "" };
-    struct scene scene = { 0 };
+    struct scene scene OWNED(scene_free) = { 0 };
     int drawn = 0;
     if (!CHECK(scene_builtin(name, &scene, &f)))
         return 0;
@@ -74,7 +74,6 @@ static int compare_under(const char *name, int count, bool texels_565, smear_des
         CHECK_EQ(differ, 0);
     }
     presenter_free(presenter);
-    scene_free(&scene);
     return drawn;
 }
 

@@ -79,7 +79,7 @@ struct seen {
 static void check_scene(const struct seen *seen)
 {
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct image truth, hard, smooth;
     if (!CHECK(scene_builtin(seen->name, &scene, &f)))
         return;
@@ -106,7 +106,6 @@ static void check_scene(const struct seen *seen)
         image_free(&truth);
     }
     presenter_free(presenter);
-    scene_free(&scene);
 }
 
 static void test_errors_halve(void)

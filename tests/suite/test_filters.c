@@ -37,17 +37,15 @@ static bool compare_velocities(struct subject *s, const struct present_options *
 {
     struct shot_options options = { .look = true, .reach = 60, .tile = 64 };
     struct present_options depth = *vertices;
-    struct shot a, b;
+    struct shot a OWNED(shot_free) = { 0 }, b;
     double sum = 0.0;
     int count = 0;
     depth.camera_step = step;
     *rms = *largest = INFINITY;
     if (!shot_take(s, vertices, &options, &a))
         return false;
-    if (!shot_take(s, &depth, &options, &b)) {
-        shot_free(&a);
+    if (!shot_take(s, &depth, &options, &b))
         return false;
-    }
     double open = vertices->shutter_degrees / 360.0;
     *largest = 0.0;
     for (int i = 0; i < a.width * a.height; i++) {
@@ -62,7 +60,6 @@ static bool compare_velocities(struct subject *s, const struct present_options *
     CHECK(count > a.width * a.height / 4);
     CHECK(a.stats.draws_moved > b.stats.draws_moved);
     *rms = sqrt(sum / count);
-    shot_free(&a);
     shot_free(&b);
     return true;
 }
@@ -71,7 +68,7 @@ static void test_camera_velocity_from_depth_is_that_of_vertices(void)
 {
     static const char *const scene[] = { "suite/pan", "suite/dolly", "suite/roll", "test/terrain", "test/ortho" };
     for (int k = 0; k < 5; k++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         if (!subject_open(&s, scene[k]))
             continue;
         if (k >= 3 && !subject_circle(&s, 1.0))
@@ -94,7 +91,6 @@ static void test_camera_velocity_from_depth_is_that_of_vertices(void)
                 say("      %-34s %.3f px RMS, at most %.2f\n", name, rms, largest);
                 CHECK_BAR(rms, step == 1 ? 0.03 : step == 2 ? 0.125 : 0.26, name);
             }
-        subject_close(&s);
     }
 }
 
@@ -140,13 +136,13 @@ static double rmse_of(const uint8_t *a, const uint8_t *b, int values)
 
 static void test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64(void)
 {
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "suite/pan"))
         return;
     for (int degrees = 90; degrees <= 360; degrees += 90) {
         struct shot_options options = { .reach = 48, .tile = 64 };
         struct present_options p = subject_options(&s);
-        struct shot passes, direct;
+        struct shot passes OWNED(shot_free) = { 0 }, direct;
         char name[60];
         p.method = SMEAR_CAMERA;
         p.filter = SMEAR_FILTER_PINGPONG;
@@ -167,9 +163,7 @@ static void test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64(void)
             CHECK(direct.stats.samples > 64u * 10000u);
             shot_free(&direct);
         }
-        shot_free(&passes);
     }
-    subject_close(&s);
 }
 
 /* What each method and option draws, whatever cores, parts and tiles there are. */
@@ -198,7 +192,7 @@ static const struct drawn {
 static void test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts(void)
 {
     for (size_t i = 0; i < sizeof drawn / sizeof *drawn; i++) {
-        struct subject s;
+        struct subject s OWNED(subject_close) = { 0 };
         struct shot one, other;
         char name[100];
         if (!subject_open(&s, drawn[i].scene))
@@ -231,7 +225,6 @@ static void test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts
             }
             shot_free(&one);
         }
-        subject_close(&s);
     }
     truth_forget();
 }
@@ -239,7 +232,7 @@ static void test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts
 static void test_frames_of_any_size_are_drawn_by_every_filter(void)
 {
     static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 7, 5 }, { 33, 17 } };
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "suite/arena"))
         return;
     for (size_t i = 0; i < sizeof drawn / sizeof *drawn; i++)
@@ -253,7 +246,6 @@ static void test_frames_of_any_size_are_drawn_by_every_filter(void)
                 if (CHECK(shot_take(&s, &p, &o, &shot)))
                     shot_free(&shot);
             }
-    subject_close(&s);
 }
 
 /* ------------------------------------------------------------------ filters alone, on made pictures */
@@ -445,7 +437,7 @@ static void test_half_size_keeps_the_detail_of_what_it_does_not_touch(void)
 static void test_scattered_maxima_carry_streaks_over_several_tiles(void)
 {
     static const uint8_t weights[] = { SMEAR_WEIGHTS_STACK, SMEAR_WEIGHTS_JIMENEZ };
-    struct subject s;
+    struct subject s OWNED(subject_close) = { 0 };
     if (!subject_open(&s, "suite/long"))
         return;
     for (int w = 0; w < 2; w++) {
@@ -484,7 +476,6 @@ static void test_scattered_maxima_carry_streaks_over_several_tiles(void)
         CHECK(bytes[3] < bytes[2] && bytes[2] < bytes[1] * 3 / 4);
     }
     truth_forget();
-    subject_close(&s);
 }
 
 static void test_scatter_goes_with_filters_alone(void)

@@ -423,8 +423,8 @@ static void test_each_instance_is_drawn_and_moves_with_its_node(void)
     static struct instanced w;
     random_state = 3;
     for (int n = 0; n < files_of_each(); n++) {
-        struct model m;
-        struct model_pose pose = { 0 };
+        struct model m OWNED(model_free) = { 0 };
+        struct model_pose pose OWNED(model_pose_free) = { 0 };
         struct failure f = { "" };
         make_instanced(&w);
         if (!load_instanced(&w, &m))
@@ -441,16 +441,14 @@ static void test_each_instance_is_drawn_and_moves_with_its_node(void)
         CHECK_EQ(seen, w.count);
         CHECK_EQ(pose.draw_count, w.count + 1);
         CHECK(m.warning[0] == '\0');
-        model_pose_free(&pose);
-        model_free(&m);
     }
 }
 
 static void test_instances_keep_the_morph_weights_of_their_mesh(void)
 {
     static const float target[9] = { 0, 0, 8, 0, 0, 8, 0, 0, 8 }, weights[2] = { 0, 1 };
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     struct failure f = { "" };
     begin_triangle();
     for (int i = 0; i < 9; i++)
@@ -473,13 +471,11 @@ static void test_instances_keep_the_morph_weights_of_their_mesh(void)
         for (int i = 0; i < 3; i++)
             CHECK_CLOSE((double)pose.draw[i].position[2], 8 * weight, 1e-6);
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_the_diffuse_part_of_specular_and_glossiness_is_the_base_colour(void)
 {
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     struct failure f = { "" };
     begin_triangle();
     add("{'asset':{'version':'2.0'},'extensionsRequired':['KHR_materials_pbrSpecularGlossiness'],'buffers':[{'byteLength':36}],"
@@ -492,7 +488,6 @@ static void test_the_diffuse_part_of_specular_and_glossiness_is_the_base_colour(
     CHECK_CLOSE((double)m.material[0].base[0], 0.25, 0);
     CHECK_CLOSE((double)m.material[0].base[2], 0.75, 0);
     CHECK(m.warning[0] == '\0');
-    model_free(&m);
 }
 
 /* ------------------------------------------------------------------ OBJ */
@@ -613,7 +608,7 @@ static void test_obj_is_drawn_but_for_what_is_no_face(void)
     random_state = 4;
     for (int i = 0; i < files_of_each(); i++) {
         struct expected e = { 0 };
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         struct failure f = { "" };
         text.size = 0;
         add_lists(&e, chance(2));
@@ -634,7 +629,6 @@ static void test_obj_is_drawn_but_for_what_is_no_face(void)
         CHECK_EQ(count_triangles(&m), e.triangles);
         if (!CHECK(tells_all(m.warning, &e)))
             test_print(m.warning);
-        model_free(&m);
     }
     CHECK(whole > 0);
 }
@@ -642,13 +636,12 @@ static void test_obj_is_drawn_but_for_what_is_no_face(void)
 static void test_a_face_with_a_normal_that_is_none_is_flat(void)
 {
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn nan nan nan\nf 1//1 2//1 3//1\nf 1//1 2//2 3//1\n";
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     struct failure f = { "" };
     if (!CHECK(model_parse((const uint8_t *)obj, sizeof obj - 1, NULL, &m, &f)))
         return;
     CHECK_EQ(m.mesh[0].primitive_count, 2);
     CHECK(m.mesh[0].primitive[0].normal != NULL && m.mesh[0].primitive[1].normal == NULL);
-    model_free(&m);
 }
 
 /* d counts before Tr; what would be invisible is opaque, and is told. */
@@ -658,7 +651,7 @@ static void test_materials_mean_what_their_writers_meant(void)
     for (int i = 0; i < files_of_each(); i++) {
         static const double steps[] = { 0, 0.25, 0.5, 1 };
         struct mtl_library library = { 0 };
-        struct model m = { 0 };
+        struct model m OWNED(model_free) = { 0 };
         struct failure f = { "" };
         double alpha = 1, color = 1;
         bool has_d = false, has_map = false;
@@ -695,7 +688,6 @@ static void test_materials_mean_what_their_writers_meant(void)
         CHECK((m.warning[0] != '\0') == !(alpha > 0));
         CHECK_CLOSE((double)got->base[0], has_map && !(color > 0) ? 1 : color, 0);
         mtl_library_free(&library);
-        model_free(&m);
     }
 }
 

@@ -887,14 +887,13 @@ static void test_png_reads_every_colour_type_depth_interlace_and_filter(void)
 
 static bool png_is_refused(const struct buffer *file, const char *why)
 {
-    struct image got;
+    struct image got OWNED(image_free) = { 0 };
     struct failure f = {""};
     bool ok = png_decode(file->data, file->size, &got, &f);
     if (!ok && strstr(f.text, why) != NULL && got.rgba == NULL)
         return true;
     test_print(ok ? "accepted" : f.text);
     test_print("\n");
-    image_free(&got);
     return false;
 }
 
@@ -1186,13 +1185,12 @@ static size_t check_png_round_trip(const struct image *image, int channels)
     uint8_t *bytes;
     size_t size;
     struct failure f = {""};
-    struct image first, second;
+    struct image first OWNED(image_free) = { 0 }, second;
     int found = 0;
     CHECK(png_encode(image, &bytes, &size, &f));
     CHECK(png_decode(bytes, size, &first, &f) && same_pixels(&first, image));
     CHECK(second_decode(bytes, size, &second, &found) && same_pixels(&second, image));
     CHECK_EQ(found, channels);
-    image_free(&first);
     image_free(&second);
     free(bytes);
     return size;
@@ -1232,7 +1230,7 @@ static void test_png_is_small(void)
 
 static bool ppm_gives(const char *text, size_t size, int width, int height, const char *rgb)
 {
-    struct image got;
+    struct image got OWNED(image_free) = { 0 };
     struct failure f = {""};
     if (!ppm_decode((const uint8_t *)text, size, &got, &f)) {
         test_print(f.text);
@@ -1241,7 +1239,6 @@ static bool ppm_gives(const char *text, size_t size, int width, int height, cons
     bool ok = got.width == width && got.height == height;
     for (int i = 0; ok && i < width * height; i++)
         ok = memcmp(got.rgba + i * 4, rgb + i * 3, 3) == 0 && got.rgba[i * 4 + 3] == 255;
-    image_free(&got);
     return ok;
 }
 
@@ -2056,7 +2053,7 @@ static void test_pictures_of_other_programs_round_trip(void)
     }
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[600];
-        struct image image;
+        struct image image OWNED(image_free) = { 0 };
         struct failure f = {""};
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         if (!exists(path))
@@ -2068,7 +2065,6 @@ static void test_pictures_of_other_programs_round_trip(void)
         for (int k = 0; k < image.width * image.height; k++)
             opaque = opaque && image.rgba[k * 4 + 3] == 255;
         check_png_round_trip(&image, opaque ? 3 : 4);
-        image_free(&image);
     }
 }
 

@@ -34,7 +34,7 @@ static void add_errors(struct errors *e, const struct image *got, const double *
 static bool case_is_read(int largest, struct errors *errors)
 {
     struct jpeg_case c;
-    struct image got;
+    struct image got OWNED(image_free) = { 0 };
     struct failure f = { "" };
     size_t end;
     jpeg_case_make(&c, largest);
@@ -48,7 +48,6 @@ static bool case_is_read(int largest, struct errors *errors)
     if (!ok)
         printf("    %d x %d, %d components, %s: %s\n", c.width, c.height, c.count,
                c.is_progressive ? "progressive" : "sequential", f.text);
-    image_free(&got);
     free(rgb);
     buffer_free(&file);
     jpeg_case_free(&c);
@@ -70,7 +69,7 @@ static void test_jpeg_notices_every_cut(void)
     random_state = 2;
     for (int i = 0; i < 24; i++) {
         struct jpeg_case c;
-        struct image whole, got;
+        struct image whole OWNED(image_free) = { 0 }, got;
         struct failure f = { "" };
         size_t end;
         jpeg_case_make(&c, 16);
@@ -88,7 +87,6 @@ static void test_jpeg_notices_every_cut(void)
             CHECK(!ok || memcmp(got.rgba, whole.rgba, (size_t)(c.width * c.height) * 4) == 0);
             image_free(&got);
         }
-        image_free(&whole);
         buffer_free(&file);
         jpeg_case_free(&c);
     }
@@ -217,13 +215,12 @@ static struct buffer file_of(const char *digits)
 static bool says(const char *digits, const char *what)
 {
     struct buffer b = file_of(digits);
-    struct image got;
+    struct image got OWNED(image_free) = { 0 };
     struct failure f = { "" };
     const bool ok = jpeg_decode(b.data, b.size, &got, &f);
     const bool as_expected = what == NULL ? ok : !ok && strcmp(f.text, what) == 0;
     if (!as_expected)
         printf("    %s: %s, not %s\n", digits, ok ? "drawn" : f.text, what != NULL ? what : "drawn");
-    image_free(&got);
     buffer_free(&b);
     return as_expected;
 }

@@ -378,8 +378,8 @@ static void test_a_frame_in_which_all_jumps_is_sharp(void)
     const struct kinds kinds = { .held = true };
     int seen = 0;
     for (int i = 0; i < count(150); i++) {
-        struct shot a = { 0 }, b = { 0 };
-        struct model m;
+        struct shot a OWNED(shot_free) = { 0 }, b = { 0 };
+        struct model m OWNED(model_free) = { 0 };
         double sum = 0;
         random_state = 70000u + (uint32_t)i;
         if (!random_model(&kinds, &m))
@@ -393,9 +393,7 @@ static void test_a_frame_in_which_all_jumps_is_sharp(void)
         }
         if (!CHECK(sqrt(sum / (3 * WIDTH * HEIGHT)) <= 4.0))
             say("    file %d, %g s, %g frames a second\n", i, at.time, at.fps);
-        shot_free(&a);
         shot_free(&b);
-        model_free(&m);
     }
     CHECK(seen > 100000);
 }
@@ -696,7 +694,7 @@ static bool is_near_a_key(const struct model *m, bool loop, const int32_t *time,
 
 static bool play_alike(const struct model *m, const struct conversion *c, const struct moment *at, smear_actor *actor)
 {
-    struct model_pose pose = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     struct failure f = { "" };
     int32_t time[3];
     bool ok = true;
@@ -719,7 +717,6 @@ static bool play_alike(const struct model *m, const struct conversion *c, const 
             say("    pose %d at %g s of %g, %g frames a second%s: off by %.2f px\n", k, time[k] / 65536.0, m->clip[0].duration,
                 at->fps, at->loop ? ", looped" : "", px);
     }
-    model_pose_free(&pose);
     return ok;
 }
 

@@ -70,11 +70,10 @@ static bool draw_truth(const char *scene, struct image *out)
 static double error_of(const char *scene, smear_method method, int samples, const struct image *truth)
 {
     struct take take = take_of(scene, method, samples);
-    struct image picture;
+    struct image picture OWNED(image_free) = { 0 };
     if (!draw_take(&take, &picture, NULL))
         return NAN;
     double error = rmse(&picture, truth);
-    image_free(&picture);
     return error;
 }
 
@@ -84,11 +83,10 @@ static void test_object_is_within_1_8_codes_of_the_truth(void)
     static const char *const scene[] = { "suite/translate", "suite/cross", "suite/fence_obj", "suite/enter", "suite/long" };
     double sum = 0.0;
     for (int i = 0; i < 5; i++) {
-        struct image truth;
+        struct image truth OWNED(image_free) = { 0 };
         if (!draw_truth(scene[i], &truth))
             return;
         sum += log(error_of(scene[i], SMEAR_OBJECT, 0, &truth));
-        image_free(&truth);
     }
     CHECK(exp(sum / 5) <= 1.8);
 }

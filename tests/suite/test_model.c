@@ -236,7 +236,7 @@ static void test_every_component_type_is_read_and_normalised(void)
         const double uv[] = { types[i].a, types[i].b, types[i].b, types[i].a, 3, 4 };
         add(&s, types[i].component, "VEC2", 3, ",'normalized':true", uv, 6);
         add(&s, types[i].component, "VEC2", 3, "", uv, 6);
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':["
                          "{'attributes':{'POSITION':0,'TEXCOORD_0':1}},"
                          "{'attributes':{'POSITION':0,'TEXCOORD_0':2}}]}]", &m)))
@@ -245,14 +245,13 @@ static void test_every_component_type_is_read_and_normalised(void)
         CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 1e-7, low, 1, 1, low, 3 / k, 4 / k));
         CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 0, types[i].a, types[i].b, types[i].b,
                           types[i].a, 3, 4));
-        model_free(&m);
     }
 }
 
 static void test_integer_positions_are_read_for_quantized_meshes(void)
 {
     struct source s = { 0 };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, I16, "VEC3", 3, "", -300, 0, 7, 1000, 2, 3, 0, 32767, -32768);
     ADD(&s, I8, "VEC3", 3, ",'normalized':true", 127, 0, 0, 0, -127, 0, 0, 0, 127);
     if (!CHECK(loads(&s, "'extensionsRequired':['KHR_mesh_quantization']," ONE_NODE
@@ -261,13 +260,12 @@ static void test_integer_positions_are_read_for_quantized_meshes(void)
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, -300, 0, 7, 1000, 2, 3, 0, 32767,
                       -32768));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].normal, 0, 1, 0, 0, 0, -1, 0, 0, 0, 1));
-    model_free(&m);
 }
 
 static void test_interleaved_accessors_follow_stride_and_offset(void)
 {
     struct source s = { 0 };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     const double vertices[] = { 9, 1, 2, 3, 0.5, 0.25, 9, 4, 5, 6, 0.75, 1,
                                 9, 7, 8, 10, 0, 2 };
     add_view(&s, F32, ",'byteStride':24", vertices, 18);
@@ -278,7 +276,6 @@ static void test_interleaved_accessors_follow_stride_and_offset(void)
         return;
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, 1, 2, 3, 4, 5, 6, 7, 8, 10));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 0, 0.5, 0.25, 0.75, 1, 0, 2));
-    model_free(&m);
 }
 
 static void test_sparse_accessors_replace_elements_of_a_view_or_of_zeros(void)
@@ -286,7 +283,7 @@ static void test_sparse_accessors_replace_elements_of_a_view_or_of_zeros(void)
     static const int index_types[] = { U8, U16, U32 };
     for (size_t i = 0; i < COUNT(index_types); i++) {
         struct source s = triangle();
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         char extra[300];
         int indices = add_view(&s, index_types[i], "", (const double[]){ 0, 2 }, 2);
         int values = add_view(&s, F32, "", (const double[]){ 5, 6, 7, -1, -2, -3 }, 6);
@@ -301,7 +298,6 @@ static void test_sparse_accessors_replace_elements_of_a_view_or_of_zeros(void)
             continue;
         CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, 5, 6, 7, 1, 0, 0, -1, -2, -3));
         CHECK(SAME_FLOATS(m.mesh[0].primitive[0].normal, 0, 5, 6, 7, 0, 0, 0, -1, -2, -3));
-        model_free(&m);
     }
 }
 
@@ -309,7 +305,7 @@ static void test_sparse_indices_and_dropped_vertices_work_together(void)
 {
     /* Six vertices of which 1, 3 and 4 are used; the sparse part replaces 0, 3 and 5. */
     struct source s = { 0 };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC3", 6, "", 0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5, 5);
     int indices = ADD(&s, U16, "SCALAR", 3, "", 4, 1, 3);
     add_view(&s, U8, "", (const double[]){ 0, 3, 5 }, 3);
@@ -324,13 +320,12 @@ static void test_sparse_indices_and_dropped_vertices_work_together(void)
     CHECK_EQ(p->vertex_count, 3);
     CHECK(SAME_FLOATS(p->position, 0, 1, 1, 1, 13, 13, 13, 4, 4, 4));
     CHECK(p->index[0] == 2 && p->index[1] == 0 && p->index[2] == 1);
-    model_free(&m);
 }
 
 static void test_indices_may_be_sparse_too(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     /* A list of three zeros whose number 1 becomes 2. */
     add_view(&s, U8, "", (const double[]){ 1, 0 }, 2);
     add_view(&s, U16, "", (const double[]){ 2 }, 1);
@@ -343,19 +338,17 @@ static void test_indices_may_be_sparse_too(void)
     CHECK_EQ(p->vertex_count, 2);
     CHECK(p->index[0] == 0 && p->index[1] == 1 && p->index[2] == 0);
     CHECK(SAME_FLOATS(p->position, 0, 0, 0, 0, 0, 1, 0));
-    model_free(&m);
 }
 
 static void test_an_accessor_without_a_view_is_zeros(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     add_accessor(&s, F32, "VEC3", 3, "");
     if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':"
                      "{'POSITION':0,'NORMAL':1}}]}]", &m)))
         return;
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].normal, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0));
-    model_free(&m);
 }
 
 /* --- containers --- */
@@ -494,7 +487,7 @@ static void test_required_extensions_are_known_or_refused_by_name(void)
 static void test_strips_and_fans_become_triangles_and_lines_are_counted(void)
 {
     struct source s = { 0 };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC3", 5, "", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0);
     if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':["
                      "{'attributes':{'POSITION':0},'mode':5},"
@@ -515,13 +508,12 @@ static void test_strips_and_fans_become_triangles_and_lines_are_counted(void)
     /* Five vertices make one triangle; the two left over are dropped. */
     CHECK_EQ(m.mesh[0].primitive[2].triangle_count, 1);
     CHECK_EQ(m.mesh[0].primitive[2].vertex_count, 3);
-    model_free(&m);
 }
 
 static void test_colors_are_normalised_and_get_an_alpha(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, U8, "VEC4", 3, ",'normalized':true", 255, 0, 51, 102, 0, 0, 0, 0, 255, 255, 255, 255);
     ADD(&s, U16, "VEC3", 3, ",'normalized':true", 65535, 0, 13107, 0, 0, 0, 1, 2, 3);
     ADD(&s, F32, "VEC3", 3, "", 0.25, 0.5, 0.75, 1, 2, 3, 0, 0, 0);
@@ -533,7 +525,6 @@ static void test_colors_are_normalised_and_get_an_alpha(void)
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].color, 1e-7, 1, 0, 0.2, 0.4, 0, 0, 0, 0, 1, 1, 1, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].color, 1e-7, 1, 0, 0.2, 1, 0, 0, 0, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[2].color, 0, 0.25, 0.5, 0.75, 1, 1, 2, 3, 1));
-    model_free(&m);
 }
 
 /* Two pixels: red, and a blue of 0, 128, 255. */
@@ -545,7 +536,7 @@ static void test_colors_are_normalised_and_get_an_alpha(void)
 static void test_materials_carry_all_that_is_shown(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);
     if (!CHECK(loads(&s, "'images':[{'uri':'data:image/png;base64," PNG_BASE64 "'}],"
                      "'samplers':[{'wrapS':33071,'wrapT':33648},{'wrapS':10497}],"
@@ -580,13 +571,12 @@ static void test_materials_carry_all_that_is_shown(void)
     /* A textured primitive always has texture coordinates. */
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 0, 0, 0, 0, 0, 0, 0));
     CHECK(m.mesh[0].primitive[2].uv == NULL);
-    model_free(&m);
 }
 
 static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC2", 3, "", 9, 9, 9, 9, 9, 9);
     ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);
     /* The extension's own example, the lower left quadrant of the picture, turned by a quarter;
@@ -608,7 +598,6 @@ static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 1e-7, 0, 1, 0, 0.5, 0.5, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 1e-7, 0.5, 0.25, 2.5, 0.25, 0.5, -2.75));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[2].uv, 1e-7, 0, 0, 0, -2, 3, 0));
-    model_free(&m);
 }
 
 /* A grey of 200, 8 x 8. */
@@ -618,7 +607,7 @@ static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
 static void test_jpeg_pictures_are_read_as_png_is(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(loads(&s, "'images':[{'uri':'data:image/jpeg;base64," JPEG_BASE64 "'}],'textures':[{'source':0}],"
                      "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]," ONE_NODE
                      "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]", &m)))
@@ -627,7 +616,6 @@ static void test_jpeg_pictures_are_read_as_png_is(void)
     CHECK(m.image[0].width == 8 && m.image[0].height == 8 && m.material[0].image == 0);
     for (int i = 0; i < 8 * 8 * 4; i++)
         CHECK_EQ(m.image[0].rgba[i], i % 4 == 3 ? 255 : 200);
-    model_free(&m);
 }
 
 static void test_pictures_of_other_formats_are_refused_by_name(void)
@@ -694,8 +682,8 @@ static void test_textures_of_other_formats_alone_are_refused_by_name(void)
 static void test_transforms_multiply_down_the_tree(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     /* Children before parents in the file; above a matrix, a quarter turn about z
      * whose quaternion is too short. */
     if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'matrix':[0,2,0,0,-2,0,0,0,0,0,2,0,5,6,7,1]},"
@@ -727,8 +715,6 @@ static void test_transforms_multiply_down_the_tree(void)
     CHECK_EQ(model_find_node(&m, ""), -1);
     CHECK(model_node_is_under(&m, 1, 2) && model_node_is_under(&m, 2, 2));
     CHECK(!model_node_is_under(&m, 2, 1));
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_the_default_scene_else_the_first_else_everything_is_drawn(void)
@@ -741,8 +727,8 @@ static void test_the_default_scene_else_the_first_else_everything_is_drawn(void)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct source s = triangle();
-        struct model m;
-        struct model_pose pose = { 0 };
+        struct model m OWNED(model_free) = { 0 };
+        struct model_pose pose OWNED(model_pose_free) = { 0 };
         char body[500];
         double min[3], max[3];
         snprintf(body, sizeof body, "%s'nodes':[{'mesh':0},{'mesh':0,'children':[2]},{'mesh':0},"
@@ -755,15 +741,13 @@ static void test_the_default_scene_else_the_first_else_everything_is_drawn(void)
                 CHECK_EQ(pose.draw[k].node, cases[i].drawn[k]);
             CHECK_EQ(model_pose_bounds(&pose, min, max), cases[i].count > 0);
         }
-        model_pose_free(&pose);
-        model_free(&m);
     }
 }
 
 static void test_cameras_of_the_scene_are_listed_in_node_order(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(loads(&s, "'scenes':[{'nodes':[0,1,3]}],'nodes':[{'camera':1,'name':'eye'},"
                      "{'camera':0},{'camera':0},{'camera':1}],'cameras':["
                      "{'type':'perspective','name':'wide','perspective':{'yfov':1,'znear':0.1}},"
@@ -786,7 +770,6 @@ static void test_cameras_of_the_scene_are_listed_in_node_order(void)
     CHECK_EQ(model_find_camera(&m, "-1"), -1);
     CHECK_EQ(model_find_camera(&m, ""), -1);
     CHECK_EQ(model_find_camera(&m, "99999999999999999999"), -1);
-    model_free(&m);
 }
 
 /* --- animation --- */
@@ -822,7 +805,7 @@ static void test_step_holds_each_key_until_the_next(void)
     static const double cases[][4] = { { -1, 1, 2, 3 }, { 0, 1, 2, 3 }, { 0.999, 1, 2, 3 },
                                        { 1, 4, 5, 6 }, { 2.999, 4, 5, 6 }, { 3, 7, 8, 9 },
                                        { 100, 7, 8, 9 } };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(load_channel("translation", "STEP", "VEC3", values, 9, &m)))
         return;
     check_translations(&m, false, cases, (int)COUNT(cases));
@@ -831,7 +814,6 @@ static void test_step_holds_each_key_until_the_next(void)
     CHECK_EQ(model_find_clip(&m, "0"), 0);
     CHECK_EQ(model_find_clip(&m, "1"), -1);
     CHECK_EQ(model_find_clip(&m, "stop"), -1);
-    model_free(&m);
 }
 
 static void test_linear_runs_straight_between_keys_and_clamps_or_loops(void)
@@ -841,12 +823,11 @@ static void test_linear_runs_straight_between_keys_and_clamps_or_loops(void)
                                          { 1.5, 3, 6, 0 }, { 3.5, 0, 0, 12 } };
     static const double looped[][4] = { { 0.25, 1, 2, -1 }, { 3.25, 1, 2, -1 },
                                         { 301.5, 3, 6, 0 }, { -1.5, 3, 6, 0 }, { 3, 0, 0, 0 } };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(load_channel("translation", "LINEAR", "VEC3", values, 9, &m)))
         return;
     check_translations(&m, false, clamped, (int)COUNT(clamped));
     check_translations(&m, true, looped, (int)COUNT(looped));
-    model_free(&m);
 }
 
 static void test_cubic_splines_follow_the_hermite_form(void)
@@ -858,11 +839,10 @@ static void test_cubic_splines_follow_the_hermite_form(void)
     static const double cases[][4] = { { 0, 0, 0, 0 }, { 0.5, 0.5, 0.5, 0 }, { 1, 1, 1, 0 },
                                        { 1.5, 2.65625, 1.625, 1.5 }, { 2, 4.25, 3, 0 },
                                        { 3, 5, 5, 0 }, { 4, 5, 5, 0 } };
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(load_channel("translation", "CUBICSPLINE", "VEC3", values, 27, &m)))
         return;
     check_translations(&m, false, cases, (int)COUNT(cases));
-    model_free(&m);
 }
 
 /* Degrees about z, from the first column of the world matrix. */
@@ -879,16 +859,14 @@ static void test_rotations_take_the_short_way_at_even_speed(void)
     const double values[] = { 0, 0, 0, 1, 0, 0, -2 * d, -2 * c, 0, 0, -d, c };
     static const double cases[][2] = { { 0, 0 }, { 0.25, 30 }, { 0.5, 60 }, { 1, 120 },
                                        { 1.5, 150 }, { 2.25, -165 }, { 3, -120 } };
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     if (!CHECK(load_channel("rotation", "LINEAR", "VEC4", values, 12, &m)))
         return;
     for (size_t i = 0; i < COUNT(cases); i++) {
         if (CHECK(poses(&m, 0, cases[i][0], false, &pose)))
             CHECK_CLOSE(angle_about_z(&pose), cases[i][1], 1e-4);
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_cubic_rotations_are_made_unit_length(void)
@@ -898,8 +876,8 @@ static void test_cubic_rotations_are_made_unit_length(void)
                               0, 0, 0, 0, 0, 0, h, h, 0, 0, 0, 0,
                               0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0 };
     static const double cases[][2] = { { 0, 0 }, { 0.5, 45 }, { 1, 90 }, { 2, 135 }, { 3, 180 } };
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     if (!CHECK(load_channel("rotation", "CUBICSPLINE", "VEC4", values, 36, &m)))
         return;
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -909,14 +887,12 @@ static void test_cubic_rotations_are_made_unit_length(void)
         CHECK_CLOSE(fabs(angle_about_z(&pose)), cases[i][1], 1e-4);
         CHECK_CLOSE(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], 1, 1e-12);
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_a_single_key_holds_forever_looped_or_not(void)
 {
     struct source s = triangle();
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "SCALAR", 1, "", 0);
     ADD(&s, F32, "VEC3", 1, "", 4, 5, 6);
     if (!CHECK(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
@@ -926,14 +902,13 @@ static void test_a_single_key_holds_forever_looped_or_not(void)
     static const double cases[][4] = { { -1, 4, 5, 6 }, { 0, 4, 5, 6 }, { 7.5, 4, 5, 6 } };
     check_translations(&m, false, cases, (int)COUNT(cases));
     check_translations(&m, true, cases, (int)COUNT(cases));
-    model_free(&m);
 }
 
 static void test_quantized_rotation_keys_are_normalised(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "SCALAR", 2, "", 0, 1);
     ADD(&s, I16, "VEC4", 2, ",'normalized':true", 0, 0, 0, 32767, 0, 0, 23170, 23170);
     if (!CHECK(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
@@ -943,15 +918,13 @@ static void test_quantized_rotation_keys_are_normalised(void)
         CHECK_CLOSE(angle_about_z(&pose), 90, 1e-4);
     if (CHECK(poses(&m, 0, 0.5, false, &pose)))
         CHECK_CLOSE(angle_about_z(&pose), 45, 1e-4);
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_all_clips_together_let_the_later_win_and_share_the_longest_loop(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "SCALAR", 2, "", 0, 1);
     ADD(&s, F32, "SCALAR", 2, "", 0, 4);
     ADD(&s, F32, "VEC3", 2, "", 0, 0, 0, 1, 0, 0);
@@ -989,8 +962,6 @@ static void test_all_clips_together_let_the_later_win_and_share_the_longest_loop
     f = (struct failure){ 0 };
     CHECK(!model_pose(&m, 0, NAN, false, &pose, &f));
     CHECK(same_text(f.text, "the time of a pose is not finite"));
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 /* --- morphs and skins --- */
@@ -998,8 +969,8 @@ static void test_all_clips_together_let_the_later_win_and_share_the_longest_loop
 static void test_morph_targets_add_up_by_weight(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "VEC3", 3, "", 0, 0, 1, 0, 0, 1, 0, 0, 1);                 /* 1 normals */
     ADD(&s, F32, "VEC3", 3, "", 2, 0, 0, 0, 4, 0, 0, 0, 8);                 /* 2 */
     ADD(&s, F32, "VEC3", 3, "", 1, 1, 1, 1, 1, 1, 1, 1, 1);                 /* 3 */
@@ -1024,8 +995,6 @@ static void test_morph_targets_add_up_by_weight(void)
         CHECK(SAME_FLOATS(pose.draw[0].position, 1e-7, 3, 2, 2, 3, 4, 2, 2, 3, 6));
         CHECK(SAME_FLOATS(pose.draw[1].position, 1e-7, 2, 0, 0, 1, 4, 0, 0, 1, 8));
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 #define QUARTER "'rotation':[0,0,0.7071067811865476,0.7071067811865476]"
@@ -1033,8 +1002,8 @@ static void test_morph_targets_add_up_by_weight(void)
 static void test_skins_blend_joint_matrices_and_ignore_their_node(void)
 {
     struct source s = { 0 };
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "VEC3", 3, "", 1, 1, 0, 2, 0, 0, 0, 0, 1);
     ADD(&s, F32, "VEC3", 3, "", 1, 0, 0, 1, 0, 0, 1, 1, 0);
     ADD(&s, U8, "VEC4", 3, "", 0, 1, 9, 0, 1, 0, 0, 0, 2, 0, 0, 0);
@@ -1065,15 +1034,13 @@ static void test_skins_blend_joint_matrices_and_ignore_their_node(void)
         CHECK(SAME_FLOATS(pose.draw[0].normal, 1e-6, 0.25 / n, 0.75 / n, 0, 0, 1, 0, -0.5 / k,
                           1 / k, 0));
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_skins_default_to_identity_and_take_eight_influences(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, U16, "VEC4", 3, "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
     ADD(&s, U8, "VEC4", 3, ",'normalized':true", 51, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0);
     ADD(&s, U8, "VEC4", 3, "", 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
@@ -1090,15 +1057,13 @@ static void test_skins_default_to_identity_and_take_eight_influences(void)
         CHECK(SAME_FLOATS(pose.draw[0].position, 1e-6, 2, 8, 0, 11, 0, 0, 10, 1, 0));
         CHECK(pose.draw[0].normal == NULL);
     }
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_morphs_come_before_skins(void)
 {
     struct source s = triangle();
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "VEC3", 3, "", 1, 0, 0, 1, 0, 0, 1, 0, 0);
     ADD(&s, U8, "VEC4", 3, "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
     ADD(&s, F32, "VEC4", 3, "", 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
@@ -1108,14 +1073,12 @@ static void test_morphs_come_before_skins(void)
         return;
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose)))
         CHECK(SAME_FLOATS(pose.draw[0].position, 1e-6, 0, 2, 0, 0, 3, 0, -1, 2, 0));
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_a_pose_is_reused_and_its_draws_keep_their_order(void)
 {
     struct source s = triangle();
-    struct model m, other;
+    struct model m OWNED(model_free) = { 0 }, other;
     struct model_pose pose = { 0 };
     ADD(&s, F32, "VEC3", 3, "", 1, 0, 0, 1, 0, 0, 1, 0, 0);
     if (!CHECK(loads(&s, "'nodes':[{'mesh':1},{'mesh':0}],'meshes':[{'weights':[1],'primitives':"
@@ -1136,7 +1099,6 @@ static void test_a_pose_is_reused_and_its_draws_keep_their_order(void)
         model_pose_free(&pose);
         model_free(&other);
     }
-    model_free(&m);
 }
 
 static void test_a_pose_out_of_range_is_refused(void)
@@ -1289,12 +1251,11 @@ static void test_mistakes_are_refused_with_their_place(void)
     };
     struct source s = parts();
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         struct failure f;
         if (!CHECK(!load(&s, cases[i].body, &m, &f))) {
             test_print(cases[i].message);
             test_print("\n");
-            model_free(&m);
             continue;
         }
         CHECK(same_text(f.text, cases[i].message));
@@ -1509,7 +1470,7 @@ static void test_a_glb_with_any_byte_changed_is_read_or_refused(void)
 
 static void test_obj_faces_of_every_form_become_triangles(void)
 {
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(parses("# a quad, a triangle, a pentagon\r\n"
                       "v 0 0 0\r\nv 1 0 0 1.0\r\nv 1 1 0\r\nv 0 1 0\r\nv -1 0.5 0\r\n"
                       "vt 0.25 0.75\r\nvt 0 0\r\nvn 0 0 1\r\n"
@@ -1531,22 +1492,20 @@ static void test_obj_faces_of_every_form_become_triangles(void)
     CHECK(p[3].uv != NULL && p[3].normal != NULL);
     CHECK_EQ(m.material_count, 1);
     CHECK(m.warning[0] == '\0');
-    model_free(&m);
 }
 
 static void test_obj_vertices_may_have_colors(void)
 {
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!CHECK(parses("v 0 0 0 0.5 0.25 1\nv 1 0 0\nv 1 1 0 0 0 0\nf 1 2 3\n", &m)))
         return;
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].color, 0, 0.5, 0.25, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1));
-    model_free(&m);
 }
 
 static void test_obj_objects_and_groups_become_nodes(void)
 {
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     if (!CHECK(parses("v 0 0 0\nv 1 0 0\nv 1 1 0\ng loose\nf 1 2 3\no car\nf 1 2 3\n"
                       "g front wheel\nf 1 2 3\nusemtl red\nf 3 2 1\no hat\nf 1 2 3\n"
                       "o car\ng front wheel\nusemtl blue\nf 1 2 3\nl 1 2\np 1\n", &m)))
@@ -1563,15 +1522,13 @@ static void test_obj_objects_and_groups_become_nodes(void)
     CHECK(same_text(m.warning, "2 primitives hold no triangles and are left out"));
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose)))
         CHECK_EQ(pose.draw_count, 6);
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 static void test_obj_with_any_number_of_groups_has_each_under_its_object(void)
 {
     for (int n = 1; n <= 70; n++) {
         char text[4000] = "v 0 0 0\nv 1 0 0\nv 1 1 0\no all\n";
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         for (int i = 0; i < n; i++)
             append(text, sizeof text, "g part%d\nusemtl m%d\nf 1 2 3\n", i, i);
         if (!CHECK(parses(text, &m)))
@@ -1585,13 +1542,12 @@ static void test_obj_with_any_number_of_groups_has_each_under_its_object(void)
             CHECK(node >= 0 && m.node[node].parent == model_find_node(&m, "all"));
             CHECK_EQ(m.mesh[m.node[node].mesh].primitive[0].material, i);
         }
-        model_free(&m);
     }
 }
 
 static void test_obj_materials_come_from_the_library_beside_it(void)
 {
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     struct failure f = { 0 };
     char path[200];
     snprintf(path, sizeof path, "%squad.obj", corpus);
@@ -1608,7 +1564,6 @@ static void test_obj_materials_come_from_the_library_beside_it(void)
     /* Scaled by 2 and 3, shifted by 1/2, turned upside down. */
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 0, 0.5, 1, 2.5, 1, 2.5, -2, 0.5, -2));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 0, 0, 0, 1, 0, 1, 1, 0, 1));
-    model_free(&m);
 }
 
 static void test_obj_without_its_library_is_loaded_with_a_warning(void)
@@ -1832,7 +1787,7 @@ static void test_every_sample_model_loads_with_its_known_numbers(void)
 {
     int checked = 0;
     for (size_t i = 0; i < COUNT(samples); i++) {
-        struct model m;
+        struct model m OWNED(model_free) = { 0 };
         if (!load_sample(samples[i].name, &m))
             continue;
         int before = test_state.failures_here;
@@ -1843,15 +1798,14 @@ static void test_every_sample_model_loads_with_its_known_numbers(void)
             test_print("\n");
         }
         checked++;
-        model_free(&m);
     }
     CHECK_EQ(checked, (int)COUNT(samples));
 }
 
 static void test_the_fan_turns_once_around_in_a_quarter_second(void)
 {
-    struct model m;
-    struct model_pose a = { 0 }, b = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose a OWNED(model_pose_free) = { 0 }, b = { 0 };
     if (!load_sample("own/fan.glb", &m))
         return;
     int node = m.clip[0].channel[0].node;
@@ -1868,14 +1822,12 @@ static void test_the_fan_turns_once_around_in_a_quarter_second(void)
         }
         CHECK_CLOSE(trace, 1 + 2 * cos(PI * i / 8), 1e-5);
     }
-    model_pose_free(&a);
     model_pose_free(&b);
-    model_free(&m);
 }
 
 static void test_the_teapot_faces_outwards(void)
 {
-    struct model m;
+    struct model m OWNED(model_free) = { 0 };
     if (!load_sample("classic/teapot.obj", &m))
         return;
     const struct model_primitive *p = &m.mesh[0].primitive[0];
@@ -1888,22 +1840,19 @@ static void test_the_teapot_faces_outwards(void)
                            a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
     }
     CHECK(volume > 100);
-    model_free(&m);
 }
 
 static void test_the_robot_is_posed_in_far_less_than_five_milliseconds(void)
 {
     enum { POSES = 50 };
-    struct model m;
-    struct model_pose pose = { 0 };
+    struct model m OWNED(model_free) = { 0 };
+    struct model_pose pose OWNED(model_pose_free) = { 0 };
     if (!load_sample("quaternius/RobotExpressive.glb", &m))
         return;
     clock_t start = clock();
     for (int i = 0; i < POSES; i++)
         CHECK(poses(&m, i % m.clip_count, i / 30.0, true, &pose));
     CHECK((double)(clock() - start) / CLOCKS_PER_SEC * 1000 / POSES < 5);
-    model_pose_free(&pose);
-    model_free(&m);
 }
 
 void suite_model(void)

@@ -454,7 +454,7 @@ static void check_strip(int edge, enum model_wrap wrap, double first, int want_s
         const uint32_t corners[6] = { a, a + 2, a + 1, a + 1, a + 2, a + 3 };
         memcpy(index + i * 6, corners, sizeof corners);
     }
-    struct image image;
+    struct image image OWNED(image_free) = { 0 };
     if (!CHECK(image_alloc(&image, edge, edge, &f)))
         return;
     struct scene_surface surface = surface_of(position, (STRIP + 1) * 2, index, STRIP * 2);
@@ -485,7 +485,6 @@ static void check_strip(int edge, enum model_wrap wrap, double first, int want_s
         }
     }
     presenter_free(presenter);
-    image_free(&image);
 }
 
 static void test_repeats_move_until_texels_are_resolved(void)
@@ -854,7 +853,7 @@ static void check_mean(smear_light_space light, int want)
     struct scene scene = mock_scene(&mock);
     struct presenter *presenter = presenter_new(&scene, &f);
     struct present_options options = plain;
-    struct image image = { 0 };
+    struct image image OWNED(image_free) = { 0 };
     options.light = light;
     if (CHECK(presenter_exact(presenter, 0.0, &options, 24, 24, 2, &image, &f))) {
         int wrong = 0;
@@ -864,7 +863,6 @@ static void check_mean(smear_light_space light, int want)
     } else {
         test_print(f.text);
     }
-    image_free(&image);
     presenter_free(presenter);
 }
 

@@ -190,7 +190,7 @@ static void test_ground_through_the_eye_plane_is_cut_at_near_and_far(void)
     camera.znear = 2.0;
     camera.zfar = 8.0;
     struct scene_instant now = instant_of(&draw, 1, camera);
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     if (!draw_now(&now, false, &frame))
         return;
     CHECK_EQ(count_drawn(&frame), 12 * SIZE);
@@ -204,7 +204,6 @@ static void test_ground_through_the_eye_plane_is_cut_at_near_and_far(void)
                 CHECK(isinf(frame.depth[at(x, y)]));
         }
     }
-    ref_frame_free(&frame);
 }
 
 static double triple(const double a[3], const double b[3], const double c[3])
@@ -257,7 +256,7 @@ static void test_wild_triangles_cover_what_rays_hit(void)
         surface.material.double_sided = true;
         struct scene_draw draw = draw_of(&surface);
         struct scene_instant now = instant_of(&draw, 1, camera);
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free) = { 0 };
         if (!draw_now(&now, false, &frame))
             return;
         for (int y = 0; y < SIZE; y++)
@@ -274,7 +273,6 @@ static void test_wild_triangles_cover_what_rays_hit(void)
                 drawn += inside;
                 cut += !isnan(d) && !inside;
             }
-        ref_frame_free(&frame);
     }
     CHECK_EQ(wrong, 0);
     CHECK(drawn > 150000 && cut > 40000);
@@ -342,7 +340,7 @@ static void test_inverse_depth_is_linear_on_the_screen(void)
 {
     float position[12];
     struct scene_camera camera = perspective();
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     place(position, &camera, 16, 16, 4.0);
     place(position + 3, &camera, 16, 48, 4.0);
     place(position + 6, &camera, 48, 48, 8.0);
@@ -356,7 +354,6 @@ static void test_inverse_depth_is_linear_on_the_screen(void)
         double share = (x + 0.5 - 16.0) / 32.0, d = 1.0 / (0.25 * (1.0 - share) + 0.125 * share);
         CHECK_CLOSE(frame.depth[at(x, 30)], d, 1e-6);
     }
-    ref_frame_free(&frame);
 }
 
 static void test_velocity_is_the_screen_path_of_the_surface_point(void)
@@ -441,7 +438,7 @@ static void test_cut_and_masked_draws_move_with_the_camera_only(void)
 
 static double lit_value(struct scene_surface *surface, const double world[16], bool encoded)
 {
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     struct scene_draw draw = draw_of(surface);
     if (world != NULL)
         memcpy(draw.world, world, sizeof draw.world);
@@ -449,7 +446,6 @@ static double lit_value(struct scene_surface *surface, const double world[16], b
     if (!draw_now(&now, encoded, &frame))
         return -1.0;
     double value = frame.triangle[at(32, 32)] >= 0 ? frame.color[3 * at(32, 32) + 1] : -2.0;
-    ref_frame_free(&frame);
     return value;
 }
 
@@ -573,7 +569,7 @@ static void test_texels_are_found_under_every_wrap_mode(void)
     for (int mode = 0; mode < 9; mode++) {
         struct scene_draw draw = draw_of(&surface);
         struct scene_instant now = instant_of(&draw, 1, camera);
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free) = { 0 };
         surface.material.wrap_u = modes[mode % 3];
         surface.material.wrap_v = modes[mode / 3];
         if (!draw_now(&now, true, &frame))
@@ -584,7 +580,6 @@ static void test_texels_are_found_under_every_wrap_mode(void)
                                            wrapped(y / 4 - 4, 2, surface.material.wrap_v));
                 CHECK_EQ(lround(frame.color[3 * at(x, y)] * 255.0), want);
             }
-        ref_frame_free(&frame);
     }
 }
 
@@ -602,7 +597,7 @@ static void test_bilinear_texels_mix_in_the_working_light(void)
     for (int encoded = 0; encoded < 2; encoded++) {
         struct scene_draw draw = draw_of(&surface);
         struct scene_instant now = instant_of(&draw, 1, camera);
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free) = { 0 };
         if (!draw_now(&now, encoded != 0, &frame))
             return;
         /* Pixel 5, 5 is at texel 1.375, 0.34: between columns 0 and 1, rows -1 and 0. */
@@ -614,7 +609,6 @@ static void test_bilinear_texels_mix_in_the_working_light(void)
         double v = 5.5 / 16.0 + 0.5, above = value[0] * 0.125 + value[1] * 0.875;
         double below = value[2] * 0.125 + value[3] * 0.875;
         CHECK_CLOSE(frame.color[3 * at(5, 5)], above * (1.0 - v) + below * v, 1e-9);
-        ref_frame_free(&frame);
     }
 }
 
@@ -638,7 +632,7 @@ static void test_texture_coordinates_are_perspective_correct(void)
     surface.material.image = &ramp;
     struct scene_draw draw = draw_of(&surface);
     struct scene_instant now = instant_of(&draw, 1, camera);
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     if (!draw_now(&now, true, &frame))
         return;
     for (int x = 16; x < 48; x++) {
@@ -646,7 +640,6 @@ static void test_texture_coordinates_are_perspective_correct(void)
         double u = share / 8.0 / ((1.0 - share) / 4.0 + share / 8.0);
         CHECK_EQ(lround(frame.color[3 * at(x, 30)] * 255.0), (long)floor(u * 256.0));
     }
-    ref_frame_free(&frame);
 }
 
 /* ------------------------------------------------------------------ cut-outs and blending */
@@ -666,7 +659,7 @@ static void test_cutouts_show_what_lies_behind_with_its_depth(void)
     surface[0].material.alpha = MODEL_ALPHA_MASK;
     struct scene_draw draw[2] = { draw_of(&surface[0]), draw_of(&surface[1]) };
     struct scene_instant now = instant_of(draw, 2, camera);
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     if (!draw_now(&now, false, &frame))
         return;
     for (int y = 0; y < SIZE; y++)
@@ -675,7 +668,6 @@ static void test_cutouts_show_what_lies_behind_with_its_depth(void)
             CHECK_EQ(frame.draw[at(x, y)], hole);
             CHECK_CLOSE(frame.depth[at(x, y)], hole ? 20.0 : 16.0, 1e-9);
         }
-    ref_frame_free(&frame);
 }
 
 static void test_blended_draws_mix_after_everything_opaque(void)
@@ -697,7 +689,7 @@ static void test_blended_draws_mix_after_everything_opaque(void)
     }
     for (int encoded = 0; encoded < 2; encoded++) {
         struct scene_instant now = instant_of(draw, 3, camera);
-        struct ref_frame frame;
+        struct ref_frame frame OWNED(ref_frame_free) = { 0 };
         if (!draw_now(&now, encoded != 0, &frame))
             return;
         /* Black over white, the far one is hidden; beside it, in submission order, white last. */
@@ -707,7 +699,6 @@ static void test_blended_draws_mix_after_everything_opaque(void)
         CHECK_CLOSE(frame.color[3 * at(50, 10) + 1], 0.25, 1e-9);
         CHECK_EQ(frame.triangle[at(50, 10)], -1);
         CHECK(isinf(frame.depth[at(50, 10)]));
-        ref_frame_free(&frame);
     }
 }
 
@@ -935,8 +926,8 @@ static void test_id_scene_shows_the_triangles_of_the_frame(void)
     if (!CHECK(ref_id_scene(&scene, &ids, &f)))
         return;
     for (int step = 0; step < 4; step++) {
-        struct ref_frame frame, id_frame;
-        struct image picture = {0};
+        struct ref_frame frame OWNED(ref_frame_free) = { 0 }, id_frame;
+        struct image picture OWNED(image_free) = {0};
         int wrong = 0, seen[6] = { 0 };
         if (!CHECK(scene_pose(&scene, 0.02 * step, &now, &f))
             || !CHECK(scene_pose(&ids, 0.02 * step, &id_now, &f)))
@@ -953,8 +944,6 @@ static void test_id_scene_shows_the_triangles_of_the_frame(void)
         CHECK_EQ(wrong, 0);
         CHECK(seen[0] == 0 && seen[1] == 0);
         CHECK(seen[2] > 0 && seen[3] > 0 && seen[4] > 0 && seen[5] > 0);
-        image_free(&picture);
-        ref_frame_free(&frame);
         ref_frame_free(&id_frame);
     }
     scene_instant_free(&scene, &now);
@@ -990,7 +979,7 @@ static void test_comparison_finds_each_planted_difference(void)
     struct scene_camera camera = orthographic();
     struct failure f = {{0}};
     struct ref_options options = { .width = SIZE, .height = SIZE };
-    struct ref_frame frame;
+    struct ref_frame frame OWNED(ref_frame_free) = { 0 };
     struct ref_difference d;
     place_quad(position, &camera, 8, 8, 56, 56, 16.0);
     struct scene_surface surface = surface_of(position, 4, quad_index, 2);
@@ -1035,7 +1024,6 @@ static void test_comparison_finds_each_planted_difference(void)
     planes.width = SIZE - 1;
     ref_compare(&frame, &planes, &d);
     CHECK(d.off_edge == SIZE * SIZE && isinf(d.depth_max) && isinf(d.color_rms));
-    ref_frame_free(&frame);
 }
 
 #include "build/suites/ref.h"

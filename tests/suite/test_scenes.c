@@ -411,7 +411,7 @@ static double error_of_none(struct shown *s)
     struct ref_truth_options options = {.time = s->scene.time, .shutter_degrees = 180,
                                         .instants = 24, .encoded = true, .threads = 2};
     struct ref_truth truth = {0};
-    struct ref_frame sharp = {0};
+    struct ref_frame sharp OWNED(ref_frame_free) = {0};
     double sum = -1;
     if (draw_at(s, s->scene.time, s->scene.time, &sharp) &&
         CHECK(ref_truth(&s->scene, &options, &truth, &s->f))) {
@@ -421,7 +421,6 @@ static double error_of_none(struct shown *s)
             sum += pow(255 * sharp.color[i] - truth.code[i], 2) / values;
     }
     ref_truth_free(&truth);
-    ref_frame_free(&sharp);
     return sqrt(sum);
 }
 
@@ -759,7 +758,7 @@ static void test_impossible_views_are_refused(void)
         {.clip = MODEL_CLIP_NONE, .camera = -1, .has_eye = true, .eye = {NAN, 1, 1},
          .fov_degrees = 45},
     };
-    struct model model;
+    struct model model OWNED(model_free) = { 0 };
     struct failure parse = {0};
     if (!CHECK(model_parse((const uint8_t *)gltf_text, strlen(gltf_text), NULL, &model, &parse)))
         return;
@@ -769,7 +768,6 @@ static void test_impossible_views_are_refused(void)
         CHECK(!scene_from_model(&model, &bad[i], &scene, &f));
         CHECK(f.text[0] != '\0');
     }
-    model_free(&model);
 }
 
 #include "build/suites/scenes.h"

@@ -230,7 +230,7 @@ static void test_codes_are_those_of_picture_files(void)
     for (int format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++) {
         struct failure f = { "" };
         struct panel_codes c;
-        struct image image;
+        struct image image OWNED(image_free) = { 0 };
         size_t stride = EDGE * 4;
         if (!CHECK(panel_codes_open(&c, (smear_format)format, &f)) ||
             !CHECK(image_alloc(&image, EDGE, EDGE, &f)))
@@ -246,7 +246,6 @@ static void test_codes_are_those_of_picture_files(void)
                                 (uint32_t)image.rgba[4 * i + 1] << 8 | image.rgba[4 * i + 2]);
         CHECK_EQ(wrong, 0);
         panel_codes_close(&c);
-        image_free(&image);
     }
 }
 
@@ -469,7 +468,7 @@ static void test_recorded_input_is_played(void)
 static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
 {
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant a = { 0 }, b = { 0 };
     if (!CHECK(scene_builtin("demo/race", &scene, &f)))
@@ -483,14 +482,13 @@ static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
     CHECK(memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
     scene_instant_free(&scene, &a);
     scene_instant_free(&orbit.scene, &b);
-    scene_free(&scene);
 }
 
 /* After half a second of a round in two, the eye is a quarter further, and it is back after all of it. */
 static void test_a_turntable_goes_round(void)
 {
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant own = { 0 }, turned = { 0 };
     if (!CHECK(scene_builtin("peer/E", &scene, &f)))
@@ -510,14 +508,13 @@ static void test_a_turntable_goes_round(void)
     CHECK(!orbit_is_turned(&orbit));
     scene_instant_free(&scene, &own);
     scene_instant_free(&orbit.scene, &turned);
-    scene_free(&scene);
 }
 
 /* What the camera looks at stays in the middle, at the distance that was asked for. */
 static void test_a_turned_camera_looks_at_the_same_point(void)
 {
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant own = { 0 }, turned = { 0 };
     if (!CHECK(scene_builtin("demo/race", &scene, &f)))
@@ -542,7 +539,6 @@ static void test_a_turned_camera_looks_at_the_same_point(void)
     }
     scene_instant_free(&scene, &own);
     scene_instant_free(&orbit.scene, &turned);
-    scene_free(&scene);
 }
 
 /* ------------------------------------------------------------------ wires */
@@ -553,7 +549,7 @@ static void test_wires_lie_on_what_is_drawn(void)
     enum { WIDTH = 160, HEIGHT = 120 };
     static uint32_t picture[WIDTH * HEIGHT];
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct image sharp;
     if (!CHECK(scene_builtin("peer/E", &scene, &f)))
         return;
@@ -582,7 +578,6 @@ static void test_wires_lie_on_what_is_drawn(void)
     CHECK(wires > 1000);
     CHECK_EQ(off, 0);
     presenter_free(p);
-    scene_free(&scene);
 }
 
 /* ------------------------------------------------------------------ tiles */
@@ -646,7 +641,7 @@ static void test_tiles_are_noted_as_they_are_counted(void)
     static const char *const scenes[] = { "demo/drone", "suite/textured" };
     struct failure f = { "" };
     for (int k = 0; k < 2; k++) {
-        struct scene scene;
+        struct scene scene OWNED(scene_free) = { 0 };
         if (!CHECK(scene_builtin(scenes[k], &scene, &f)))
             return;
         struct presenter *p = presenter_new(&scene, &f);
@@ -656,7 +651,6 @@ static void test_tiles_are_noted_as_they_are_counted(void)
             check_tiles(p, &o, !smear_method_is_filter((int)method) && method != SMEAR_AUTO);
         }
         presenter_free(p);
-        scene_free(&scene);
     }
 }
 
@@ -665,7 +659,7 @@ static void test_tiles_that_are_not_sent_are_noted_as_still(void)
 {
     enum { WIDTH = 250, HEIGHT = 130, FRAMES = 4 };
     struct failure f = { "" };
-    struct scene scene;
+    struct scene scene OWNED(scene_free) = { 0 };
     struct noted n = { .ctx = NULL };
     struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = SMEAR_AUTO };
     if (!CHECK(scene_builtin("suite/propeller", &scene, &f) && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
@@ -704,7 +698,6 @@ static void test_tiles_that_are_not_sent_are_noted_as_still(void)
     free(memory);
     tiles_close(&n.tiles);
     presenter_free(p);
-    scene_free(&scene);
 }
 
 /* ------------------------------------------------------------------ cookies, boards */
