@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # house.sh [-l] - how src/ is built, measured: longest functions and files, branches, switches and the whole context in
-# the top floor, lines of the core: all rooms but OTHERS="FOLDER...". Fails where one of the limits below is passed; -l lists all
-# that comes near one.
+# the top floor, lines of the core: all rooms but OTHERS="FOLDER...". And what lies at the top of the repository, as git has it. Fails
+# where one of the limits below is passed, or something lies there that is not in TOP; -l lists all that comes near a limit.
 #
 # A function runs from its first line to its closing brace; a branch is an if, for, while, case, ?, && or ||.
 set -u
 FUNCTION_LINES=60 FUNCTION_BRANCHES=25 FILE_LINES=700 FRAME_LINES=250 TOP_SWITCHES=30 CONTEXT_SOURCES=4 OTHER_SOURCES=6 SWITCHES=27
 CORE_LINES=39500 RASTER_HEADERS=30
+TOP="src include platform tests tools Makefile README.md LICENSE .ci .clang-format .editorconfig .gitignore"
 list=0
 [ "${1:-}" != -l ] || list=1
 
@@ -91,4 +92,17 @@ count "headers of raster.c, with those of these" "$(${CC:-cc} -std=c11 -Iinclude
     grep -E '^(src|include)/.*\.h$' | sort -u | wc -l)" "$RASTER_HEADERS"
 count "lines of frame.c" "$(wc -l <src/frame.c)" "$FRAME_LINES"
 count "switches" "$(grep "^#ifndef SMEAR_WITH_" include/smear_config.h | grep -vc _ALL)" "$SWITCHES"
+# Without git, as in a package, there is nothing to ask.
+top=$(git ls-files 2>/dev/null | cut -d/ -f1 | LC_ALL=C sort -u | tr '\n' ' ')
+strange=
+for name in $top; do case " $TOP " in *" $name "*) ;; *) strange="$strange $name" ;; esac; done
+for name in ${top:+$TOP}; do case " $top" in *" $name "*) ;; *) strange="$strange -$name" ;; esac; done
+if [ -z "$top" ]; then
+    echo "house: top of the repository: skipped, there is no git"
+elif [ -z "$strange" ]; then
+    echo "house: top of the repository: $(echo $top | wc -w) entries, those of the list"
+else
+    echo "house: top of the repository: other than TOP (-: not there):$strange"
+    status=1
+fi
 exit $status
