@@ -6,7 +6,7 @@
 #
 # Fails where fewer than `least` of 100 branches are taken, or more than `spare` are missed that the list does not have.
 FNR == 1 { list = ++files == 1 }
-list && /^src\// { listed[$1 " " $2] = $3; next }
+list && /^src\// { for (i = 2; i < NF; i += 2) listed[$1 " " $i] += $(i + 1); next }
 list { next }
 /^ +-: +0:Source:/ { file = substr($0, index($0, "Source:") + 7); next }
 /^function / { name = $2; next }
