@@ -342,8 +342,12 @@ VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
 
-# What runs the tests of a file, which its last line includes.
-SUITE_LISTS := $(ALL_SUITES:%=build/suites/%.h)
+# What runs the tests of a file, which its last line includes; and the model of tests/data/arm.gltf in words, low byte first.
+SUITE_LISTS := $(ALL_SUITES:%=build/suites/%.h) build/suites/arm_blob.h
+build/suites/arm_blob.h: tests/fuzz/corpus/blob/arm
+	@mkdir -p $(@D)
+	(echo 'static const uint32_t arm_blob[] = {'; \
+	    tail -c +8 $< | od -An -v -tx1 -w4 | sed 's/ \(..\) \(..\) \(..\) \(..\)/0x\4\3\2\1u,/'; echo '};') > $@
 build/suites/%.h: tests/unit/test_%.c tests/suites.awk
 	@mkdir -p $(@D)
 	awk -v suite=$* -f tests/suites.awk $< > $@

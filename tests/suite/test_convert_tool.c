@@ -12,7 +12,7 @@
 
 #include <sys/stat.h>
 
-#include "tests/data/arm_blob.h"
+#include "build/suites/arm_blob.h"
 
 enum { WIDTH = 320, HEIGHT = 240 };
 
@@ -497,11 +497,7 @@ static void test_the_header_and_the_blob_in_the_tests_are_what_the_tool_writes(v
         free(made);
     }
     made = blob_of(&file.result, &made_size);
-    if (made != NULL && CHECK_EQ((int64_t)made_size, (int64_t)sizeof arm_blob))
-        for (size_t i = 0; i < made_size; i++)
-            if (!CHECK_EQ(made[i], arm_blob[i / 4] >> i % 4 * 8 & 255))
-                break;
-    /* the fuzzer's seed, so that it starts from a good one; its first seven bytes are the fuzzer's own */
+    /* The fuzzer's seed, of which the Makefile makes arm_blob; its first seven bytes are the fuzzer's own. */
     if (made != NULL && CHECK(file_read("tests/fuzz/corpus/blob/arm", 1 << 20, &kept, &kept_size, &f))) {
         CHECK(kept_size == made_size + 7 && memcmp(kept + 7, made, made_size) == 0);
         free(kept);

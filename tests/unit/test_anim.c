@@ -3,7 +3,7 @@
  * neither libc nor floating point. The last tests play what `smear convert` made of tests/data/arm.gltf, and the numbers
  * must be the same on every machine. */
 #include "tests/data/arm.h"
-#include "tests/data/arm_blob.h"
+#include "build/suites/arm_blob.h"
 
 #include "base/crc32.h"
 #include "model/skin.h"
