@@ -12,7 +12,6 @@
 
 #include <sys/stat.h>
 
-#include "build/suites/arm_blob.h"
 
 enum { WIDTH = 320, HEIGHT = 240 };
 

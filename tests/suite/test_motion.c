@@ -20,7 +20,10 @@ struct stage {
     smear_frame frame;
 };
 
-static void stage_make(struct stage *s, int method)
+/* The wall and the square take velocities of their vertices; or of depth, where they do not move themselves. */
+enum { VERTICES, DEPTH, SOURCES };
+
+static void stage_make(struct stage *s, int method, int source)
 {
     memset(s, 0, sizeof *s);
     s->wall = s->wall_before = pose_at(0, 0, -20, 0, 0);
@@ -33,15 +36,15 @@ static void stage_make(struct stage *s, int method)
     s->draw[0] = (smear_draw){ .mesh = &square, .material = &s->material[0], .now = &s->wall, .open = &s->wall_before };
     s->draw[1] = (smear_draw){ .mesh = &square, .material = &s->material[1], .now = &s->square,
                                .open = &s->square_before };
-    s->frame = (smear_frame){ .camera = &s->camera, .open = &s->before, .method = (uint8_t)method };
+    s->frame = (smear_frame){ .camera = &s->camera, .open = &s->before, .method = (uint8_t)method, .filter.camera_step = source == DEPTH };
 }
 
-static bool stage_open(struct rig *r)
-{
-    smear_desc desc = small_desc(WIDTH, HEIGHT);
-    desc.methods = SMEAR_SET_FILTERS;
-    return rig_begin(r, &desc, true);
-}
+/* A stage, and a rig that looks at it. */
+#define STAGE(r, s) \
+    struct stage s; \
+    smear_desc s##_desc = small_desc(WIDTH, HEIGHT); \
+    s##_desc.methods = SMEAR_SET_FILTERS; \
+    RIG(r, &s##_desc, true)
 
 static bool stage_draw(struct rig *r, const struct stage *s)
 {
@@ -58,25 +61,13 @@ static const int32_t *velocity_at(const struct rig *r, int x, int y)
 static const int32_t *of_square(const struct rig *r) { return velocity_at(r, WIDTH / 2, HEIGHT / 2); }
 static const int32_t *of_wall(const struct rig *r) { return velocity_at(r, 6, 6); }
 
-/* The wall and the square take velocities of their vertices; or of depth, where they do not move themselves. */
-enum { VERTICES, DEPTH, SOURCES };
-
-static void stage_source(struct stage *s, int source)
-{
-    s->frame.filter.camera_step = source == DEPTH;
-}
-
 /* ------------------------------------------------------------------ motion modes */
 
 static void test_motion_none_writes_zero_over_what_moves_behind(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int source = 0; source < SOURCES; source++) {
-        stage_make(&s, SMEAR_RECONSTRUCT);
-        stage_source(&s, source);
+        stage_make(&s, SMEAR_RECONSTRUCT, source);
         s.before = camera_at(0.3, 0, 0, 0.05);
         s.wall_before.origin[0] += q16(1.0);
         s.square_before.origin[0] -= q16(0.5);
@@ -89,19 +80,14 @@ static void test_motion_none_writes_zero_over_what_moves_behind(void)
                 CHECK(velocity_at(&r, x, y)[0] == 0 && velocity_at(&r, x, y)[1] == 0);
         CHECK_EQ(r.inspected, HEIGHT);
     }
-    rig_end(&r);
 }
 
 static void test_motion_camera_leaves_the_objects_own_motion_out(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int source = 0; source < SOURCES; source++) {
         int32_t still[2], moved[2];
-        stage_make(&s, SMEAR_RECONSTRUCT);
-        stage_source(&s, source);
+        stage_make(&s, SMEAR_RECONSTRUCT, source);
         s.before = camera_at(0.1, 0, 0, 0);
         stage_draw(&r, &s);
         memcpy(still, of_square(&r), sizeof still);
@@ -116,25 +102,20 @@ static void test_motion_camera_leaves_the_objects_own_motion_out(void)
         /* 0.1 units at a distance of 4, 32 pixels per unit of tangent. */
         CHECK_NEAR(still[0], 256 * 32 / 40, 6);
     }
-    rig_end(&r);
 }
 
 static void test_only_draws_that_move_themselves_have_velocities_of_vertices(void)
 {
-    struct rig r;
-    struct stage s;
+    STAGE(r, s);
     smear_stats stats;
     static int16_t bent[12];
     memcpy(bent, square_position, sizeof bent);
     bent[1] += 20;
-    if (!stage_open(&r))
-        return;
     /* what moves: nothing, the camera, the square, it bends, it is opted out, it is cut */
     static const uint8_t wanted[6][SOURCES] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 2, 1 }, { 1, 0 }, { 2, 0 } };
     for (int what = 0; what < 6; what++)
         for (int source = 0; source < SOURCES; source++) {
-            stage_make(&s, SMEAR_RECONSTRUCT);
-            stage_source(&s, source);
+            stage_make(&s, SMEAR_RECONSTRUCT, source);
             if (what > 0)
                 s.before = camera_at(0.1, 0, 0, 0);
             if (what >= 2 && what != 3)
@@ -152,24 +133,19 @@ static void test_only_draws_that_move_themselves_have_velocities_of_vertices(voi
             smear_get_stats(r.ctx, &stats);
             CHECK_EQ(stats.draws_moved, 0);
         }
-    rig_end(&r);
 }
 
 static void test_a_cutout_cuts_velocity_and_a_blended_draw_writes_none(void)
 {
-    struct rig r;
-    struct stage s;
+    STAGE(r, s);
     static uint32_t texel[16];
     static const smear_texture holes = { .texels = texel, .width = 4, .height = 4 };
     for (uint32_t i = 0; i < 16; i++)
         texel[i] = (i ^ i >> 2) & 1u ? 0xffffffffu : 0x00ffffffu;
-    if (!stage_open(&r))
-        return;
     for (int source = 0; source < SOURCES; source++)
         for (int alpha = SMEAR_CUTOUT; alpha <= SMEAR_BLEND; alpha++) {
             int own = 0, behind = 0;
-            stage_make(&s, SMEAR_RECONSTRUCT);
-            stage_source(&s, source);
+            stage_make(&s, SMEAR_RECONSTRUCT, source);
             s.before = camera_at(0.2, 0, 0, 0);
             s.square_before.origin[0] = q16(-0.6);
             s.material[1].texture = &holes;
@@ -187,18 +163,13 @@ static void test_a_cutout_cuts_velocity_and_a_blended_draw_writes_none(void)
             CHECK_EQ(own != 0, alpha == SMEAR_CUTOUT);
             CHECK(behind > 60);
         }
-    rig_end(&r);
 }
 
 static void test_a_zoom_moves_all_but_the_middle(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int source = 0; source < SOURCES; source++) {
-        stage_make(&s, SMEAR_RECONSTRUCT);
-        stage_source(&s, source);
+        stage_make(&s, SMEAR_RECONSTRUCT, source);
         s.before.focal = s.camera.focal * 10 / 11;
         stage_draw(&r, &s);
         for (int y = 0; y < HEIGHT; y++)
@@ -209,22 +180,17 @@ static void test_a_zoom_moves_all_but_the_middle(void)
                 CHECK_CLOSE((double)velocity_at(&r, x, y)[1], dy, 3.0);
             }
     }
-    rig_end(&r);
 }
 
 static void test_vertex_animation_takes_previous_positions_and_another_count_is_rigid(void)
 {
-    struct rig r;
-    struct stage s;
+    STAGE(r, s);
     static int16_t before[12];
     for (int i = 0; i < 12; i++)
         before[i] = (int16_t)(square_position[i] - (i % 3 == 1 ? 32 : 0));      /* 1/8 unit below */
-    if (!stage_open(&r))
-        return;
     for (int source = 0; source < SOURCES; source++)
         for (int method = SMEAR_RECONSTRUCT; method <= SMEAR_PINGPONG; method += SMEAR_PINGPONG - SMEAR_RECONSTRUCT) {
-            stage_make(&s, method);
-            stage_source(&s, source);
+            stage_make(&s, method, source);
             s.square_before.origin[0] = q16(-0.25);
             s.draw[1].open_position = before;
             stage_draw(&r, &s);
@@ -239,23 +205,18 @@ static void test_vertex_animation_takes_previous_positions_and_another_count_is_
             CHECK_NEAR(of_square(&r)[0], 512, 4);
             CHECK_NEAR(of_square(&r)[1], 0, 1);
         }
-    rig_end(&r);
 }
 
 static void test_billboards_turn_with_the_camera_of_each_pose(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int upright = 0; upright < 2; upright++)
         for (int source = 0; source < SOURCES; source++) {
             int32_t *told = malloc(sizeof *told * 2 * WIDTH * HEIGHT);
             if (!CHECK(told != NULL))
                 continue;
             /* The camera circles the square by 10 degrees. Told by hand: the basis of each pose. */
-            stage_make(&s, SMEAR_RECONSTRUCT);
-            stage_source(&s, source);
+            stage_make(&s, SMEAR_RECONSTRUCT, source);
             double angle = 10 * 3.14159265 / 180, turn = 0.3;
             s.camera = camera_at(4 * sin(turn), 0, -4 + 4 * cos(turn), turn);
             s.before = camera_at(4 * sin(turn - angle), 0, -4 + 4 * cos(turn - angle), turn - angle);
@@ -280,19 +241,15 @@ static void test_billboards_turn_with_the_camera_of_each_pose(void)
             CHECK_EQ(smear_error_kind(rig_frame(&r, &s.frame, s.draw, 2)), SMEAR_ERR_ARG);
             free(told);
         }
-    rig_end(&r);
 }
 
 /* Looking down, an upright board keeps standing, a facing one lies down. */
 static void test_upright_billboards_stay_upright(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     int rows[2] = { 0, 0 };
     for (int upright = 0; upright < 2; upright++) {
-        stage_make(&s, SMEAR_RECONSTRUCT);
+        stage_make(&s, SMEAR_RECONSTRUCT, VERTICES);
         s.camera.pose = s.before.pose = pose_at(0, 3, -1, 0, -0.8);
         s.draw[1].billboard = (uint8_t)(upright ? SMEAR_BILLBOARD_UPRIGHT : SMEAR_BILLBOARD_FACING);
         stage_draw(&r, &s);
@@ -300,7 +257,6 @@ static void test_upright_billboards_stay_upright(void)
             rows[upright] += r.color[y * WIDTH + WIDTH / 2] == 0xc8dcff;
     }
     CHECK(rows[0] > rows[1] + 3 && rows[1] > 4);
-    rig_end(&r);
 }
 
 /* ------------------------------------------------------------------ still to the eye */
@@ -348,16 +304,13 @@ static bool differences(struct rig *r, const struct stage *s, int count[2])
 
 static void test_what_is_still_to_the_eye_is_the_sharp_frames_bit_for_bit(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     make_checker();
     for (int w = 0; w < WAYS; w++)
         for (int frame = 0; frame < 6; frame++) {
             int count[2];
             double turn = 0.06 * frame, way = 0.2 * frame;
-            stage_make(&s, SMEAR_NONE);
+            stage_make(&s, SMEAR_NONE, VERTICES);
             s.material[0].texture = &checker_texture;
             stage_way(&s, &ways[w]);
             /* Attached to the camera, which moves and turns; not opted out. */
@@ -377,21 +330,17 @@ static void test_what_is_still_to_the_eye_is_the_sharp_frames_bit_for_bit(void)
             if (!differences(&r, &s, count) || !CHECK_EQ(count[0] + count[1], 0))
                 say("      cut: way %d, frame %d\n", w, frame);
         }
-    rig_end(&r);
 }
 
 /* Through ids: the library keeps the poses. */
 static void test_the_blur_ends_in_the_frame_in_which_motion_ends(void)
 {
     for (int w = 0; w < WAYS; w++) {
-        struct rig r;
-        struct stage s;
-        if (!stage_open(&r))
-            return;
+        STAGE(r, s);
         for (int frame = 0; frame < 8; frame++) {
             bool object = ways[w].method != SMEAR_CAMERA;
             double at = 0.4 * (frame < 5 ? frame : 4);
-            stage_make(&s, SMEAR_NONE);
+            stage_make(&s, SMEAR_NONE, VERTICES);
             stage_way(&s, &ways[w]);
             s.material[0].texture = &checker_texture;
             s.frame.open = NULL;
@@ -406,18 +355,14 @@ static void test_the_blur_ends_in_the_frame_in_which_motion_ends(void)
             uint8_t *blurred = rig_copy(&r, &s.frame, s.draw, 2);
             s.frame.method = SMEAR_NONE;
             s.frame.cut = 1;
-            struct rig sharp;
-            if (blurred != NULL && stage_open(&sharp)) {
-                uint8_t *picture = rig_copy(&sharp, &s.frame, s.draw, 2);
-                bool same = picture != NULL && memcmp(picture, blurred, WIDTH * HEIGHT * 4) == 0;
-                if (!CHECK_EQ(same, frame == 0 || frame >= 5))
-                    say("      way %d, frame %d\n", w, frame);
-                free(picture);
-                rig_end(&sharp);
-            }
+            RIG(sharp, &s_desc, true);
+            uint8_t *picture = rig_copy(&sharp, &s.frame, s.draw, 2);
+            bool same = blurred != NULL && picture != NULL && memcmp(picture, blurred, WIDTH * HEIGHT * 4) == 0;
+            if (!CHECK_EQ(same, frame == 0 || frame >= 5))
+                say("      way %d, frame %d\n", w, frame);
+            free(picture);
             free(blurred);
         }
-        rig_end(&r);
     }
 }
 
@@ -425,15 +370,11 @@ static void test_the_blur_ends_in_the_frame_in_which_motion_ends(void)
 
 static void test_rotation_translation_and_objects_scale_apart(void)
 {
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int source = 0; source < SOURCES; source++) {
         int32_t part[3][2];             /* of the square: the camera turns, it goes, the square moves */
         for (int i = 0; i < 3; i++) {
-            stage_make(&s, SMEAR_RECONSTRUCT);
-            stage_source(&s, source);
+            stage_make(&s, SMEAR_RECONSTRUCT, source);
             s.before = camera_at(i == 1 ? 0.15 : 0, 0, 0, i == 0 ? 0.04 : 0);
             s.square_before.origin[1] = i == 2 ? q16(0.25) : 0;
             stage_draw(&r, &s);
@@ -444,8 +385,7 @@ static void test_rotation_translation_and_objects_scale_apart(void)
         static const double factor[] = { 0, 0.25, 1, 1, 2 };
         for (int i = 0; i < 125; i++) {
             int k[3] = { i % 5, i / 5 % 5, i / 25 };
-            stage_make(&s, SMEAR_RECONSTRUCT);
-            stage_source(&s, source);
+            stage_make(&s, SMEAR_RECONSTRUCT, source);
             s.before = camera_at(0.15, 0, 0, 0.04);
             s.square_before.origin[1] = q16(0.25);
             s.frame.scale.rotation = scale[k[0]];
@@ -467,7 +407,6 @@ static void test_rotation_translation_and_objects_scale_apart(void)
         s.frame.scale.rotation = 16129;
         CHECK_EQ(smear_error_kind(rig_frame(&r, &s.frame, s.draw, 2)), SMEAR_ERR_ARG);
     }
-    rig_end(&r);
 }
 
 /* Scaled by k, a vertex that was d away was k d away; velocities, and pictures of all methods that take poses. */
@@ -494,7 +433,7 @@ static void test_deformation_scales_with_objects(void)
                     told[0][k] = (int16_t)(square_position[k] - way * by / 256);
                     told[1][k] = (int16_t)(square_position[k] + 2 * way * by / 256);
                 }
-                stage_make(&s, methods[m]);
+                stage_make(&s, methods[m], VERTICES);
                 s.frame.samples = 16;
                 s.frame.shutter.poses = (uint8_t)poses;
                 s.draw[1].close = poses ? &s.square : NULL;
@@ -551,7 +490,7 @@ static void test_vertices_follow_the_curve_of_three_poses(void)
         uint8_t *picture[2];
         for (int poses = 0; poses < 2; poses++) {
             struct stage s;
-            stage_make(&s, methods[m]);
+            stage_make(&s, methods[m], VERTICES);
             s.frame.samples = 16;
             s.frame.shutter.poses = (uint8_t)poses;
             s.draw[1].close = &s.square;
@@ -603,7 +542,7 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
             for (int i = 0; i < 8; i++) {
                 /* 1200 px per second: 20 px in the half of a frame at 30 Hz. */
                 double way = 1200.0 / rate[i] / 8;
-                stage_make(&s, methods[m]);
+                stage_make(&s, methods[m], VERTICES);
                 s.square_before.origin[0] = q16(-way);
                 s.frame.samples = methods[m] == SMEAR_ACCUMULATE ? 128 : 32;
                 s.frame.target = SMEAR_FINE;
@@ -634,13 +573,10 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
 static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
 {
     static const uint32_t rate[] = { 144, 60, 30, 10, 7 };
-    struct rig r;
-    struct stage s;
-    if (!stage_open(&r))
-        return;
+    STAGE(r, s);
     for (int i = 0; i < 5; i++)
         for (int degrees = 5; degrees <= 360; degrees += 71) {
-            stage_make(&s, SMEAR_RECONSTRUCT);
+            stage_make(&s, SMEAR_RECONSTRUCT, VERTICES);
             s.square_before.origin[0] = q16(-600.0 / rate[i] / 8);
             s.frame.shutter.frame_us = 1000000 / rate[i];
             s.frame.shutter.mode = SMEAR_SHUTTER_FIXED;
@@ -649,7 +585,6 @@ static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
             CHECK(of_square(&r)[0] > 0);
             CHECK_CLOSE(smear_probe(r.ctx).half_exposure / 16777216.0 * 2 / rate[i], degrees / 360.0 / 30, 1e-6 + degrees * 1e-7);
         }
-    rig_end(&r);
 }
 
 #include "build/suites/motion.h"

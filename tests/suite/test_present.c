@@ -85,6 +85,17 @@ static struct scene mock_scene(struct mock *mock)
                            .instant_free = mock_instant_free, .data = mock };
 }
 
+static void put_away(struct presenter **presenter)
+{
+    presenter_free(*presenter);
+}
+
+/* A presenter of a mock's scene; f says what goes wrong. */
+#define PRESENTER(name, mock) \
+    struct failure f = { "" }; \
+    struct scene scene = mock_scene(mock); \
+    struct presenter *name OWNED(put_away) = presenter_new(&scene, &f)
+
 /* One draw at the identity, seen by a camera of 60 degrees at the origin. */
 static struct mock mock_of(const struct scene_surface *surface)
 {
@@ -110,6 +121,11 @@ static struct scene_surface surface_of(const float *position, int vertices, cons
         .material = { .base = { 1.0f, 1.0f, 1.0f, 1.0f }, .alpha_cutoff = 0.5f },
     };
 }
+
+/* A tetrahedron, and its scene. */
+#define MOCK(surface, mock) \
+    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4); \
+    struct mock mock = mock_of(&surface)
 
 static const struct present_options plain = { .fps = 30, .shutter_degrees = 180 };
 
@@ -202,9 +218,7 @@ static double worst_error(const struct presented *presented, struct scene *scene
 /* Presents `mock` and checks the three poses to within `slack` pixels. */
 static void check_poses(struct mock *mock, double time, double slack)
 {
-    struct failure f = { "" };
-    struct scene scene = mock_scene(mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, mock);
     struct present_options options = plain;
     double open, close;
     const struct presented *p = presenter_frame(presenter, time, &options, &f);
@@ -223,15 +237,13 @@ static void check_poses(struct mock *mock, double time, double slack)
         CHECK_CLOSE(worst_error(p, &scene, 2, close), 0.0, slack);
         CHECK(p->frame.shutter.poses);
     }
-    presenter_free(presenter);
 }
 
 /* ------------------------------------------------------------------ places and sizes */
 
 static void test_vertices_arrive_where_they_are(void)
 {
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     mock.spin = 0.7;
     mock.velocity[0] = 1.5;
     mock.camera_velocity[2] = -0.4;
@@ -242,8 +254,7 @@ static void test_vertices_arrive_where_they_are(void)
 static void test_scenes_of_any_size_arrive(void)
 {
     for (int exponent = -30; exponent <= 30; exponent += 6) {
-        struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-        struct mock mock = mock_of(&surface);
+        MOCK(surface, mock);
         double size = ldexp(1.3, exponent);
         for (int i = 0; i < 12; i++)
             mock.draw[0].world[i] *= i % 4 != 3 ? size : 1.0;
@@ -257,8 +268,7 @@ static void test_scenes_of_any_size_arrive(void)
 
 static void test_scenes_far_from_the_origin_arrive(void)
 {
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     for (int axis = 0; axis < 3; axis++) {
         mock.draw[0].world[12 + axis] = 1e7 + axis;
         mock.camera.pose[12 + axis] = 1e7 + axis;
@@ -283,8 +293,7 @@ static void test_small_things_far_from_their_own_origin_arrive(void)
 
 static void test_stretched_and_mirrored_draws_arrive(void)
 {
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     mock.draw[0].world[0] = -300.0;
     mock.draw[0].world[4] = 0.4;
     mock.draw[0].world[5] = 0.01;
@@ -303,8 +312,7 @@ static void test_a_point_of_a_mesh_arrives(void)
 
 static void test_orthographic_cameras_arrive(void)
 {
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     mock.camera.orthographic = true;
     mock.camera.half_height = 1.1;
     mock.camera.znear = 0.0;
@@ -317,12 +325,9 @@ static void test_orthographic_cameras_arrive(void)
 
 static void test_rotations_keep_their_scale(void)
 {
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
+    MOCK(surface, mock);
     mock.spin = 1.0;
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, &mock);
     int shift = 0;
     for (int i = 0; i < 40; i++) {
         const struct presented *p = presenter_frame(presenter, i * 0.1, &plain, &f);
@@ -333,16 +338,12 @@ static void test_rotations_keep_their_scale(void)
         shift = p->draw[0].mesh->shift;
         CHECK(p->draw[0].mesh->scale >= 1 << 29 && p->draw[0].mesh->scale <= 1 << 30);
     }
-    presenter_free(presenter);
 }
 
 static void test_the_whole_range_of_int16_is_used(void)
 {
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    MOCK(surface, mock);
+    PRESENTER(presenter, &mock);
     const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
     int lowest = 0, highest = 0;
     for (int i = 0; p != NULL && i < 12; i++) {
@@ -352,7 +353,6 @@ static void test_the_whole_range_of_int16_is_used(void)
     }
     CHECK_NEAR(lowest, -32767, 2);
     CHECK_NEAR(highest, 32767, 2);
-    presenter_free(presenter);
 }
 
 static void test_surfaces_of_a_node_share_their_grid(void)
@@ -361,15 +361,13 @@ static void test_surfaces_of_a_node_share_their_grid(void)
     for (int i = 0; i < 12; i++)
         other[i] = tetrahedron[i] * 3.7f;
     memcpy(other + 3, tetrahedron + 3, 3 * sizeof *other);
-    struct failure f = { "" };
     struct scene_surface a = surface_of(tetrahedron, 4, tetrahedron_index, 4);
     struct scene_surface b = surface_of(other, 4, tetrahedron_index, 4);
     struct mock mock = mock_of(&a);
     mock.draw_count = 2;
     mock.draw[1].surface = &b;
     mock.draw[0].node = mock.draw[1].node = 3;
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, &mock);
     const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
     if (CHECK(p != NULL && p->draw_count == 2)) {
         const smear_mesh *first = p->draw[0].mesh, *second = p->draw[1].mesh;
@@ -378,15 +376,13 @@ static void test_surfaces_of_a_node_share_their_grid(void)
         CHECK_EQ(first->scale, second->scale);
         CHECK_EQ(first->shift, second->shift);
     }
-    presenter_free(presenter);
 }
 
 static void test_deformed_poses_share_their_grid(void)
 {
     static const float later[12] = { -1.7f, -0.51f, -5.2f, 2.83f, -0.49f, -2.9f,
                                      0.013f, 1.77f, -3.1f, 0.11f, -0.12f, -1.53f };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     mock.draw[0].deformed = true;
     mock.later_position = later;
     mock.velocity[0] = 0.3;
@@ -398,9 +394,7 @@ static void test_deformed_poses_share_their_grid(void)
 
 static void check_depth(struct mock *mock, double nearest, double slack)
 {
-    struct failure f = { "" };
-    struct scene scene = mock_scene(mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, mock);
     const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
     if (CHECK(p != NULL)) {
         double near_plane = p->near_plane / p->world_scale - p->camera_back / p->world_scale;
@@ -413,13 +407,11 @@ static void check_depth(struct mock *mock, double nearest, double slack)
             code--;
         CHECK_CLOSE(presented_depth(p, code), nearest, slack);
     }
-    presenter_free(presenter);
 }
 
 static void test_depth_codes_become_scene_units(void)
 {
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
+    MOCK(surface, mock);
     double nearest = -(double)tetrahedron[11];
     check_depth(&mock, nearest, nearest / 1000);
     mock.camera.znear = 1e-5;       /* moved out, or a step would be a tenth of the distance */
@@ -659,11 +651,8 @@ static void test_other_poses_are_taken_at_the_right_times(void)
         { SMEAR_TRAILING, 1.0 - 1.5 / 60, 1.0 },
         { SMEAR_LEADING, 1.0, 1.0 + 1.5 / 60 },
     };
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    MOCK(surface, mock);
+    PRESENTER(presenter, &mock);
     for (int i = 0; i < 3; i++) {
         struct present_options options = { .fps = 60, .shutter_degrees = 540, .shutter_poses = true,
                                            .exposure = cases[i].exposure };
@@ -682,16 +671,12 @@ static void test_other_poses_are_taken_at_the_right_times(void)
     CHECK_EQ(mock.pose_count, 3);
     CHECK_CLOSE(mock.posed_at[1], -1.0 / 60, 1e-12);
     CHECK_CLOSE(mock.posed_at[2], -2.0 / 60, 1e-12);
-    presenter_free(presenter);
 }
 
 static void test_cuts_leave_no_other_pose(void)
 {
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    MOCK(surface, mock);
+    PRESENTER(presenter, &mock);
     const struct presented *p = presenter_frame(presenter, 1.0, &plain, &f);
     CHECK(p != NULL && !p->draw[0].cut && p->draw[0].open != NULL && !p->frame.cut);
     mock.cut_time = 0.99;
@@ -713,17 +698,13 @@ static void test_cuts_leave_no_other_pose(void)
     cut.cut = true;
     p = presenter_frame(presenter, 1.0, &cut, &f);
     CHECK(p != NULL && p->frame.cut);
-    presenter_free(presenter);
 }
 
 static void test_motion_modes_reach_their_draws(void)
 {
     static const uint8_t motion[3] = { SCENE_MOTION_NONE, SCENE_MOTION_FULL, SCENE_MOTION_CAMERA };
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    MOCK(surface, mock);
+    PRESENTER(presenter, &mock);
     struct present_options options = plain;
     mock.draw_count = 4;
     options.motion = motion;
@@ -737,17 +718,13 @@ static void test_motion_modes_reach_their_draws(void)
         for (int i = 0; i < 4; i++)
             CHECK_EQ(p->draw[i].id, 0);
     }
-    presenter_free(presenter);
 }
 
 /* With keep_ids, the pose kept from one frame must be the pose the next frame would have given. */
 static void test_kept_poses_equal_given_ones(void)
 {
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    MOCK(surface, mock);
+    PRESENTER(presenter, &mock);
     struct present_options options = plain;
     smear_transform kept = { { 0 }, { 0 } };
     smear_camera kept_camera = { .focal = 0 };
@@ -780,7 +757,6 @@ static void test_kept_poses_equal_given_ones(void)
         kept = *p->draw[0].now;
         kept_camera = p->camera[0];
     }
-    presenter_free(presenter);
 }
 
 /* ------------------------------------------------------------------ failures */
@@ -788,13 +764,10 @@ static void test_kept_poses_equal_given_ones(void)
 static void check_refused(struct mock *mock, const struct present_options *options,
                           const char *part)
 {
-    struct failure f = { "" };
-    struct scene scene = mock_scene(mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, mock);
     CHECK(presenter_frame(presenter, 0.0, options, &f) == NULL);
     if (!CHECK(strstr(f.text, part) != NULL))
         test_print(f.text);
-    presenter_free(presenter);
 }
 
 static void test_what_does_not_fit_is_refused(void)
@@ -841,7 +814,6 @@ static void check_mean(smear_light_space light, int want)
 {
     static const float square[12] = { -1, -1, -2, 0, -1, -2, 0, 1, -2, -1, 1, -2 };
     static const uint32_t index[6] = { 0, 1, 2, 0, 2, 3 };
-    struct failure f = { "" };
     struct scene_surface surface = surface_of(square, 4, index, 2);
     surface.material.unlit = true;
     struct mock mock = mock_of(&surface);
@@ -850,8 +822,7 @@ static void check_mean(smear_light_space light, int want)
     /* instants of an exposure of 1/60 s lie 1/120 s apart: it moves by one there */
     mock.velocity[0] = 120.0;
     mock.draw[0].world[12] = 0.5;
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
+    PRESENTER(presenter, &mock);
     struct present_options options = plain;
     struct image image OWNED(image_free) = { 0 };
     options.light = light;
@@ -863,7 +834,6 @@ static void check_mean(smear_light_space light, int want)
     } else {
         test_print(f.text);
     }
-    presenter_free(presenter);
 }
 
 static void test_exact_means_are_of_light_or_of_codes(void)

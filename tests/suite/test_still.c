@@ -222,20 +222,6 @@ static void test_other_methods_and_failures_between_do_no_harm(void)
     }
 }
 
-static void test_only_contexts_with_temporal_methods_reuse(void)
-{
-    smear_desc desc = desc_of(400, true);
-    desc.flush = take_band;
-    for (int i = 0; i < 4; i++) {
-        smear_desc wrong = desc;
-        wrong.reuse.cache_static = i == 0 ? 2 : i == 1;
-        wrong.reuse.buffer_age = i == 2 ? 8 : i == 3;
-        if (i == 1 || i == 3)
-            wrong.methods = SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_ACCUMULATE);
-        CHECK(smear_memory_size(&wrong) == 0);
-    }
-}
-
 /* ------------------------------------------------------------------ displays that keep their picture */
 
 /* A context that sends only what its display does not show, into buffers that are shown in turn; and one that
