@@ -38,6 +38,17 @@ bool test_check_near(int64_t got, int64_t want, int64_t slack, const char *file,
 #define CHECK_NEAR(got, want, slack) \
     test_check_near((got), (want), (slack), __FILE__, __LINE__, #got " near " #want)
 
+/* And ends the test, or what it has called, where going on makes no sense. */
+#define END_UNLESS(ok) \
+    do { \
+        if (!(ok)) \
+            return; \
+    } while (0)
+#define REQUIRE(condition) END_UNLESS(CHECK(condition))
+#define REQUIRE_EQ(got, want) END_UNLESS(test_check_eq((got), (want), __FILE__, __LINE__, #got " == " #want))
+#define REQUIRE_NEAR(got, want, slack) \
+    END_UNLESS(test_check_near((got), (want), (slack), __FILE__, __LINE__, #got " near " #want))
+
 /* For hosts, where floating point exists: |got - want| <= slack, and neither is NaN. */
 #define CHECK_CLOSE(got, want, slack) \
     test_check(((got) >= (want) - (slack)) && ((got) <= (want) + (slack)), __FILE__, __LINE__, \

@@ -91,8 +91,7 @@ static void check_files(bool circling)
         return;
     }
     char **list = asset_list(folder);
-    if (!CHECK(list != NULL))
-        return;
+    REQUIRE(list != NULL);
     int count = 0;
     say("    %-26s %7s %6s %6s  %5s  %6s  %5s  %6s  %5s\n",
         circling ? "model, camera circles" : "model", "time", "in", "drawn", "fill%", "cover%",

@@ -65,8 +65,7 @@ static void test_a_point_is_on_the_frontier_unless_one_is_as_cheap_and_as_right(
     set(pan, "accumulate 8", 5.0, 3.0, 0.0);        /* dearer, no better */
     set(pan, "reconstruct 8", 4.0, 3.5, 0.0);       /* as dear, worse */
     set(pan, "timemask 32", 6.0, 1.0, 0.0);
-    if (!CHECK_EQ(chart_points_of_kind(&chart, CHART_MAIN, pan, point), 5))
-        return;
+    REQUIRE_EQ(chart_points_of_kind(&chart, CHART_MAIN, pan, point), 5);
     for (int i = 0; i < 5; i++) {
         const char *name = chart_settings[point[i].setting].name;
         bool beaten = strcmp(name, "accumulate 8") == 0 || strcmp(name, "reconstruct 8") == 0;
@@ -104,8 +103,7 @@ static void test_a_peer_is_measured_by_the_sharp_frame(void)
     for (int k = 0; k < ALL_KINDS; k++)
         set(k, "none", 2.0, 8.0, 1.0);
     const struct chart_peer *translate = chart_peer_of(kind_find("translate")), *cross = chart_peer_of(kind_find("cross"));
-    if (!CHECK(translate != NULL && cross != NULL))
-        return;
+    REQUIRE(translate != NULL && cross != NULL);
     CHECK(chart_peer_mean(&chart, CHART_MAIN, SET_OBJECT, PEER_8, &cost, &rmse));
     CHECK_CLOSE(cost, sqrt(translate->instructions[PEER_8] * cross->instructions[PEER_8]) / 2.0, 1e-9);
     CHECK_CLOSE(rmse, sqrt(translate->rmse[PEER_8] * cross->rmse[PEER_8]), 1e-9);
@@ -127,8 +125,7 @@ static void test_takes_have_numbers_of_their_own(void)
     for (int c = 0; c < CHART_CONDITIONS; c++)
         for (int k = 0; k < ALL_KINDS; k++)
             for (int s = 0; s < chart_setting_count; s++) {
-                if (!CHECK(chart_take(chart_index(c, k, s), &take)))
-                    return;
+                REQUIRE(chart_take(chart_index(c, k, s), &take));
                 CHECK(strcmp(take.scene, kinds[k].scene) == 0);
                 CHECK_EQ(take.frame, kinds[k].frame);
                 CHECK_EQ(take.method, chart_settings[s].method);
@@ -392,8 +389,7 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
         uint8_t *bytes;
         size_t size;
         snprintf(path, sizeof path, FOLDER "/%s%s.svg", i < 6 ? "" : "study-", names[i % 6]);
-        if (!CHECK(file_read(path, 1 << 20, &bytes, &size, &f)))
-            return;
+        REQUIRE(file_read(path, 1 << 20, &bytes, &size, &f));
         const char *text = (const char *)bytes;
         CHECK(is_well_formed(text));
         CHECK(strstr(text, ">accumulate") != NULL);

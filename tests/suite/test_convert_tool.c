@@ -306,8 +306,7 @@ static void check_header(const struct conversion *model, const char *from)
     if (!write_header(model, "model", from))
         return;
     FILE *c = fopen("build/convert/model.c", "w");
-    if (!CHECK(c != NULL))
-        return;
+    REQUIRE(c != NULL);
     fputs("#include \"model.h\"\nconst smear_model *the_model(void);\n"
           "const smear_model *the_model(void) { return &model_model; }\n"
           "int the_bytes(void);\nint the_bytes(void) { return (int)(MODEL_ACTOR_BYTES(2)); }\n", c);
@@ -528,8 +527,7 @@ static void check_track(const char *path)
     struct track_pose track;
     struct model_pose pose OWNED(model_pose_free) = { 0 };
     const double root[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
-    if (!CHECK(model_load(path, &model, &f)))
-        return;
+    REQUIRE(model_load(path, &model, &f));
     bool ok = CHECK(track_pose_alloc(&track, &model, &f));
     for (int clip = -1; clip < model.clip_count && ok; clip++)
         for (int i = 0; i < 25 && ok; i++) {
@@ -706,8 +704,7 @@ static void test_arrays_that_many_records_share_do_not_cost_time(void)
     const size_t records = RECORDS * sizeof(struct smear_blob_texture), size = HEAD + records + 4 + TEXELS;
     for (int shared = 0; shared < 2; shared++) {
         uint8_t *blob = calloc(size, 1);
-        if (!CHECK(blob != NULL))
-            return;
+        REQUIRE(blob != NULL);
         struct smear_blob_head *head = (struct smear_blob_head *)(void *)blob;
         *head = (struct smear_blob_head){ .magic = SMEAR_BLOB_MAGIC, .format = SMEAR_MODEL_FORMAT, .size = (uint32_t)size,
                                           .transform_count = 1 };
@@ -738,12 +735,10 @@ static void test_scale_and_up_axis_reach_the_vertices(void)
     if (!open_file(&plain, arm_path, &o))
         return;
     o.scale = 3;
-    if (!CHECK(open_file(&large, arm_path, &o)))
-        return;
+    REQUIRE(open_file(&large, arm_path, &o));
     o.scale = 1;
     o.z_up = true;
-    if (!CHECK(open_file(&z_up, arm_path, &o)))
-        return;
+    REQUIRE(open_file(&z_up, arm_path, &o));
     const smear_play play = { .time = 20000 };
     struct converted_file *file[3] = { &plain, &large, &z_up };
     smear_actor *actor[3];
@@ -910,8 +905,7 @@ static void test_palettes_serve_their_picture(void)
     struct convert_options o = plain_options();
     struct failure f = { { 0 } };
     double before = 1e9;
-    if (!CHECK(image_alloc(&image, EDGE, EDGE, &f)))
-        return;
+    REQUIRE(image_alloc(&image, EDGE, EDGE, &f));
     for (int y = 0; y < EDGE; y++)
         for (int x = 0; x < EDGE; x++) {
             uint8_t *p = image.rgba + 4 * (y * EDGE + x);
@@ -1020,8 +1014,7 @@ static void test_what_cannot_be_converted_is_refused_with_a_reason(void)
         struct convert_options o = plain_options();
         o.scale = cases[i].scale;
         o.fit = cases[i].fit;
-        if (!CHECK(model_load(arm_path, &model, &f)))
-            return;
+        REQUIRE(model_load(arm_path, &model, &f));
         CHECK(!convert_model(&model, &o, &c, &f));
         if (!CHECK(strstr(f.text, cases[i].reason) != NULL))
             say("    %s\n", f.text);

@@ -81,8 +81,7 @@ static void check_scene(const struct seen *seen)
     struct failure f = { "" };
     struct scene scene OWNED(scene_free) = { 0 };
     struct image truth, hard, smooth;
-    if (!CHECK(scene_builtin(seen->name, &scene, &f)))
-        return;
+    REQUIRE(scene_builtin(seen->name, &scene, &f));
     struct presenter *presenter = presenter_new(&scene, &f);
     struct present_options options = {
         .fps = scene.fps, .shutter_degrees = 180, .method = SMEAR_AUTO, .light = SMEAR_LIGHT_LINEAR, .clear = scene.clear,

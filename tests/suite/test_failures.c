@@ -213,8 +213,7 @@ static void test_table_is_written(void)
     mkdir("build", 0777);
     mkdir("build/test", 0777);
     FILE *file = fopen(path, "w");
-    if (!CHECK(file != NULL))
-        return;
+    REQUIRE(file != NULL);
     CHECK_EQ((int64_t)fwrite(table, 1, table_length, file), (int64_t)table_length);
     CHECK_EQ(fclose(file), 0);
 }

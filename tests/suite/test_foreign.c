@@ -462,8 +462,7 @@ static void test_instances_keep_the_morph_weights_of_their_mesh(void)
         "'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':1}]}]}],'nodes':[{'mesh':0,'weights':[0.5],"
         "'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':0}}}}],'animations':[{'samplers':"
         "[{'input':2,'output':2}],'channels':[{'sampler':0,'target':{'node':0,'path':'weights'}}]}]}");
-    if (!CHECK(parse_glb(&m, &f)))
-        return;
+    REQUIRE(parse_glb(&m, &f));
     for (int moves = 0; moves < 2; moves++) {
         double time = 0.75, weight = moves ? time : 0.5;
         if (!CHECK(model_pose(&m, moves ? 0 : MODEL_CLIP_NONE, time, false, &pose, &f)) || !CHECK_EQ(pose.draw_count, 3))
@@ -483,8 +482,7 @@ static void test_the_diffuse_part_of_specular_and_glossiness_is_the_base_colour(
         "'type':'VEC3'}],'materials':[{'pbrMetallicRoughness':{'baseColorFactor':[1,0,0,1]},'extensions':"
         "{'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[0.25,0.5,0.75,1],'glossinessFactor':0.5}}}],"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],'nodes':[{'mesh':0}]}");
-    if (!CHECK(parse_glb(&m, &f)))
-        return;
+    REQUIRE(parse_glb(&m, &f));
     CHECK_CLOSE((double)m.material[0].base[0], 0.25, 0);
     CHECK_CLOSE((double)m.material[0].base[2], 0.75, 0);
     CHECK(m.warning[0] == '\0');
@@ -638,8 +636,7 @@ static void test_a_face_with_a_normal_that_is_none_is_flat(void)
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn nan nan nan\nf 1//1 2//1 3//1\nf 1//1 2//2 3//1\n";
     struct model m OWNED(model_free) = { 0 };
     struct failure f = { "" };
-    if (!CHECK(model_parse((const uint8_t *)obj, sizeof obj - 1, NULL, &m, &f)))
-        return;
+    REQUIRE(model_parse((const uint8_t *)obj, sizeof obj - 1, NULL, &m, &f));
     CHECK_EQ(m.mesh[0].primitive_count, 2);
     CHECK(m.mesh[0].primitive[0].normal != NULL && m.mesh[0].primitive[1].normal == NULL);
 }

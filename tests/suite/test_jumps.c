@@ -751,8 +751,7 @@ static void test_an_actor_jumps_as_the_file_does(void)
             conversion_free(&c);
         }
         model_free(&m);
-        if (!CHECK(ok))
-            return;
+        REQUIRE(ok);
     }
 }
 

@@ -129,8 +129,7 @@ static void test_too_little_memory_is_refused_with_the_bytes_that_are_enough(voi
         const int refused = smear_init(&ctx, &d, NULL, 0);
         const size_t bytes = smear_memory_needed(refused);
         uint8_t *memory = malloc(bytes);
-        if (!CHECK(memory != NULL && refused < SMEAR_ERR_NEEDS && bytes == smear_memory_size(&d)))
-            return;
+        REQUIRE(memory != NULL && refused < SMEAR_ERR_NEEDS && bytes == smear_memory_size(&d));
         CHECK_EQ(smear_error_kind(refused), SMEAR_ERR_MEMORY);
         CHECK_EQ(smear_init(&ctx, &d, memory, bytes - 1), refused);
         CHECK(ctx == NULL);

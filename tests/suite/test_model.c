@@ -254,9 +254,8 @@ static void test_integer_positions_are_read_for_quantized_meshes(void)
     struct model m OWNED(model_free) = { 0 };
     ADD(&s, I16, "VEC3", 3, "", -300, 0, 7, 1000, 2, 3, 0, 32767, -32768);
     ADD(&s, I8, "VEC3", 3, ",'normalized':true", 127, 0, 0, 0, -127, 0, 0, 0, 127);
-    if (!CHECK(loads(&s, "'extensionsRequired':['KHR_mesh_quantization']," ONE_NODE
-                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'extensionsRequired':['KHR_mesh_quantization']," ONE_NODE
+                  "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]", &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, -300, 0, 7, 1000, 2, 3, 0, 32767,
                       -32768));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].normal, 0, 1, 0, 0, 0, -1, 0, 0, 0, 1));
@@ -271,9 +270,8 @@ static void test_interleaved_accessors_follow_stride_and_offset(void)
     add_view(&s, F32, ",'byteStride':24", vertices, 18);
     add_accessor(&s, F32, "VEC3", 3, ",'bufferView':0,'byteOffset':4");
     add_accessor(&s, F32, "VEC2", 3, ",'bufferView':0,'byteOffset':16");
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':["
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':["
+                  "{'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}]", &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, 1, 2, 3, 4, 5, 6, 7, 8, 10));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 0, 0.5, 0.25, 0.75, 1, 0, 2));
 }
@@ -313,9 +311,8 @@ static void test_sparse_indices_and_dropped_vertices_work_together(void)
     add_accessor(&s, F32, "VEC3", 6, ",'bufferView':0,'sparse':{'count':3,'indices':"
                  "{'bufferView':2,'componentType':5121},'values':{'bufferView':3}}");
     CHECK_EQ(indices, 1);
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':{'POSITION':2},"
-                     "'indices':1}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':{'POSITION':2},"
+                  "'indices':1}]}]", &m));
     const struct model_primitive *p = &m.mesh[0].primitive[0];
     CHECK_EQ(p->vertex_count, 3);
     CHECK(SAME_FLOATS(p->position, 0, 1, 1, 1, 13, 13, 13, 4, 4, 4));
@@ -331,9 +328,8 @@ static void test_indices_may_be_sparse_too(void)
     add_view(&s, U16, "", (const double[]){ 2 }, 1);
     add_accessor(&s, U16, "SCALAR", 3, ",'sparse':{'count':1,'indices':{'bufferView':1,"
                  "'componentType':5121},'values':{'bufferView':2}}");
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
-                     "'indices':1}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
+                  "'indices':1}]}]", &m));
     const struct model_primitive *p = &m.mesh[0].primitive[0];
     CHECK_EQ(p->vertex_count, 2);
     CHECK(p->index[0] == 0 && p->index[1] == 1 && p->index[2] == 0);
@@ -345,9 +341,8 @@ static void test_an_accessor_without_a_view_is_zeros(void)
     struct source s = triangle();
     struct model m OWNED(model_free) = { 0 };
     add_accessor(&s, F32, "VEC3", 3, "");
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':"
-                     "{'POSITION':0,'NORMAL':1}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':[{'attributes':"
+                  "{'POSITION':0,'NORMAL':1}}]}]", &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].normal, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0));
 }
 
@@ -400,8 +395,7 @@ static void test_external_files_are_looked_up_beside_the_model(void)
     struct failure f = { 0 };
     char path[200];
     snprintf(path, sizeof path, "%soutside.gltf", corpus);
-    if (!CHECK(model_load(path, &m, &f)))
-        return;
+    REQUIRE(model_load(path, &m, &f));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].position, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0));
     CHECK_EQ(m.image_count, 1);
     CHECK_EQ(m.image[0].width, 2);
@@ -489,13 +483,12 @@ static void test_strips_and_fans_become_triangles_and_lines_are_counted(void)
     struct source s = { 0 };
     struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC3", 5, "", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0);
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':["
-                     "{'attributes':{'POSITION':0},'mode':5},"
-                     "{'attributes':{'POSITION':0},'mode':1},"
-                     "{'attributes':{'POSITION':0},'mode':6},"
-                     "{'attributes':{'POSITION':0},'mode':0},"
-                     "{'attributes':{'POSITION':0}},{'attributes':{}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':["
+                  "{'attributes':{'POSITION':0},'mode':5},"
+                  "{'attributes':{'POSITION':0},'mode':1},"
+                  "{'attributes':{'POSITION':0},'mode':6},"
+                  "{'attributes':{'POSITION':0},'mode':0},"
+                  "{'attributes':{'POSITION':0}},{'attributes':{}}]}]", &m));
     static const uint32_t strip[] = { 0, 1, 2, 1, 3, 2, 2, 3, 4 };
     static const uint32_t fan[] = { 1, 2, 0, 2, 3, 0, 3, 4, 0 };
     CHECK_EQ(m.mesh[0].primitive_count, 3);
@@ -517,11 +510,10 @@ static void test_colors_are_normalised_and_get_an_alpha(void)
     ADD(&s, U8, "VEC4", 3, ",'normalized':true", 255, 0, 51, 102, 0, 0, 0, 0, 255, 255, 255, 255);
     ADD(&s, U16, "VEC3", 3, ",'normalized':true", 65535, 0, 13107, 0, 0, 0, 1, 2, 3);
     ADD(&s, F32, "VEC3", 3, "", 0.25, 0.5, 0.75, 1, 2, 3, 0, 0, 0);
-    if (!CHECK(loads(&s, ONE_NODE "'meshes':[{'primitives':["
-                     "{'attributes':{'POSITION':0,'COLOR_0':1}},"
-                     "{'attributes':{'POSITION':0,'COLOR_0':2}},"
-                     "{'attributes':{'POSITION':0,'COLOR_0':3}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, ONE_NODE "'meshes':[{'primitives':["
+                  "{'attributes':{'POSITION':0,'COLOR_0':1}},"
+                  "{'attributes':{'POSITION':0,'COLOR_0':2}},"
+                  "{'attributes':{'POSITION':0,'COLOR_0':3}}]}]", &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].color, 1e-7, 1, 0, 0.2, 0.4, 0, 0, 0, 0, 1, 1, 1, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].color, 1e-7, 1, 0, 0.2, 1, 0, 0, 0, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[2].color, 0, 0.25, 0.5, 0.75, 1, 1, 2, 3, 1));
@@ -538,20 +530,19 @@ static void test_materials_carry_all_that_is_shown(void)
     struct source s = triangle();
     struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);
-    if (!CHECK(loads(&s, "'images':[{'uri':'data:image/png;base64," PNG_BASE64 "'}],"
-                     "'samplers':[{'wrapS':33071,'wrapT':33648},{'wrapS':10497}],"
-                     "'textures':[{'source':0,'sampler':0},{'source':0,'sampler':1}],"
-                     "'materials':[{'name':'leaf','alphaMode':'MASK','alphaCutoff':0.25,"
-                     "'doubleSided':true,'extensions':{'KHR_materials_unlit':{}},"
-                     "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.25,1,0.75],"
-                     "'baseColorTexture':{'index':0}}},{'alphaMode':'BLEND',"
-                     "'pbrMetallicRoughness':{'baseColorTexture':{'index':1}}},{}]," ONE_NODE
-                     "'meshes':[{'primitives':["
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0},"
-                     "{'attributes':{'POSITION':0},'material':1},"
-                     "{'attributes':{'POSITION':0},'material':2},"
-                     "{'attributes':{'POSITION':0}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'images':[{'uri':'data:image/png;base64," PNG_BASE64 "'}],"
+                  "'samplers':[{'wrapS':33071,'wrapT':33648},{'wrapS':10497}],"
+                  "'textures':[{'source':0,'sampler':0},{'source':0,'sampler':1}],"
+                  "'materials':[{'name':'leaf','alphaMode':'MASK','alphaCutoff':0.25,"
+                  "'doubleSided':true,'extensions':{'KHR_materials_unlit':{}},"
+                  "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.25,1,0.75],"
+                  "'baseColorTexture':{'index':0}}},{'alphaMode':'BLEND',"
+                  "'pbrMetallicRoughness':{'baseColorTexture':{'index':1}}},{}]," ONE_NODE
+                  "'meshes':[{'primitives':["
+                  "{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':0},"
+                  "{'attributes':{'POSITION':0},'material':1},"
+                  "{'attributes':{'POSITION':0},'material':2},"
+                  "{'attributes':{'POSITION':0}}]}]", &m));
     CHECK_EQ(m.material_count, 4);
     const struct model_material *a = &m.material[0], *b = &m.material[1], *d = &m.material[3];
     CHECK(same_text(a->name, "leaf"));
@@ -581,20 +572,19 @@ static void test_texture_transforms_scale_turn_and_shift_in_that_order(void)
     ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);
     /* The extension's own example, the lower left quadrant of the picture, turned by a quarter;
      * then each side's scale told apart, without and with the turn. */
-    if (!CHECK(loads(&s, PICTURE "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
-                     "{'index':0,'texCoord':1,'extensions':{'KHR_texture_transform':"
-                     "{'offset':[0,1],'rotation':1.57079632679,'scale':[0.5,0.5]}}}}},"
-                     "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':0,"
-                     "'extensions':{'KHR_texture_transform':{'offset':[0.5,0.25],'scale':[2,-3],"
-                     "'texCoord':1}}}}},{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,"
-                     "'texCoord':1,'extensions':{'KHR_texture_transform':"
-                     "{'rotation':1.57079632679,'scale':[2,3]}}}}}]," ONE_NODE
-                     "'meshes':[{'primitives':["
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':0},"
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':1},"
-                     "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':2}]}]",
-                     &m)))
-        return;
+    REQUIRE(loads(&s, PICTURE "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
+                  "{'index':0,'texCoord':1,'extensions':{'KHR_texture_transform':"
+                  "{'offset':[0,1],'rotation':1.57079632679,'scale':[0.5,0.5]}}}}},"
+                  "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':0,"
+                  "'extensions':{'KHR_texture_transform':{'offset':[0.5,0.25],'scale':[2,-3],"
+                  "'texCoord':1}}}}},{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,"
+                  "'texCoord':1,'extensions':{'KHR_texture_transform':"
+                  "{'rotation':1.57079632679,'scale':[2,3]}}}}}]," ONE_NODE
+                  "'meshes':[{'primitives':["
+                  "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':0},"
+                  "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':1},"
+                  "{'attributes':{'POSITION':0,'TEXCOORD_0':1,'TEXCOORD_1':2},'material':2}]}]",
+                  &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].uv, 1e-7, 0, 1, 0, 0.5, 0.5, 1));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[1].uv, 1e-7, 0.5, 0.25, 2.5, 0.25, 0.5, -2.75));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[2].uv, 1e-7, 0, 0, 0, -2, 3, 0));
@@ -608,10 +598,9 @@ static void test_jpeg_pictures_are_read_as_png_is(void)
 {
     struct source s = triangle();
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(loads(&s, "'images':[{'uri':'data:image/jpeg;base64," JPEG_BASE64 "'}],'textures':[{'source':0}],"
-                     "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]," ONE_NODE
-                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'images':[{'uri':'data:image/jpeg;base64," JPEG_BASE64 "'}],'textures':[{'source':0}],"
+                  "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]," ONE_NODE
+                  "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}]", &m));
     CHECK_EQ(m.image_count, 1);
     CHECK(m.image[0].width == 8 && m.image[0].height == 8 && m.material[0].image == 0);
     for (int i = 0; i < 8 * 8 * 4; i++)
@@ -686,11 +675,10 @@ static void test_transforms_multiply_down_the_tree(void)
     struct model_pose pose OWNED(model_pose_free) = { 0 };
     /* Children before parents in the file; above a matrix, a quarter turn about z
      * whose quaternion is too short. */
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'matrix':[0,2,0,0,-2,0,0,0,0,0,2,0,5,6,7,1]},"
-                     "{'mesh':0,'translation':[1,2,3],'scale':[1,-1,2]},"
-                     "{'name':'top','children':[0,1],'rotation':[0,0,0.5,0.5],"
-                     "'translation':[10,0,0]}]," ONE_MESH, &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':0,'matrix':[0,2,0,0,-2,0,0,0,0,0,2,0,5,6,7,1]},"
+                  "{'mesh':0,'translation':[1,2,3],'scale':[1,-1,2]},"
+                  "{'name':'top','children':[0,1],'rotation':[0,0,0.5,0.5],"
+                  "'translation':[10,0,0]}]," ONE_MESH, &m));
     CHECK_EQ(m.order[0], 2);
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose))) {
         CHECK_EQ(pose.draw_count, 2);
@@ -748,12 +736,11 @@ static void test_cameras_of_the_scene_are_listed_in_node_order(void)
 {
     struct source s = triangle();
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(loads(&s, "'scenes':[{'nodes':[0,1,3]}],'nodes':[{'camera':1,'name':'eye'},"
-                     "{'camera':0},{'camera':0},{'camera':1}],'cameras':["
-                     "{'type':'perspective','name':'wide','perspective':{'yfov':1,'znear':0.1}},"
-                     "{'type':'orthographic','orthographic':"
-                     "{'xmag':-4,'ymag':3,'znear':0,'zfar':9}}]," ONE_MESH, &m)))
-        return;
+    REQUIRE(loads(&s, "'scenes':[{'nodes':[0,1,3]}],'nodes':[{'camera':1,'name':'eye'},"
+                  "{'camera':0},{'camera':0},{'camera':1}],'cameras':["
+                  "{'type':'perspective','name':'wide','perspective':{'yfov':1,'znear':0.1}},"
+                  "{'type':'orthographic','orthographic':"
+                  "{'xmag':-4,'ymag':3,'znear':0,'zfar':9}}]," ONE_MESH, &m));
     CHECK_EQ(m.camera_count, 3);
     CHECK(m.camera[0].orthographic && m.camera[0].node == 0);
     CHECK(same_text(m.camera[0].name, "eye"));
@@ -806,8 +793,7 @@ static void test_step_holds_each_key_until_the_next(void)
                                        { 1, 4, 5, 6 }, { 2.999, 4, 5, 6 }, { 3, 7, 8, 9 },
                                        { 100, 7, 8, 9 } };
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(load_channel("translation", "STEP", "VEC3", values, 9, &m)))
-        return;
+    REQUIRE(load_channel("translation", "STEP", "VEC3", values, 9, &m));
     check_translations(&m, false, cases, (int)COUNT(cases));
     CHECK_CLOSE(m.clip[0].duration, 3, 0);
     CHECK_EQ(model_find_clip(&m, "go"), 0);
@@ -824,8 +810,7 @@ static void test_linear_runs_straight_between_keys_and_clamps_or_loops(void)
     static const double looped[][4] = { { 0.25, 1, 2, -1 }, { 3.25, 1, 2, -1 },
                                         { 301.5, 3, 6, 0 }, { -1.5, 3, 6, 0 }, { 3, 0, 0, 0 } };
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(load_channel("translation", "LINEAR", "VEC3", values, 9, &m)))
-        return;
+    REQUIRE(load_channel("translation", "LINEAR", "VEC3", values, 9, &m));
     check_translations(&m, false, clamped, (int)COUNT(clamped));
     check_translations(&m, true, looped, (int)COUNT(looped));
 }
@@ -840,8 +825,7 @@ static void test_cubic_splines_follow_the_hermite_form(void)
                                        { 1.5, 2.65625, 1.625, 1.5 }, { 2, 4.25, 3, 0 },
                                        { 3, 5, 5, 0 }, { 4, 5, 5, 0 } };
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(load_channel("translation", "CUBICSPLINE", "VEC3", values, 27, &m)))
-        return;
+    REQUIRE(load_channel("translation", "CUBICSPLINE", "VEC3", values, 27, &m));
     check_translations(&m, false, cases, (int)COUNT(cases));
 }
 
@@ -861,8 +845,7 @@ static void test_rotations_take_the_short_way_at_even_speed(void)
                                        { 1.5, 150 }, { 2.25, -165 }, { 3, -120 } };
     struct model m OWNED(model_free) = { 0 };
     struct model_pose pose OWNED(model_pose_free) = { 0 };
-    if (!CHECK(load_channel("rotation", "LINEAR", "VEC4", values, 12, &m)))
-        return;
+    REQUIRE(load_channel("rotation", "LINEAR", "VEC4", values, 12, &m));
     for (size_t i = 0; i < COUNT(cases); i++) {
         if (CHECK(poses(&m, 0, cases[i][0], false, &pose)))
             CHECK_CLOSE(angle_about_z(&pose), cases[i][1], 1e-4);
@@ -878,8 +861,7 @@ static void test_cubic_rotations_are_made_unit_length(void)
     static const double cases[][2] = { { 0, 0 }, { 0.5, 45 }, { 1, 90 }, { 2, 135 }, { 3, 180 } };
     struct model m OWNED(model_free) = { 0 };
     struct model_pose pose OWNED(model_pose_free) = { 0 };
-    if (!CHECK(load_channel("rotation", "CUBICSPLINE", "VEC4", values, 36, &m)))
-        return;
+    REQUIRE(load_channel("rotation", "CUBICSPLINE", "VEC4", values, 36, &m));
     for (size_t i = 0; i < COUNT(cases); i++) {
         if (!CHECK(poses(&m, 0, cases[i][0], false, &pose)))
             continue;
@@ -895,10 +877,9 @@ static void test_a_single_key_holds_forever_looped_or_not(void)
     struct model m OWNED(model_free) = { 0 };
     ADD(&s, F32, "SCALAR", 1, "", 0);
     ADD(&s, F32, "VEC3", 1, "", 4, 5, 6);
-    if (!CHECK(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
-                     "'translation'}}],'samplers':[{'input':1,'output':2}]}]," ONE_NODE ONE_MESH,
-                     &m)))
-        return;
+    REQUIRE(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
+                  "'translation'}}],'samplers':[{'input':1,'output':2}]}]," ONE_NODE ONE_MESH,
+                  &m));
     static const double cases[][4] = { { -1, 4, 5, 6 }, { 0, 4, 5, 6 }, { 7.5, 4, 5, 6 } };
     check_translations(&m, false, cases, (int)COUNT(cases));
     check_translations(&m, true, cases, (int)COUNT(cases));
@@ -911,9 +892,8 @@ static void test_quantized_rotation_keys_are_normalised(void)
     struct model_pose pose OWNED(model_pose_free) = { 0 };
     ADD(&s, F32, "SCALAR", 2, "", 0, 1);
     ADD(&s, I16, "VEC4", 2, ",'normalized':true", 0, 0, 0, 32767, 0, 0, 23170, 23170);
-    if (!CHECK(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
-                     "'rotation'}}],'samplers':[{'input':1,'output':2}]}]," ONE_NODE ONE_MESH, &m)))
-        return;
+    REQUIRE(loads(&s, "'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
+                  "'rotation'}}],'samplers':[{'input':1,'output':2}]}]," ONE_NODE ONE_MESH, &m));
     if (CHECK(poses(&m, 0, 1, false, &pose)))
         CHECK_CLOSE(angle_about_z(&pose), 90, 1e-4);
     if (CHECK(poses(&m, 0, 0.5, false, &pose)))
@@ -930,16 +910,15 @@ static void test_all_clips_together_let_the_later_win_and_share_the_longest_loop
     ADD(&s, F32, "VEC3", 2, "", 0, 0, 0, 1, 0, 0);
     ADD(&s, F32, "VEC3", 2, "", 0, 0, 0, 0, 4, 0);
     ADD(&s, F32, "VEC3", 2, "", 1, 1, 1, 3, 1, 1);
-    if (!CHECK(loads(&s, "'animations':[{'channels':["
-                     "{'sampler':0,'target':{'node':0,'path':'translation'}},"
-                     "{'sampler':1,'target':{'node':0,'path':'scale'}}],"
-                     "'samplers':[{'input':1,'output':3},{'input':1,'output':5}]},"
-                     "{'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}},"
-                     "{'sampler':0,'target':{'path':'pointer'}},"
-                     "{'sampler':1,'target':{'node':1,'path':'scale'}}],"
-                     "'samplers':[{'input':2,'output':4},{'input':1,'output':5}]}],"
-                     "'nodes':[{'mesh':0},{}]," ONE_MESH, &m)))
-        return;
+    REQUIRE(loads(&s, "'animations':[{'channels':["
+                  "{'sampler':0,'target':{'node':0,'path':'translation'}},"
+                  "{'sampler':1,'target':{'node':0,'path':'scale'}}],"
+                  "'samplers':[{'input':1,'output':3},{'input':1,'output':5}]},"
+                  "{'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}},"
+                  "{'sampler':0,'target':{'path':'pointer'}},"
+                  "{'sampler':1,'target':{'node':1,'path':'scale'}}],"
+                  "'samplers':[{'input':2,'output':4},{'input':1,'output':5}]}],"
+                  "'nodes':[{'mesh':0},{}]," ONE_MESH, &m));
     CHECK_EQ(m.clip[1].channel_count, 2);       /* what has no node is some extension's */
     CHECK_CLOSE(m.clip[0].duration, 1, 0);
     CHECK_CLOSE(m.clip[1].duration, 4, 0);
@@ -977,12 +956,11 @@ static void test_morph_targets_add_up_by_weight(void)
     ADD(&s, F32, "VEC3", 3, "", 0, 0, -2, 0, 0, 0, 1, 0, 0);                /* 4 normals */
     ADD(&s, F32, "SCALAR", 2, "", 0, 2);                                    /* 5 */
     ADD(&s, F32, "SCALAR", 4, "", 0, 1, 1, 3);                              /* 6 weights */
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'translation':[0,0,5]},{'mesh':0,'weights':[1,0]}],"
-                     "'meshes':[{'weights':[0.5,0.25],'primitives':[{'attributes':"
-                     "{'POSITION':0,'NORMAL':1},'targets':[{'POSITION':2,'NORMAL':4},"
-                     "{'POSITION':3}]}]}],'animations':[{'channels':[{'sampler':0,'target':"
-                     "{'node':0,'path':'weights'}}],'samplers':[{'input':5,'output':6}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':0,'translation':[0,0,5]},{'mesh':0,'weights':[1,0]}],"
+                  "'meshes':[{'weights':[0.5,0.25],'primitives':[{'attributes':"
+                  "{'POSITION':0,'NORMAL':1},'targets':[{'POSITION':2,'NORMAL':4},"
+                  "{'POSITION':3}]}]}],'animations':[{'channels':[{'sampler':0,'target':"
+                  "{'node':0,'path':'weights'}}],'samplers':[{'input':5,'output':6}]}]", &m));
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose))) {
         CHECK(pose.draw[0].deformed && pose.draw[1].deformed);
         CHECK(SAME_FLOATS(pose.draw[0].position, 1e-7, 1.25, 0.25, 0.25, 1.25, 2.25, 0.25, 0.25,
@@ -1014,12 +992,11 @@ static void test_skins_blend_joint_matrices_and_ignore_their_node(void)
     /* Joint 0 moves by (1,0,0); joint 1 by (0,2,0) after a quarter turn about z and its inverse
      * bind matrix (0,-1,0); joint 2 scales x by -2. The mesh's node is far away, which must not
      * matter. */
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'skin':0,'translation':[100,0,0]},"
-                     "{'translation':[1,0,0]},{'translation':[0,2,0]," QUARTER "},"
-                     "{'scale':[-2,1,1]}],'skins':[{'joints':[1,2,3],'inverseBindMatrices':4}],"
-                     "'meshes':[{'primitives':[{'attributes':"
-                     "{'POSITION':0,'NORMAL':1,'JOINTS_0':2,'WEIGHTS_0':3}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':0,'skin':0,'translation':[100,0,0]},"
+                  "{'translation':[1,0,0]},{'translation':[0,2,0]," QUARTER "},"
+                  "{'scale':[-2,1,1]}],'skins':[{'joints':[1,2,3],'inverseBindMatrices':4}],"
+                  "'meshes':[{'primitives':[{'attributes':"
+                  "{'POSITION':0,'NORMAL':1,'JOINTS_0':2,'WEIGHTS_0':3}}]}]", &m));
     const struct model_primitive *p = &m.mesh[0].primitive[0];
     CHECK_EQ(p->influences, 4);
     CHECK(SAME_FLOATS(p->weight, 1e-7, 0.25, 0.75, 0, 0, 1, 0, 0, 0));
@@ -1045,11 +1022,10 @@ static void test_skins_default_to_identity_and_take_eight_influences(void)
     ADD(&s, U8, "VEC4", 3, ",'normalized':true", 51, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0);
     ADD(&s, U8, "VEC4", 3, "", 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
     ADD(&s, U16, "VEC4", 3, ",'normalized':true", 52428, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'skin':0},{'translation':[10,0,0]},"
-                     "{'translation':[0,10,0]}],'skins':[{'joints':[1,2]}],'meshes':[{'primitives':"
-                     "[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2,'JOINTS_1':3,"
-                     "'WEIGHTS_1':4}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':0,'skin':0},{'translation':[10,0,0]},"
+                  "{'translation':[0,10,0]}],'skins':[{'joints':[1,2]}],'meshes':[{'primitives':"
+                  "[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2,'JOINTS_1':3,"
+                  "'WEIGHTS_1':4}}]}]", &m));
     CHECK_EQ(m.mesh[0].primitive[0].influences, 8);
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose))) {
         /* Weights 1/5 and 4/5; all the first joint's; none at all, which means the first joint's.
@@ -1067,10 +1043,9 @@ static void test_morphs_come_before_skins(void)
     ADD(&s, F32, "VEC3", 3, "", 1, 0, 0, 1, 0, 0, 1, 0, 0);
     ADD(&s, U8, "VEC4", 3, "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
     ADD(&s, F32, "VEC4", 3, "", 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':0,'skin':0},{" QUARTER "}],'skins':[{'joints':[1]}],"
-                     "'meshes':[{'weights':[2],'primitives':[{'targets':[{'POSITION':1}],"
-                     "'attributes':{'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':0,'skin':0},{" QUARTER "}],'skins':[{'joints':[1]}],"
+                  "'meshes':[{'weights':[2],'primitives':[{'targets':[{'POSITION':1}],"
+                  "'attributes':{'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3}}]}]", &m));
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose)))
         CHECK(SAME_FLOATS(pose.draw[0].position, 1e-6, 0, 2, 0, 0, 3, 0, -1, 2, 0));
 }
@@ -1081,10 +1056,9 @@ static void test_a_pose_is_reused_and_its_draws_keep_their_order(void)
     struct model m OWNED(model_free) = { 0 }, other;
     struct model_pose pose = { 0 };
     ADD(&s, F32, "VEC3", 3, "", 1, 0, 0, 1, 0, 0, 1, 0, 0);
-    if (!CHECK(loads(&s, "'nodes':[{'mesh':1},{'mesh':0}],'meshes':[{'weights':[1],'primitives':"
-                     "[{'targets':[{'POSITION':1}],'attributes':{'POSITION':0}}]},{'primitives':"
-                     "[{'attributes':{'POSITION':0}},{'attributes':{'POSITION':1}}]}]", &m)))
-        return;
+    REQUIRE(loads(&s, "'nodes':[{'mesh':1},{'mesh':0}],'meshes':[{'weights':[1],'primitives':"
+                  "[{'targets':[{'POSITION':1}],'attributes':{'POSITION':0}}]},{'primitives':"
+                  "[{'attributes':{'POSITION':0}},{'attributes':{'POSITION':1}}]}]", &m));
     if (CHECK(poses(&m, MODEL_CLIP_NONE, 0, false, &pose)) && CHECK_EQ(pose.draw_count, 3)) {
         const float *position = pose.draw[2].position;
         CHECK(pose.draw[0].node == 0 && pose.draw[0].primitive_of_mesh == 0);
@@ -1365,8 +1339,7 @@ static void test_one_mesh_in_very_many_nodes_is_refused(void)
     char *text = calloc(1, ROOM);
     struct model m;
     struct failure f = { 0 };
-    if (!CHECK(text != NULL))
-        return;
+    REQUIRE(text != NULL);
     char *at = text;
     at += sprintf(at, "{\"asset\":{\"version\":\"2.0\"},\"accessors\":[{\"componentType\":5126,"
                   "\"type\":\"VEC3\",\"count\":3}],\"meshes\":[{\"primitives\":[");
@@ -1471,12 +1444,11 @@ static void test_a_glb_with_any_byte_changed_is_read_or_refused(void)
 static void test_obj_faces_of_every_form_become_triangles(void)
 {
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(parses("# a quad, a triangle, a pentagon\r\n"
-                      "v 0 0 0\r\nv 1 0 0 1.0\r\nv 1 1 0\r\nv 0 1 0\r\nv -1 0.5 0\r\n"
-                      "vt 0.25 0.75\r\nvt 0 0\r\nvn 0 0 1\r\n"
-                      "f 1 2 3 4\r\nf -5 -4 -3\r\nf 1 2 \\\r\n  3 4 5 # comment\r\n"
-                      "f 1/1 2/2 3/-1\r\nf 1//1 2//1 3//-1\r\nf 1/1/1 2/2/1 3/1/1\r\n", &m)))
-        return;
+    REQUIRE(parses("# a quad, a triangle, a pentagon\r\n"
+                   "v 0 0 0\r\nv 1 0 0 1.0\r\nv 1 1 0\r\nv 0 1 0\r\nv -1 0.5 0\r\n"
+                   "vt 0.25 0.75\r\nvt 0 0\r\nvn 0 0 1\r\n"
+                   "f 1 2 3 4\r\nf -5 -4 -3\r\nf 1 2 \\\r\n  3 4 5 # comment\r\n"
+                   "f 1/1 2/2 3/-1\r\nf 1//1 2//1 3//-1\r\nf 1/1/1 2/2/1 3/1/1\r\n", &m));
     CHECK_EQ(m.node_count, 1);
     CHECK_EQ(m.mesh[0].primitive_count, 4);         /* four forms */
     const struct model_primitive *p = m.mesh[0].primitive;
@@ -1497,8 +1469,7 @@ static void test_obj_faces_of_every_form_become_triangles(void)
 static void test_obj_vertices_may_have_colors(void)
 {
     struct model m OWNED(model_free) = { 0 };
-    if (!CHECK(parses("v 0 0 0 0.5 0.25 1\nv 1 0 0\nv 1 1 0 0 0 0\nf 1 2 3\n", &m)))
-        return;
+    REQUIRE(parses("v 0 0 0 0.5 0.25 1\nv 1 0 0\nv 1 1 0 0 0 0\nf 1 2 3\n", &m));
     CHECK(SAME_FLOATS(m.mesh[0].primitive[0].color, 0, 0.5, 0.25, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1));
 }
 
@@ -1506,10 +1477,9 @@ static void test_obj_objects_and_groups_become_nodes(void)
 {
     struct model m OWNED(model_free) = { 0 };
     struct model_pose pose OWNED(model_pose_free) = { 0 };
-    if (!CHECK(parses("v 0 0 0\nv 1 0 0\nv 1 1 0\ng loose\nf 1 2 3\no car\nf 1 2 3\n"
-                      "g front wheel\nf 1 2 3\nusemtl red\nf 3 2 1\no hat\nf 1 2 3\n"
-                      "o car\ng front wheel\nusemtl blue\nf 1 2 3\nl 1 2\np 1\n", &m)))
-        return;
+    REQUIRE(parses("v 0 0 0\nv 1 0 0\nv 1 1 0\ng loose\nf 1 2 3\no car\nf 1 2 3\n"
+                   "g front wheel\nf 1 2 3\nusemtl red\nf 3 2 1\no hat\nf 1 2 3\n"
+                   "o car\ng front wheel\nusemtl blue\nf 1 2 3\nl 1 2\np 1\n", &m));
     CHECK_EQ(m.node_count, 4);
     int loose = model_find_node(&m, "loose"), car = model_find_node(&m, "car");
     int wheel = model_find_node(&m, "front wheel"), hat = model_find_node(&m, "hat");
@@ -1551,8 +1521,7 @@ static void test_obj_materials_come_from_the_library_beside_it(void)
     struct failure f = { 0 };
     char path[200];
     snprintf(path, sizeof path, "%squad.obj", corpus);
-    if (!CHECK(model_load(path, &m, &f)))
-        return;
+    REQUIRE(model_load(path, &m, &f));
     CHECK(same_text(m.warning, ""));
     CHECK_EQ(m.material_count, 3);
     CHECK_EQ(m.image_count, 1);
@@ -1679,8 +1648,7 @@ static void test_obj_with_very_many_groups_stays_fast(void)
     enum { N = 50000, ROOM = 4000000 };
     char *text = malloc(ROOM), *at = text;
     struct model m;
-    if (!CHECK(text != NULL))
-        return;
+    REQUIRE(text != NULL);
     at += sprintf(at, "v 0 0 0\nv 1 0 0\nv 1 1 0\n");
     for (int i = 0; i < N; i++)
         at += sprintf(at, "o thing%d\ng part%d\nusemtl m%d\nf 1 2 3\n", i, i % 7, i % 1000);

@@ -447,8 +447,7 @@ static void check_strip(int edge, enum model_wrap wrap, double first, int want_s
         memcpy(index + i * 6, corners, sizeof corners);
     }
     struct image image OWNED(image_free) = { 0 };
-    if (!CHECK(image_alloc(&image, edge, edge, &f)))
-        return;
+    REQUIRE(image_alloc(&image, edge, edge, &f));
     struct scene_surface surface = surface_of(position, (STRIP + 1) * 2, index, STRIP * 2);
     surface.uv = uv;
     surface.material.image = &image;
@@ -496,8 +495,7 @@ static void test_large_surfaces_are_split_without_loss(void)
     struct failure f = { "" };
     float *position = malloc(sizeof *position * COUNT * 3);
     uint32_t *index = malloc(sizeof *index * TRIANGLES * 3), *at = index;
-    if (!CHECK(position != NULL && index != NULL))
-        return;
+    REQUIRE(position != NULL && index != NULL);
     for (int i = 0; i < COUNT; i++) {
         position[i * 3] = (float)(i % EDGE) / EDGE - 0.5f;
         position[i * 3 + 1] = (float)(i / EDGE) / EDGE - 0.5f;

@@ -370,8 +370,7 @@ static void test_velocity_is_the_screen_path_of_the_surface_point(void)
 
     before.world[12] = -3.0;                /* came 3 to the right and 1 up: 32/16 px per unit */
     before.world[13] = -1.0;
-    if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-        return;
+    REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
     for (int y = 8; y < 56; y += 5)
         for (int x = 8; x < 56; x += 5) {
             CHECK_CLOSE(frame.velocity[2 * at(x, y)], 6.0, 1e-9);
@@ -383,8 +382,7 @@ static void test_velocity_is_the_screen_path_of_the_surface_point(void)
     matrix_identity(before.world);          /* came from d = 20 to d = 16: away from the middle */
     before.world[14] = -4.0;
     options.velocity_scale = 2.0;
-    if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-        return;
+    REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
     for (int x = 8; x < 56; x += 5)
         CHECK_CLOSE(frame.velocity[2 * at(x, 20)], 2.0 * (x - 31.5) * (1.0 - 16.0 / 20.0), 1e-9);
     ref_frame_free(&frame);
@@ -392,15 +390,13 @@ static void test_velocity_is_the_screen_path_of_the_surface_point(void)
     matrix_identity(before.world);          /* the camera went 2 to the left instead */
     then.camera.pose[12] = 2.0;
     options.velocity_scale = 0.0;
-    if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-        return;
+    REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
     CHECK_CLOSE(frame.velocity[2 * at(20, 20)], 4.0, 1e-9);
     CHECK_CLOSE(frame.velocity[2 * at(20, 20) + 1], 0.0, 1e-9);
     ref_frame_free(&frame);
 
     before.world[14] = 20.0;                /* came from behind the eye: no path */
-    if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-        return;
+    REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
     CHECK(isnan(frame.velocity[2 * at(20, 20)]));
     ref_frame_free(&frame);
 }
@@ -427,8 +423,7 @@ static void test_cut_and_masked_draws_move_with_the_camera_only(void)
         before.hidden = way == 2;
         then.draw_count = way != 3;
         then.camera.epoch = way == 6;
-        if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-            return;
+        REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
         CHECK_CLOSE(frame.velocity[2 * at(30, 30)], want[way], 1e-9);
         ref_frame_free(&frame);
     }
@@ -758,8 +753,7 @@ static void test_half_covered_white_is_188_in_linear_light_and_128_encoded(void)
                                              .encoded = encoded != 0 };
         struct ref_truth truth;
         struct failure f = {{0}};
-        if (!CHECK(ref_truth(&scene, &options, &truth, &f)))
-            return;
+        REQUIRE(ref_truth(&scene, &options, &truth, &f));
         CHECK_EQ(truth.image.rgba[4 * at(20, 9)], encoded ? 128 : 188);
         for (int x = 10; x < 30; x++) {     /* the edge goes from 16.5 to 24.5 */
             double coverage = fmin(fmax((24.5 - (x + 0.5)) / 8.0, 0.0), 1.0);
@@ -781,8 +775,7 @@ static void test_instants_stand_in_the_middle_of_their_share(void)
     struct ref_truth truth;
     struct failure f = {{0}};
     position[6] = position[9] += 0.25f;     /* at 20.75, so from 16.75 to 24.75 */
-    if (!CHECK(ref_truth(&scene, &options, &truth, &f)))
-        return;
+    REQUIRE(ref_truth(&scene, &options, &truth, &f));
     for (int x = 0; x < SIZE; x++) {
         int want = x + 0.5 < 18.75 ? 255 : x + 0.5 < 22.75 ? 128 : 0;
         CHECK_EQ(truth.image.rgba[4 * at(x, 9)], want);
@@ -803,8 +796,7 @@ static void test_the_exposure_lies_before_around_or_after_the_frame(void)
                                              .exposure = (enum ref_exposure)way };
         struct ref_truth truth;
         struct failure f = {{0}};
-        if (!CHECK(ref_truth(&scene, &options, &truth, &f)))
-            return;
+        REQUIRE(ref_truth(&scene, &options, &truth, &f));
         for (int x = 0; x < SIZE; x++) {
             bool grey = x + 0.5 > from[way] && x + 0.5 < from[way] + 8.0;
             uint8_t code = truth.image.rgba[4 * at(x, 5)];
@@ -834,8 +826,7 @@ static void test_truth_does_not_depend_on_threads(void)
     surface.material.base[1] = 0.37f;
     for (int i = 0; i < 2; i++) {
         options.threads = i + 1;
-        if (!CHECK(ref_truth(&scene, &options, &truth[i], &f)))
-            return;
+        REQUIRE(ref_truth(&scene, &options, &truth[i], &f));
     }
     CHECK(memcmp(truth[0].code, truth[1].code, 3 * sizeof(double) * SIZE * SIZE) == 0);
     ref_truth_free(&truth[0]);
@@ -923,8 +914,7 @@ static void test_id_scene_shows_the_triangles_of_the_frame(void)
     struct scene scene = scene_of(&slide), ids;
     struct failure f = {{0}};
     struct scene_instant now = {0}, id_now = {0};
-    if (!CHECK(ref_id_scene(&scene, &ids, &f)))
-        return;
+    REQUIRE(ref_id_scene(&scene, &ids, &f));
     for (int step = 0; step < 4; step++) {
         struct ref_frame frame OWNED(ref_frame_free) = { 0 }, id_frame;
         struct image picture OWNED(image_free) = {0};
@@ -934,8 +924,7 @@ static void test_id_scene_shows_the_triangles_of_the_frame(void)
             return;
         draw_now(&now, false, &frame);
         draw_now(&id_now, step % 2 != 0, &id_frame);
-        if (!CHECK(ref_frame_image(&id_frame, &picture, &f)))
-            return;
+        REQUIRE(ref_frame_image(&id_frame, &picture, &f));
         for (size_t i = 0; i < SIZE * SIZE; i++) {
             wrong += ref_id_from_rgb(picture.rgba + 4 * i) != frame.triangle[i];
             if (frame.triangle[i] >= 0)
@@ -987,8 +976,7 @@ static void test_comparison_finds_each_planted_difference(void)
     struct scene_instant now = instant_of(&draw, 1, camera), then = instant_of(&before, 1, camera);
     before.world[12] = -4.0;
     surface.material.base[1] = 0.25f;
-    if (!CHECK(ref_draw(&now, &then, &now, &options, &frame, &f)))
-        return;
+    REQUIRE(ref_draw(&now, &then, &now, &options, &frame, &f));
 
     struct ref_planes planes = planes_of(&frame, &copy);
     ref_compare(&frame, &planes, &d);

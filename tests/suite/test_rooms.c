@@ -140,8 +140,7 @@ static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
                    (unsigned)(first + i), kind_name[v.kind], v.speed, v.yaw, v.pitch, v.radius, v.x, v.y, v.z, v.repeats);
     }
     rig_end(&r);
-    if (!CHECK(ok))
-        return;
+    REQUIRE(ok);
     qsort(error, count, sizeof error[0], compare);
     printf("  of %u textured rooms half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f\n", (unsigned)count,
            error[count / 2], error[count * 9 / 10], error[count - 1]);

@@ -165,8 +165,7 @@ static void test_shapes_are_closed_and_face_outward(void)
     static const struct stage_kind kind = {"shapes", 64, 64, 0, 0, shapes_build, shapes_move};
     const double volume[SHAPES] = {18, 32.0 / 3 * PI, 3.5 / 3 * PI, 6, 2.0 / 3 * PI};
     struct shown s = {0};
-    if (!CHECK(stage_open(&kind, 1, "shapes", &s.scene, &s.f)))
-        return;
+    REQUIRE(stage_open(&kind, 1, "shapes", &s.scene, &s.f));
     CHECK(scene_pose(&s.scene, 0, &s.now, &s.f));
     for (int i = 0; i < SHAPES; i++) {
         const struct scene_surface *surface = s.now.draw[i].surface;
@@ -760,8 +759,7 @@ static void test_impossible_views_are_refused(void)
     };
     struct model model OWNED(model_free) = { 0 };
     struct failure parse = {0};
-    if (!CHECK(model_parse((const uint8_t *)gltf_text, strlen(gltf_text), NULL, &model, &parse)))
-        return;
+    REQUIRE(model_parse((const uint8_t *)gltf_text, strlen(gltf_text), NULL, &model, &parse));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         struct scene scene;
         struct failure f = {0};

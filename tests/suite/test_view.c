@@ -422,8 +422,7 @@ static void test_wild_bytes_are_taken(void)
         for (int left = count; left > 0;) {
             struct event e;
             int taken = tty_decode(bytes + (count - left), left, true, &e);
-            if (!CHECK(taken > 0 && taken <= left))
-                return;
+            REQUIRE(taken > 0 && taken <= left);
             left -= taken;
         }
     }
@@ -445,8 +444,7 @@ static void test_recorded_input_is_played(void)
     struct failure f = { "" };
     struct script s = { 0 };
     struct event e;
-    if (!CHECK(script_record(&s, script_file, &f)))
-        return;
+    REQUIRE(script_record(&s, script_file, &f));
     for (int i = 0; i < count; i++)
         script_note(&s, i / 2, &events[i]);
     script_note(&s, 9, &(struct event){ .kind = EVENT_RESIZE });
@@ -471,8 +469,7 @@ static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
     struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant a = { 0 }, b = { 0 };
-    if (!CHECK(scene_builtin("demo/race", &scene, &f)))
-        return;
+    REQUIRE(scene_builtin("demo/race", &scene, &f));
     orbit_open(&orbit, &scene);
     CHECK(orbit_find_focus(&orbit, 0.4, &f) && orbit.focus > 1.0 && orbit.focus < 60.0);
     orbit_turn(&orbit, 0.3, 0.2);
@@ -491,8 +488,7 @@ static void test_a_turntable_goes_round(void)
     struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant own = { 0 }, turned = { 0 };
-    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
-        return;
+    REQUIRE(scene_builtin("peer/E", &scene, &f));
     orbit_open(&orbit, &scene);
     CHECK(orbit_find_focus(&orbit, 0.0, &f));
     orbit.spin = 3.14159265358979323846;
@@ -517,8 +513,7 @@ static void test_a_turned_camera_looks_at_the_same_point(void)
     struct scene scene OWNED(scene_free) = { 0 };
     struct orbit orbit;
     struct scene_instant own = { 0 }, turned = { 0 };
-    if (!CHECK(scene_builtin("demo/race", &scene, &f)))
-        return;
+    REQUIRE(scene_builtin("demo/race", &scene, &f));
     orbit_open(&orbit, &scene);
     CHECK(orbit_find_focus(&orbit, 0.0, &f));
     for (int i = 0; i < 40; i++) {
@@ -551,8 +546,7 @@ static void test_wires_lie_on_what_is_drawn(void)
     struct failure f = { "" };
     struct scene scene OWNED(scene_free) = { 0 };
     struct image sharp;
-    if (!CHECK(scene_builtin("peer/E", &scene, &f)))
-        return;
+    REQUIRE(scene_builtin("peer/E", &scene, &f));
     struct presenter *p = presenter_new(&scene, &f);
     struct present_options o = { .fps = 30, .instant_only = true, .method = SMEAR_NONE,
                                  .clear = 0xff00ff };
@@ -601,8 +595,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     struct failure f = { "" };
     struct noted n = { .ctx = NULL };
     const struct presented *frame = presenter_frame(p, 0.4, o, &f);
-    if (!CHECK(frame != NULL && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
-        return;
+    REQUIRE(frame != NULL && tiles_open(&n.tiles, WIDTH, HEIGHT, &f));
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
     desc.max_triangles *= 4;
     if (!sharp)
@@ -642,8 +635,7 @@ static void test_tiles_are_noted_as_they_are_counted(void)
     struct failure f = { "" };
     for (int k = 0; k < 2; k++) {
         struct scene scene OWNED(scene_free) = { 0 };
-        if (!CHECK(scene_builtin(scenes[k], &scene, &f)))
-            return;
+        REQUIRE(scene_builtin(scenes[k], &scene, &f));
         struct presenter *p = presenter_new(&scene, &f);
         for (int i = 0; i < method_count; i++) {
             const smear_method method = method_list[i].method;
@@ -662,8 +654,7 @@ static void test_tiles_that_are_not_sent_are_noted_as_still(void)
     struct scene scene OWNED(scene_free) = { 0 };
     struct noted n = { .ctx = NULL };
     struct present_options o = { .fps = 30, .shutter_degrees = 180, .method = SMEAR_AUTO };
-    if (!CHECK(scene_builtin("suite/propeller", &scene, &f) && tiles_open(&n.tiles, WIDTH, HEIGHT, &f)))
-        return;
+    REQUIRE(scene_builtin("suite/propeller", &scene, &f) && tiles_open(&n.tiles, WIDTH, HEIGHT, &f));
     struct presenter *p = presenter_new(&scene, &f);
     void *memory = NULL;
     uint32_t kept = 0;
@@ -730,8 +721,7 @@ static void test_the_cookie_of_the_display_is_found(void)
     uint8_t cookie[X11_COOKIE];
     gethostname(host, sizeof host - 1);
     FILE *to = fopen(path, "wb");
-    if (!CHECK(to != NULL))
-        return;
+    REQUIRE(to != NULL);
     put_cookie(to, 256, host, "7", "MIT-MAGIC-COOKIE-1", 1);
     put_cookie(to, 256, "elsewhere", "8", "MIT-MAGIC-COOKIE-1", 2);
     put_cookie(to, 256, host, "8", "XDM-AUTHORIZATION-1", 3);

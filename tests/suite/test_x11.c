@@ -65,8 +65,7 @@ static void test_windows_wider_than_a_request_are_refused(void)
     const struct screen_wish wish = { .title = "wide", .width = 8000, .height = 2, .no_shared_memory = true };
     g.max_request = 4096;
     x_greeting_write(&g, bytes);
-    if (!CHECK(x_server_begin(bytes, sizeof bytes)))
-        return;
+    REQUIRE(x_server_begin(bytes, sizeof bytes));
     struct screen *screen = screen_x11.open(&wish, &f);
     CHECK(screen == NULL && strstr(f.text, "too wide") != NULL);
     if (screen != NULL)

@@ -562,8 +562,7 @@ static void test_a_converted_model_is_drawn(void)
     smear_actor *actor = make(&arm_model, 2);
     place.origin[1] = -(1 << 16);
     place.origin[2] = -(5 << 16);
-    if (!CHECK_EQ(smear_init(&ctx, &desc, frame_memory, sizeof frame_memory), SMEAR_OK))
-        return;
+    REQUIRE_EQ(smear_init(&ctx, &desc, frame_memory, sizeof frame_memory), SMEAR_OK);
     for (int i = 0; i < 2; i++) {
         CHECK_EQ(smear_actor_advance(actor, &(smear_play){ .time = 20000 * i, .place = &place }), SMEAR_OK);
         CHECK_EQ(smear_begin(ctx, &(smear_frame){ .camera = &camera, .method = SMEAR_RECONSTRUCT }), SMEAR_OK);
@@ -599,8 +598,7 @@ static void test_a_blob_is_played_where_it_lies(void)
     CHECK(bytes > 0 && bytes <= sizeof tables);
     CHECK_EQ(smear_model_open(&model, arm_blob, sizeof arm_blob, tables, bytes - 8), SMEAR_ERR_MEMORY);
     CHECK_EQ(smear_model_open(&model, arm_blob, sizeof arm_blob, (char *)tables + 4, bytes), SMEAR_ERR_MEMORY);
-    if (!CHECK_EQ(smear_model_open(&model, arm_blob, sizeof arm_blob, tables, bytes), SMEAR_OK))
-        return;
+    REQUIRE_EQ(smear_model_open(&model, arm_blob, sizeof arm_blob, tables, bytes), SMEAR_OK);
     CHECK((const uint8_t *)model.node > (const uint8_t *)arm_blob
           && (const uint8_t *)model.node < (const uint8_t *)arm_blob + sizeof arm_blob);
     CHECK_EQ(smear_actor_init(&actor, &model, 2, other_memory, sizeof other_memory), SMEAR_OK);

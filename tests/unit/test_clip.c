@@ -112,8 +112,7 @@ static void test_what_lies_inside_is_left_alone(void)
         }
         CHECK_EQ(clip(v, &p, OUT_NEAR | OUT_FAR | OUT_GUARD), 3);
         for (int i = 0; i < 3; i++)
-            if (!CHECK(same_vertex(&v[i], &before[i])))
-                return;
+            REQUIRE(same_vertex(&v[i], &before[i]));
     }
 }
 
@@ -173,8 +172,7 @@ static void test_a_plane_cuts_at_its_place(void)
         v[0] = a = vertex_within(NEAR_AT / 2, 50, false);
         v[1] = b = vertex_within(3 * NEAR_AT / 2, 16, false);
         v[2] = vertex_at(0, 0, 2 * NEAR_AT, false);
-        if (!CHECK_EQ(clip(v, &p, OUT_NEAR), 4))
-            return;
+        REQUIRE_EQ(clip(v, &p, OUT_NEAR), 4);
         /* Walked from vertex 0, which is out: the first new one lies between 0 and 1. */
         CHECK_EQ(v[0].now.w, NEAR_AT);
         CHECK_NEAR(v[0].now.x, ((int64_t)a.now.x + b.now.x) / 2, 1);
@@ -272,8 +270,7 @@ static void test_both_triangles_at_an_edge_get_the_same_new_vertices(void)
             if (turn < 6 && !CHECK_EQ(found, count))
                 return;
             for (int i = 0; i < count && found == count; i++)
-                if (!CHECK(same_vertex(&first[i], &other[i])))
-                    return;
+                REQUIRE(same_vertex(&first[i], &other[i]));
             compared += found == count && count == 2 && turn >= 6;
         }
     }
@@ -294,8 +291,7 @@ static void test_nothing_is_left_outside(void)
             codes |= codes_of(&v[i], &p);
         }
         int count = clip(v, &p, codes);
-        if (!CHECK(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX)))
-            return;
+        REQUIRE(count == 0 || (count >= 3 && count <= SMEAR_CLIP_MAX));
         most = count > most ? count : most;
         for (int i = 0; i < count; i++) {
             const struct smear_homogeneous *h = &v[i].now;
@@ -326,11 +322,9 @@ static void test_attributes_stay_between_their_corners(void)
         }
         int count = clip(v, &p, codes);
         for (int i = 0; i < count; i++) {
-            if (!CHECK(v[i].uv[0] >= low && v[i].uv[0] <= high))
-                return;
+            REQUIRE(v[i].uv[0] >= low && v[i].uv[0] <= high);
             for (int c = 0; c < 4; c++)
-                if (!CHECK(v[i].color[c] >= 0 && v[i].color[c] <= 65535))
-                    return;
+                REQUIRE(v[i].color[c] >= 0 && v[i].color[c] <= 65535);
         }
     }
 }
@@ -356,8 +350,7 @@ static void test_a_cut_keeps_the_order_of_the_corners(void)
             after += (int64_t)(v[i - 1].now.x - v[0].now.x) * (v[i].now.y - v[0].now.y)
                    - (int64_t)(v[i].now.x - v[0].now.x) * (v[i - 1].now.y - v[0].now.y);
         int64_t noise = 1 << 26;            /* rounding of thin slices */
-        if (!CHECK(count == 0 || (before > 0 ? after > -noise : after < noise)))
-            return;
+        REQUIRE(count == 0 || (before > 0 ? after > -noise : after < noise));
     }
 }
 
@@ -379,8 +372,7 @@ static void test_a_full_polygon_never_outgrows_its_room(void)
         for (int i = 0; i < 3; i++)
             own[i] = polygon.vertex[i];
         smear_clip_polygon(&polygon, &p, OUT_NEAR);
-        if (!CHECK(polygon.count <= SMEAR_CLIP_MAX))
-            return;
+        REQUIRE(polygon.count <= SMEAR_CLIP_MAX);
         uint32_t seen = 0;
         for (int i = 0; i < polygon.count; i++)
             if (!CHECK(polygon.order[i] < SMEAR_CLIP_ROOM) || !CHECK((seen >> polygon.order[i] & 1u) == 0))
@@ -388,11 +380,9 @@ static void test_a_full_polygon_never_outgrows_its_room(void)
             else
                 seen |= 1u << polygon.order[i];
         for (int i = 0; i < 3; i++)
-            if (!CHECK(same_vertex(&own[i], &polygon.vertex[i])))
-                return;
+            REQUIRE(same_vertex(&own[i], &polygon.vertex[i]));
         for (int i = 0; i < polygon.count; i++)
-            if (!CHECK(clip_corner(&polygon, i)->now.distance >= NEAR_AT))
-                return;
+            REQUIRE(clip_corner(&polygon, i)->now.distance >= NEAR_AT);
     }
 }
 

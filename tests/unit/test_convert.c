@@ -74,29 +74,25 @@ static void test_undithered_levels_are_the_nearest(void)
         for (int i = 0; i < MOST; i++) {
             uint32_t want = nearest(channel(pixels[i], 0), 31) << 11 | nearest(channel(pixels[i], 1), 63) << 5
                           | nearest(channel(pixels[i], 2), 31);
-            if (!CHECK_EQ(half_at(i, false), want))
-                return;
+            REQUIRE_EQ(half_at(i, false), want);
         }
         convert_top(MOST, SMEAR_RGB565_SWAPPED, SMEAR_DITHER_NONE);
         for (int i = 0; i < MOST; i++) {
             uint32_t want = nearest(channel(pixels[i], 0), 31) << 11 | nearest(channel(pixels[i], 1), 63) << 5
                           | nearest(channel(pixels[i], 2), 31);
-            if (!CHECK_EQ(half_at(i, true), want))
-                return;
+            REQUIRE_EQ(half_at(i, true), want);
         }
         convert_top(MOST, SMEAR_RGB555, SMEAR_DITHER_NONE);
         for (int i = 0; i < MOST; i++) {
             uint32_t want = nearest(channel(pixels[i], 2), 31) << 10 | nearest(channel(pixels[i], 1), 31) << 5
                           | nearest(channel(pixels[i], 0), 31);
-            if (!CHECK_EQ(half_at(i, false), want))
-                return;
+            REQUIRE_EQ(half_at(i, false), want);
         }
         convert_top(MOST, SMEAR_RGB332, SMEAR_DITHER_NONE);
         for (int i = 0; i < MOST; i++) {
             uint32_t want = nearest(channel(pixels[i], 0), 7) << 5 | nearest(channel(pixels[i], 1), 7) << 2
                           | nearest(channel(pixels[i], 2), 3);
-            if (!CHECK_EQ(band[i], want))
-                return;
+            REQUIRE_EQ(band[i], want);
         }
     }
 }
@@ -202,8 +198,7 @@ static void test_pieces_of_a_row_give_the_bytes_of_the_row(void)
                 smear_format_row(band, stride, pixels + x, x + 24 < n ? 24 : n - x, x, 0, 0, (smear_format)format,
                                  (smear_dither)dither);
             for (uint32_t i = 0; i < stride; i++)
-                if (!CHECK_EQ(band[i], whole[i]))
-                    return;
+                REQUIRE_EQ(band[i], whole[i]);
         }
 }
 
@@ -244,8 +239,7 @@ static void test_white_and_black_are_exact_under_every_dither(void)
                     for (uint32_t i = 0; i < bytes; i++) {
                         uint32_t lit = format == SMEAR_L1_PAGES ? 1
                                      : format == SMEAR_RGB555 ? (i & 1 ? 0x7f : 0xff) : 0xff;
-                        if (!CHECK_EQ(band[i], white ? lit : 0))
-                            return;
+                        REQUIRE_EQ(band[i], white ? lit : 0);
                     }
                 }
 }
@@ -267,8 +261,7 @@ static void test_ordered_16_bit_pixels_are_the_formulas_for_all_codes(void)
                     const uint32_t r = level_of(channel(p, 0), 31, t), b = level_of(channel(p, 2), 31, t),
                                    g = level_of(channel(p, 1), is_555 ? 31 : 63, t);
                     const uint32_t want = is_555 ? b << 10 | g << 5 | r : r << 11 | g << 5 | b;
-                    if (!CHECK_EQ(half_at(i, format == SMEAR_RGB565_SWAPPED), want))
-                        return;
+                    REQUIRE_EQ(half_at(i, format == SMEAR_RGB565_SWAPPED), want);
                 }
             }
         }
@@ -330,8 +323,7 @@ static void test_dither_moves_a_level_by_less_than_one(void)
                 const uint32_t got[3] = { p >> 11, p >> 5 & 63u, p & 31u };
                 for (int c = 0; c < 3; c++) {
                     uint32_t levels = c == 1 ? 63 : 31, exact = channel(pixels[i], c) * levels;     /* of 255 */
-                    if (!CHECK(got[c] * 255u + 255u > exact && got[c] * 255u < exact + 255u))
-                        return;
+                    REQUIRE(got[c] * 255u + 255u > exact && got[c] * 255u < exact + 255u);
                 }
             }
         }

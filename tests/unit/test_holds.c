@@ -241,8 +241,7 @@ static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_th
         if (!find_bounds_in_space(&b, &batch, &v[0], &v[1], &v[2]))
             continue;
         found++;
-        if (!CHECK(b.x0 >= 0 && b.x0 < b.x1 && b.x1 <= 2 * HALF_WIDTH && b.y0 >= 0 && b.y0 < b.y1 && b.y1 <= 2 * HALF_HEIGHT))
-            return;
+        REQUIRE(b.x0 >= 0 && b.x0 < b.x1 && b.x1 <= 2 * HALF_WIDTH && b.y0 >= 0 && b.y0 < b.y1 && b.y1 <= 2 * HALF_HEIGHT);
     }
     CHECK(found > 1000);
 }

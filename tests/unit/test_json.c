@@ -28,9 +28,8 @@ static void test_values_of_every_type_are_read(void)
 {
     struct json j;
     struct failure f;
-    if (!CHECK(parse(" { \"a\" : [ 1 , -2.5e1, true,false ,null, \"x\" ], \"b\":{}, \"c\":[] }\r\n",
-                     &j, &f)))
-        return;
+    REQUIRE(parse(" { \"a\" : [ 1 , -2.5e1, true,false ,null, \"x\" ], \"b\":{}, \"c\":[] }\r\n",
+                  &j, &f));
     CHECK_EQ(j.count, 10);
     CHECK_EQ(j.value[0].type, JSON_OBJECT);
     CHECK_EQ(j.value[0].count, 3);
@@ -178,8 +177,7 @@ static void test_depth_is_limited_and_needs_no_stack(void)
     char *text = malloc(MUCH + 1);
     struct json j;
     struct failure f;
-    if (!CHECK(text != NULL))
-        return;
+    REQUIRE(text != NULL);
     memset(text, '[', JSON_MAX_DEPTH);
     memset(text + JSON_MAX_DEPTH, ']', JSON_MAX_DEPTH);
     text[2 * JSON_MAX_DEPTH] = '\0';
@@ -203,8 +201,7 @@ static void test_every_shortened_document_is_refused(void)
         struct failure f = { 0 };
         /* A block of exactly n bytes, so that a sanitizer sees any step beyond. */
         uint8_t *copy = malloc(n + 1);
-        if (!CHECK(copy != NULL))
-            return;
+        REQUIRE(copy != NULL);
         memcpy(copy, text, n);
         uint8_t *exact = realloc(copy, n == 0 ? 1 : n);
         CHECK(!json_parse(exact, n, &j, &f));
@@ -222,9 +219,8 @@ static void test_errors_of_meaning_tell_the_path(void)
     const char *string = NULL;
     bool flag = false, present = true;
     double three[3];
-    if (!CHECK(parse("{\"m\":[{},{\"p\":[{\"n\":\"x\",\"i\":2.5,\"k\":7,\"s\":1,\"v\":[1,2],"
-                     "\"w\":[1,2,\"z\"],\"t\":3}]}]}", &j, &f)))
-        return;
+    REQUIRE(parse("{\"m\":[{},{\"p\":[{\"n\":\"x\",\"i\":2.5,\"k\":7,\"s\":1,\"v\":[1,2],"
+                  "\"w\":[1,2,\"z\"],\"t\":3}]}]}", &j, &f));
     int m = json_member(&j, 0, "m");
     int object = json_first(&j, json_member(&j, json_after(&j, json_first(&j, m)), "p"));
 
@@ -278,8 +274,7 @@ static void test_long_and_rude_names_cannot_break_the_message(void)
     memset(text + 2, 'n', 400);
     strcat(text, "\\u0007\":{\"x\":1}}");
     double number;
-    if (!CHECK(parse(text, &j, &f)))
-        return;
+    REQUIRE(parse(text, &j, &f));
     int object = 1, array;
     CHECK(!json_get_array(&j, object, "x", &array, &f));
     CHECK(strlen(f.text) < sizeof f.text);

@@ -225,8 +225,7 @@ static void test_the_order_of_the_corners_does_not_matter(void)
             }
         }
         for (int i = 0; i < W * H; i++)
-            if (!CHECK(count[i] == 0 || count[i] == 6))
-                return;
+            REQUIRE(count[i] == 0 || count[i] == 6);
     }
 }
 
@@ -493,8 +492,7 @@ static void test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once(void
                     return;
             }
         for (int i = 0; i < W * H; i++)
-            if (!CHECK_EQ(count[i], i == 10 * W + 10))
-                return;
+            REQUIRE_EQ(count[i], i == 10 * W + 10);
     }
 }
 
@@ -955,8 +953,7 @@ static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
             draw_list(&full);
             for (int32_t y = 0; y < H && y < h; y++)
                 for (int32_t x = 0; x < W && x < w; x++)
-                    if (!CHECK_EQ(full.color[y * W + x] & 0xffffffu, y << 12 | x))
-                        return;
+                    REQUIRE_EQ(full.color[y * W + x] & 0xffffffu, y << 12 | x);
         }
 }
 
@@ -1148,8 +1145,7 @@ static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
                             best = i;
                     if (best >= 0)
                         want = (uint32_t)best + 1;
-                    if (!CHECK_EQ(full.color[y * W + x], want))
-                        return;
+                    REQUIRE_EQ(full.color[y * W + x], want);
                 }
         }
     }
@@ -1775,8 +1771,7 @@ static void test_wide_velocities_are_the_narrow_ones_where_those_suffice(void)
         t.velocity16 = wide_velocity;
         smear_raster_list(&frame, &t, 0);
         for (int i = 0; i < W * H * 2; i++)
-            if (!CHECK_EQ(full.velocity[i], wide_velocity[i]))
-                return;
+            REQUIRE_EQ(full.velocity[i], wide_velocity[i]);
     }
 }
 

@@ -335,8 +335,7 @@ static void test_planes_go_where_floating_point_has_them(void)
             x = between(0, W - 1);
             y = between(0, H - 1);
         }
-        if (!CHECK(smear_plane_motion_make(&m, &space, record, x, y, step)))
-            return;
+        REQUIRE(smear_plane_motion_make(&m, &space, record, x, y, step));
         for (int i = 0; i < right; i++)
             smear_plane_motion_right(&m);
         for (int i = 0; i < down; i++)

@@ -634,8 +634,7 @@ static void test_light_of_one_colour_stays_that_colour(void)
                 const struct gap_planes planes = { &color, &depth, sums, UINT16_MAX };
                 const struct gap_pairs taps = { offset, pairs, smear_light_most(n) };
                 smear_light_means(&planes, 0, 1, &taps, &mean, COVER_NONE);
-                if (!CHECK_EQ(color, code * 0x10101u))
-                    return;
+                REQUIRE_EQ(color, code * 0x10101u);
                 for (uint32_t k = 0; k < n; k++) {
                     const struct light_instant instant = smear_light_instant(k, n, true);
                     uint32_t pixel = color;
@@ -644,8 +643,7 @@ static void test_light_of_one_colour_stays_that_colour(void)
                 uint32_t mixed = background;
                 const struct gap_planes before = { &mixed, &depth, sums, UINT16_MAX };
                 smear_light_means(&before, 0, 1, &taps, &mean, COVER_NONE);
-                if (!CHECK_NEAR(mixed & 0xffu, code, n <= 16 ? 0 : 1))
-                    return;
+                REQUIRE_NEAR(mixed & 0xffu, code, n <= 16 ? 0 : 1);
             }
 }
 
@@ -667,8 +665,7 @@ static void test_wide_gaps_of_many_instants_keep_white(void)
             const struct smear_tile_run t = tiles_at(16, 0, 4, 0, mover);
             smear_subframes_tiles(&t, n, plan_of(steps[i >> 1], 0, n));
             for (int32_t at = 0; at < 64 * 16; at++)
-                if (!CHECK_EQ(memory.out[at] & 0xffffffu, 0xffffffu))
-                    return;
+                REQUIRE_EQ(memory.out[at] & 0xffffffu, 0xffffffu);
         }
 }
 

@@ -99,8 +99,7 @@ static void test_nearest_texels_are_those_at_the_floor_of_the_coordinate(void)
         for (int i = 0; i < count; i++) {
             int64_t at_u = floor_divide((int64_t)u + (int64_t)i * du, 65536);
             int64_t at_v = floor_divide((int64_t)v + (int64_t)i * dv, 65536);
-            if (!CHECK_EQ(out[i], texel_at(&t, at_u, at_v)))
-                return;
+            REQUIRE_EQ(out[i], texel_at(&t, at_u, at_v));
         }
         CHECK_EQ(out[count], 0x5a5a5a5au);
     }
@@ -153,8 +152,7 @@ static void test_curved_runs_change_their_step_every_two_pixels_wherever_they_ar
         out[count] = 0x5a5a5a5au;
         smear_sample(out, &s, &run, first, count);
         for (int i = 0; i < count; i++)
-            if (!CHECK_EQ(out[i], want[first + i]))
-                return;
+            REQUIRE_EQ(out[i], want[first + i]);
         CHECK_EQ(out[count], 0x5a5a5a5au);
     }
 }
@@ -230,8 +228,7 @@ static void test_bilinear_texels_of_one_colour_are_that_colour(void)
             uint32_t out[16];
             sample(out, &s, 12345, -54321, 7777, 3333, 16);
             for (int i = 0; i < 16; i++)
-                if (!CHECK_EQ(out[i], code * 0x01010101u))
-                    return;
+                REQUIRE_EQ(out[i], code * 0x01010101u);
         }
     }
 }
@@ -255,8 +252,7 @@ static void test_ratios_become_texels(void)
                 int64_t slack = 2 + ((int64_t)size[k] << (15 - uv_shift)) / 1024;
                 if (want > INT32_MAX || want < INT32_MIN)
                     continue;
-                if (!CHECK_NEAR(smear_sampler_texel_u(&s, ratio), want, slack))
-                    return;
+                REQUIRE_NEAR(smear_sampler_texel_u(&s, ratio), want, slack);
                 scaled = (int64_t)ratio * size[9 - k] * ((int64_t)1 << (15 - uv_shift));
                 want = floor_divide(scaled, 8192);
                 slack = 2 + ((int64_t)size[9 - k] << (15 - uv_shift)) / 1024;

@@ -463,8 +463,7 @@ static void test_a_triangle_that_translates_covers_every_sample_that_it_should(v
         truth(samples);
         draw_movers(samples, 16, 64, 256);
         struct difference d = compare();
-        if (!CHECK_NEAR(d.most, 0, step_of(max_i32(samples / 4, 1), samples)))
-            return;
+        REQUIRE_NEAR(d.most, 0, step_of(max_i32(samples / 4, 1), samples));
         unequal += d.unequal;
         touched += d.touched;
     }
@@ -591,8 +590,7 @@ static void test_meshes_that_turn_and_grow_come_near_the_truth_as_segments_get_s
         if (!check_against_truth(32, 2, 5, 500))
             return;
         struct difference d = compare();
-        if (!CHECK(d.squares <= chord.squares + 200))
-            return;
+        REQUIRE(d.squares <= chord.squares + 200);
     }
 }
 
@@ -703,8 +701,7 @@ static void test_more_surfaces_than_entries_still_add_up(void)
     }
     draw_movers(32, 16, 64, 256);
     for (int i = 0; i < W * H; i++)
-        if (!CHECK_EQ(result[i], 0x336699u))
-            return;
+        REQUIRE_EQ(result[i], 0x336699u);
 }
 
 static void test_the_order_of_movers_does_not_matter_while_there_are_entries(void)
@@ -757,8 +754,7 @@ static void test_the_size_of_tiles_does_not_matter_for_what_translates(void)
         int32_t unequal = 0;
         for (int i = 0; i < W * H; i++)
             unequal += result[i] != before[i];
-        if (!CHECK_NEAR(unequal, 0, W * H / 40))
-            return;
+        REQUIRE_NEAR(unequal, 0, W * H / 40);
     }
 }
 
@@ -831,8 +827,7 @@ static void test_anything_at_all_gives_a_picture_between_its_colours(void)
         }
         draw_movers(8 << n % 3, 16, between(1, 500), between(1, 500));
         for (int i = 0; i < W * H; i++)
-            if (!CHECK_EQ(result[i], 0x406080u))
-                return;
+            REQUIRE_EQ(result[i], 0x406080u);
     }
 }
 
@@ -862,8 +857,7 @@ static void test_slivers_keep_to_the_colours_of_their_vertices(void)
         draw_movers(8 << n % 3, 16, 64, 256);
         for (int i = 0; i < W * H; i++)
             for (int c = 0; c < 24; c += 8)
-                if (!CHECK_NEAR(result[i] >> c & 255u, 128, 29))
-                    return;
+                REQUIRE_NEAR(result[i] >> c & 255u, 128, 29);
     }
 }
 
@@ -932,8 +926,7 @@ static void test_textures_are_taken_along_the_motion(void)
         struct difference fine = compare();
         draw_movers(32, 16, 32, 4096);
         struct difference coarse = compare();
-        if (!CHECK_NEAR(mean_square(&fine), 0, 15000))
-            return;
+        REQUIRE_NEAR(mean_square(&fine), 0, 15000);
         if (m.dx > 600 || m.dx < -600)
             CHECK(fine.squares < coarse.squares / 3);
     }
