@@ -11,4 +11,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What a variable of the environment asks for; or what is usual. */
+static inline uint32_t number_from(const char *name, uint32_t usual)
+{
+    const char *value = getenv(name);
+    return value != NULL && atoi(value) > 0 ? (uint32_t)atoi(value) : usual;
+}
+
+/* For qsort. */
+static inline int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
 #endif

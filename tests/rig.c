@@ -127,6 +127,24 @@ bool same_picture(const struct rig *r, const uint8_t *picture)
 
 /* ------------------------------------------------------------------ poses and cameras */
 
+void random_rotation(int32_t basis[9], double scale)
+{
+    double q[4], length = 0;
+    for (int i = 0; i < 4; i++) {
+        q[i] = uniform(-1, 1);
+        length += q[i] * q[i];
+    }
+    length = sqrt(length);
+    double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
+    const double m[9] = {
+        1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
+    };
+    for (int i = 0; i < 9; i++)
+        basis[i] = (int32_t)lrint(m[i] * scale * (1 << 24));
+}
+
 int32_t q16(double v) { return (int32_t)lrint(v * 65536); }
 int32_t q24(double v) { return (int32_t)lrint(v * (1 << 24)); }
 

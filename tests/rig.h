@@ -59,6 +59,9 @@ bool same_picture(const struct rig *r, const uint8_t *picture);
 int32_t q16(double v);
 int32_t q24(double v);
 
+/* Of chance, times `scale`. */
+void random_rotation(int32_t basis[9], double scale);
+
 /* Turned by `yaw` about y, then by `pitch` about x; then moved. */
 smear_transform pose_at(double x, double y, double z, double yaw, double pitch);
 smear_camera camera_at(double x, double y, double z, double yaw);

@@ -3,6 +3,7 @@
  *
  * The head's magic, version, size and checksum are set right first, so that mutations reach the tables; input whose
  * first byte is odd is left as it is. Everything lies in blocks of exactly its size. Seeds are in tests/fuzz/corpus/blob. */
+#include "tests/fuzz/require.h"
 #include "model/blob.h"
 #include "base/crc32.h"
 
@@ -13,12 +14,6 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { WIDTH = 40, HEIGHT = 24, MAX_DRAWS = 24 };
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static int swallow(void *user, const smear_band *band)
 {

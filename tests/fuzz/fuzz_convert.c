@@ -3,18 +3,13 @@
  * comes out of it is a blob that passes its own check.
  *
  * The first two bytes choose options, the rest is a model as fuzz_model.c takes it (without the wrapping). */
+#include "tests/fuzz/require.h"
 #include "tools/convert/convert.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static void check_result(const struct conversion *c)
 {

@@ -5,6 +5,7 @@
  *
  * What the loader takes can be posed, shown and converted, or is refused with a reason; a blob that comes out passes its
  * own check. */
+#include "tests/fuzz/require.h"
 #include "tools/convert/convert.h"
 #include "tools/scenes/present.h"
 #include "tools/scenes/scene.h"
@@ -15,12 +16,6 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 /* ------------------------------------------------------------------ decisions */
 

@@ -8,6 +8,7 @@
  *     clang -std=c11 -g -O1 -fsanitize=fuzzer,address,undefined -o fuzz tests/fuzz/fuzz_image.c \
  *         $(ls tools/image/[a-z]*.c) -lm
  *     ./fuzz -max_len=2048 tests/fuzz/corpus/image */
+#include "tests/fuzz/require.h"
 #include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
@@ -17,12 +18,6 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 static void check_image(bool ok, struct image *image, const struct failure *f)
 {

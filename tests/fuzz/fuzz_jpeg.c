@@ -4,18 +4,13 @@
  * the headers.
  *
  * What is read has pixels, and is read the same from memory that ends with the file; what is not is refused with a reason. */
+#include "tests/fuzz/require.h"
 #include "tests/random.h"
 #include "tests/ref/jpeg_case.h"
 
 #include "tools/image/image.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 static void check_file(const uint8_t *bytes, size_t size)
 {

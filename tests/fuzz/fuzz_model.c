@@ -5,6 +5,7 @@
  * Input that begins with byte 1 is JSON, a NUL and a BIN chunk, which are wrapped into a GLB
  * here, so that a mutation need not keep GLB's lengths right. Anything else goes to model_parse
  * as it is. Seeds are in tests/fuzz/corpus/model; gltf.dict there is the dictionary. */
+#include "tests/fuzz/require.h"
 #include "tools/model/model.h"
 
 #include <math.h>
@@ -12,12 +13,6 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static void require_finite(const float *values, size_t n)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* fuzz_script.c - libFuzzer target: any bytes are recorded input (tools/view/script.h) or are refused with a line; what is
  * played can be recorded, and plays the same. The first byte chooses between the bytes themselves and lines made of them. */
+#include "tests/fuzz/require.h"
 #include "tools/view/script.h"
 
 #include "tools/image/image.h"
@@ -10,12 +11,6 @@
 #include <unistd.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static size_t write_lines(const uint8_t *data, size_t size, char *text, size_t room)
 {

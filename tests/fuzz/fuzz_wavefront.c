@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* fuzz_wavefront.c - libFuzzer target: any bytes are the statements of an OBJ file, most of which refer to what is there. What
  * the loader takes keeps its promises (model.h), or is refused with a reason and a line. */
+#include "tests/fuzz/require.h"
 #include "tools/model/model.h"
 
 #include <math.h>
@@ -10,12 +11,6 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static char text[1 << 16];
 static size_t length;

@@ -2,6 +2,7 @@
 /* fuzz_x11.c - libFuzzer target: a window at a server that greets and replies as the bytes say. The first twelve change a
  * greeting that is usual otherwise; then packets follow, each with two bytes of its own: replies in their turn, events,
  * errors, and bytes as they are. The window opens or is refused, shows pictures, takes events, and closes. */
+#include "tests/fuzz/require.h"
 #include "tests/x_server.h"
 #include "tools/view/screen.h"
 
@@ -11,12 +12,6 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { ROOM = 1 << 16, PACKET = 32, FIELDS = 12 };
-
-static void require(bool ok)
-{
-    if (!ok)
-        abort();
-}
 
 static void greet(const uint8_t *b, uint8_t *out)
 {

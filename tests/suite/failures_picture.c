@@ -53,6 +53,11 @@ static bool take(struct taken *t, const char *scene, const struct fail_method *m
     return taken_open(t, scene, method) && taken_draw(t);
 }
 
+/* A scene as one of these takes it, of the row's method; without it the row has no numbers. */
+#define TAKE(t, taker, scene) \
+    struct taken t OWNED(put_away) = { 0 }; \
+    END_UNLESS(taker(&t, scene, method))
+
 static double rmse_in(const struct taken *t, struct area area)
 {
     return fail_rmse(&t->s, t->rgb, t->truth, area);
@@ -197,9 +202,7 @@ static double border_step(const struct taken *t, struct area area)
 
 static void longer(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/long", method))
-        return;
+    TAKE(t, take, "fail/long");
     struct area middle = fail_around(&t.s, 0, -1, 76, 6);
     number[0] = length_error(&t, middle, CREAM, GREY);
     number[1] = border_step(&t, middle);
@@ -209,9 +212,7 @@ static void longer(const struct fail_method *method, double number[])
 
 static void opposite(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/opposite", method))
-        return;
+    TAKE(t, take, "fail/opposite");
     number[0] = fmax(length_error(&t, fail_around(&t.s, 0, -15, 60, 4), CREAM, GREY),
                      length_error(&t, fail_around(&t.s, 0, 15, 60, 4), RED, GREY));
     number[1] = rmse(&t);
@@ -221,9 +222,7 @@ static void opposite(const struct fail_method *method, double number[])
 
 static void slow(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/slow", method))
-        return;
+    TAKE(t, take, "fail/slow");
     uint8_t *sharp = fail_sharp(&t.s, &t.present);
     int worst = 0;
     for (int y = 0; y < t.s.height && sharp != NULL; y++)
@@ -268,9 +267,7 @@ static bool is_picket(const struct subject *s, int x)
 
 static void fence(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/fence", method))
-        return;
+    TAKE(t, take, "fail/fence");
     double worst = 0.0, sum = 0.0;
     int columns = 0;
     for (int x = 0; x < t.s.width; x++) {
@@ -405,9 +402,7 @@ static void hidden(const struct fail_method *method, double number[])
 
 static void pane(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/pane", method))
-        return;
+    TAKE(t, take, "fail/pane");
     int half = FAIL_PANE_HALF + FAIL_PANE_STREAK / 2;
     int above = t.s.height / 2 - FAIL_PANE_HALF - 1;
     struct area back = {0, 0, t.s.width, above};
@@ -442,9 +437,7 @@ static double hole_velocity(struct subject *s, const struct present_options *pre
 
 static void leaf(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/leaf", method))
-        return;
+    TAKE(t, take, "fail/leaf");
     number[0] = rmse(&t);
     if (method->method == SMEAR_RECONSTRUCT)
         number[1] = hole_velocity(&t.s, &t.present);
@@ -469,9 +462,7 @@ static void roll(const struct fail_method *method, double number[])
 
 static void zoom(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take(&t, "fail/zoom", method))
-        return;
+    TAKE(t, take, "fail/zoom");
     uint8_t *sharp = fail_sharp(&t.s, &t.present);
     number[0] = rmse(&t);
     if (sharp != NULL)
@@ -526,18 +517,14 @@ static double roughness(const struct taken *t, struct area area)
 
 static void sign(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take_default(&t, "fail/sign", method))
-        return;
+    TAKE(t, take_default, "fail/sign");
     number[0] = rmse(&t);
     number[1] = roughness(&t, fail_around(&t.s, 0, 0, 60, 24));
 }
 
 static void fan(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take_default(&t, "fail/fan", method))
-        return;
+    TAKE(t, take_default, "fail/fan");
     const int half = FAIL_FAN_RADIUS - FAIL_FAN_ASIDE;
     number[0] = rmse(&t);
     number[1] = rmse_in(&t, fail_around(&t.s, 0, 0, half, 30));
@@ -562,18 +549,14 @@ static double worst_in_ring(const struct taken *t, double low, double high)
 
 static void rotor(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take_default(&t, "fail/rotor", method))
-        return;
+    TAKE(t, take_default, "fail/rotor");
     number[0] = rmse(&t);
     number[1] = worst_in_ring(&t, 0.8 * FAIL_ROTOR_RADIUS, FAIL_ROTOR_RADIUS);
 }
 
 static void wheel(const struct fail_method *method, double number[])
 {
-    struct taken t OWNED(put_away) = { 0 };
-    if (!take_default(&t, "fail/wheel", method))
-        return;
+    TAKE(t, take_default, "fail/wheel");
     number[0] = rmse(&t);
     number[1] = rmse_in(&t, fail_around(&t.s, 0, 0, FAIL_ROLLING_RADIUS, FAIL_ROLLING_RADIUS));
 }

@@ -154,8 +154,7 @@ static void clear_folder(const char *folder)
 static void test_outputs_that_are_one_file_are_found(void)
 {
     static struct ends ends[OUTPUTS];
-    const char *asked = getenv("APART_FOLDERS");
-    int cases = asked != NULL ? atoi(asked) : 300, refused = 0, taken = 0, home = open(".", O_RDONLY);
+    int cases = (int)number_from("APART_FOLDERS", 300), refused = 0, taken = 0, home = open(".", O_RDONLY);
     char path[OUTPUTS][PATH], base[] = "/tmp/smear-apart-XXXXXX";
     REQUIRE(home >= 0 && mkdtemp(base) != NULL);
     random_state = 1;

@@ -11,8 +11,7 @@
 
 static int files_of_each(void)
 {
-    const char *asked = getenv("FOREIGN_FILES");
-    return asked != NULL ? atoi(asked) : 1000;
+    return (int)number_from("FOREIGN_FILES", 1000);
 }
 
 /* ------------------------------------------------------------------ texts and files */

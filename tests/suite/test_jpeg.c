@@ -146,7 +146,7 @@ static void damage(struct buffer *b)
 static void test_jpeg_survives_damage(void)
 {
     const char *asked = getenv("JPEG_CASES");
-    const int cases = asked != NULL ? atoi(asked) : 2000;
+    const int cases = (int)number_from("JPEG_CASES", 2000);
     clock_t slowest = 0;
     int drawn = 0;
     random_state = 3;

@@ -200,12 +200,6 @@ static int pixels_off(const struct drive *d, const uint8_t *sharp, const uint8_t
 
 /* ------------------------------------------------------------------ surfaces without end */
 
-static uint32_t number_from(const char *name, uint32_t usual)
-{
-    const char *value = getenv(name);
-    return value != NULL && atoi(value) > 0 ? (uint32_t)atoi(value) : usual;
-}
-
 static uint32_t cases(uint32_t usual)
 {
     return number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 40 * usual : usual);
@@ -311,12 +305,6 @@ static struct drive random_pass(void)
     return d;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void test_cubes_that_pass_are_as_exact_instants_show_them(void)
 {
     enum { MOST = 20000 };
@@ -340,7 +328,7 @@ static void test_cubes_that_pass_are_as_exact_instants_show_them(void)
         REQUIRE(ok);
     }
     for (int m = 0; m < METHODS; m++) {
-        qsort(error[m], count, sizeof error[m][0], compare);
+        qsort(error[m], count, sizeof error[m][0], by_value);
         printf("  %s: cubes that pass, %u: half within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f\n", by[m].name,
                (unsigned)count, error[m][count / 2], error[m][count * 9 / 10], error[m][count - 1]);
         CHECK_CLOSE(error[m][count * 9 / 10], 0, by[m].most_of_ten);

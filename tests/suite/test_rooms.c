@@ -18,12 +18,6 @@ struct visit {
 
 static uint32_t texels[TEXELS * TEXELS];
 
-static uint32_t number_from(const char *name, uint32_t usual)
-{
-    const char *value = getenv(name);
-    return value != NULL && atoi(value) > 0 ? (uint32_t)atoi(value) : usual;
-}
-
 static struct visit random_visit(void)
 {
     struct visit v = { .kind = (enum kind)(random_u32() % KINDS), .repeats = between(1, 4) };
@@ -114,12 +108,6 @@ static bool measure(double *error, struct rig *r, const struct visit *v)
     return true;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
 {
     static double error[CASES_MAX];
@@ -141,7 +129,7 @@ static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
     }
     rig_end(&r);
     REQUIRE(ok);
-    qsort(error, count, sizeof error[0], compare);
+    qsort(error, count, sizeof error[0], by_value);
     printf("  of %u textured rooms half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f\n", (unsigned)count,
            error[count / 2], error[count * 9 / 10], error[count - 1]);
     CHECK_CLOSE(error[count * 9 / 10], 0, 2.1);

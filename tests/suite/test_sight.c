@@ -95,8 +95,7 @@ static void add_triangle(int i, enum place place, const struct scene_camera *c, 
 
 static void test_triangles_are_counted_by_what_hides_them(void)
 {
-    const char *asked = getenv("SIGHT_SCENES");
-    int scenes = asked != NULL ? atoi(asked) : 2000;
+    const int scenes = (int)number_from("SIGHT_SCENES", 2000);
     random_state = 1;
     for (int n = 0; n < scenes; n++) {
         struct xform pose = xform_mul(xform_move(uniform(-20, 20), uniform(-20, 20), uniform(-20, 20)), random_turn());

@@ -188,8 +188,7 @@ static void print_scene(const struct small_scene *s, uint32_t number, const doub
 static void test_small_things_have_the_error_aimed_at(void)
 {
     static struct small_scene scene;
-    const char *cases = getenv("CASES");
-    const int count = cases != NULL ? atoi(cases) : (int)CASES;
+    const int count = (int)number_from("CASES", CASES);
     int within = 0, over = 0, all = 0;
     double most = 0;
     for (int i = 0; i < count; i++) {

@@ -31,7 +31,7 @@ static void random_unit(double v[3])
 }
 
 /* A random rotation times `scale`. */
-static void random_rotation(double m[9], double scale)
+static void random_turn(double m[9], double scale)
 {
     double x[3], y[3], dot = 0, length = 0;
     random_unit(x);
@@ -127,7 +127,7 @@ static void test_normals_under_rotation_and_scale_are_lit_within_a_hundredth(voi
     static const double scale[] = { 1, 0.001, 0.1, 3, 60, 100 };
     for (int n = 0; n < 60; n++) {
         double m[9];
-        random_rotation(m, scale[n % 6]);
+        random_turn(m, scale[n % 6]);
         CHECK(shading_of(m).even || scale[n % 6] < 0.01);
         if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
             return;
@@ -139,7 +139,7 @@ static void test_normals_under_stretch_and_shear_are_lit_within_a_hundredth(void
     random_state = 2;
     for (int n = 0; n < 60; n++) {
         double m[9];
-        random_rotation(m, 1);
+        random_turn(m, 1);
         for (int i = 0; i < 3; i++) {
             m[3 * i] *= uniform(0.2, 4);
             m[3 * i + 1] *= n & 1 ? 1 : uniform(0.2, 4);
@@ -157,7 +157,7 @@ static void test_mirrors_do_not_turn_the_light_around(void)
     random_state = 3;
     for (int n = 0; n < 30; n++) {
         double m[9];
-        random_rotation(m, uniform(0.5, 2));
+        random_turn(m, uniform(0.5, 2));
         for (int i = 0; i < 3; i++)
             m[3 * i + n % 3] *= n & 1 ? -1 : -2;
         if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
@@ -187,7 +187,7 @@ static void test_faces_are_lit_by_their_plane_within_a_hundredth(void)
     random_state = 4;
     for (int n = 0; n < 400; n++) {
         double m[9], u[3], v[3], normal[3];
-        random_rotation(m, 1);
+        random_turn(m, 1);
         for (int i = 0; i < 3 && n % 2; i++)
             m[3 * i] *= n % 4 == 1 ? -1.5 : 0.4;
         struct smear_shading s = shading_of(m);

@@ -4,7 +4,7 @@
 #include "geometry/matrix.h"
 
 #include "geometry/transform.h"
-#include "tests/host.h"
+#include "tests/rig.h"
 
 static int32_t wild(void)
 {
@@ -133,24 +133,6 @@ static void test_planes_lie_at_their_distances(void)
 
 /* ------------------------------------------------------------------ sums of poses */
 
-static void random_rotation(int32_t basis[9])
-{
-    double q[4], length = 0;
-    for (int i = 0; i < 4; i++) {
-        q[i] = uniform(-1, 1);
-        length += q[i] * q[i];
-    }
-    length = sqrt(length);
-    double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
-    const double m[9] = {
-        1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
-    };
-    for (int i = 0; i < 9; i++)
-        basis[i] = (int32_t)lrint(m[i] * (1 << 24));
-}
-
 /* Clip position: x and y in pixels x w, w, and the distance. */
 static void clip_exactly(double out[4], const smear_mesh *mesh, const smear_transform *object,
                          const smear_camera *camera, int height, const int16_t v[3])
@@ -199,7 +181,7 @@ static double worst_sum(bool orthographic, bool apart)
         for (int k = 0; k < count; k++) {
             camera[k] = (smear_camera){ .pose = SMEAR_IDENTITY, .focal = 100000, .near_plane = 6554,
                                         .far_plane = 100 * 65536, .half_height = orthographic ? 4 * 65536 : 0 };
-            random_rotation(object[k].basis);
+            random_rotation(object[k].basis, 1);
             if (k > 0)
                 for (int i = 0; i < 9; i++)         /* neighbouring poses: a tenth of the way to anywhere */
                     object[k].basis[i] = object[0].basis[i] + (object[k].basis[i] - object[0].basis[i]) / 10;

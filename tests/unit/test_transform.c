@@ -3,26 +3,7 @@
  * precision: rigid, scaled, sheared, mirrored, tiny and huge transforms. Host only. */
 #include "geometry/transform.h"
 
-#include "tests/host.h"
-
-/* A random rotation times `scale`, q24. */
-static void random_rotation(int32_t basis[9], double scale)
-{
-    double q[4], length = 0;
-    for (int i = 0; i < 4; i++) {
-        q[i] = uniform(-1, 1);
-        length += q[i] * q[i];
-    }
-    length = sqrt(length);
-    double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
-    const double m[9] = {
-        1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
-    };
-    for (int i = 0; i < 9; i++)
-        basis[i] = (int32_t)lrint(m[i] * scale * (1 << 24));
-}
+#include "tests/rig.h"
 
 /* One vertex, exactly as smear.h says: where it is on the screen (pixels from the centre) and how far away. */
 struct exact {
