@@ -229,25 +229,6 @@ static void test_filters_are_near_the_truth_and_do_not_depend_on_cores_and_parts
     truth_forget();
 }
 
-static void test_frames_of_any_size_are_drawn_by_every_filter(void)
-{
-    static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 7, 5 }, { 33, 17 } };
-    struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "suite/arena"))
-        return;
-    for (size_t i = 0; i < sizeof drawn / sizeof *drawn; i++)
-        for (int k = 0; k < 5; k++)
-            for (int tile = 8; tile <= 64; tile *= 2) {
-                struct present_options p = drawn[i].p, from = subject_options(&s);
-                struct shot shot;
-                p.fps = from.fps;
-                p.shutter_degrees = 720;
-                struct shot_options o = { .width = size[k][0], .height = size[k][1], .reach = tile, .tile = tile };
-                if (CHECK(shot_take(&s, &p, &o, &shot)))
-                    shot_free(&shot);
-            }
-}
-
 /* ------------------------------------------------------------------ filters alone, on made pictures */
 
 /* What comes out of the filter for a picture of rows that are all alike. */
