@@ -126,8 +126,7 @@ static void light(const struct fail_method *method, double number[])
 {
     struct subject s OWNED(subject_close) = { 0 };
     number[0] = scene_rmse("fail/light", method);
-    if (!subject_open(&s, "fail/light"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/light"));
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0), *sharp = fail_sharp(&s, &present);
     if (rgb != NULL && sharp != NULL)
@@ -198,8 +197,7 @@ static void ground(const struct fail_method *method, double number[])
     enum { TOP = 40, ROWS = 80 };
     struct subject s OWNED(subject_close) = { 0 };
     double row[ROWS];
-    if (!subject_open(&s, "fail/ground"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/ground"));
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0);
     const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, FAIL_INSTANTS);
@@ -289,8 +287,7 @@ static void tiny(const struct fail_method *method, double number[])
     number[0] = held;
     number[1] = beyond;
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "fail/tiny"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/tiny"));
     s.width = 7;
     s.height = 5;
     struct present_options present = fail_options(&s, method);
@@ -314,8 +311,7 @@ static void highlight(const struct fail_method *method, double number[])
 static void layers(const struct fail_method *method, double number[])
 {
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "fail/layers"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/layers"));
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0), *sharp = fail_sharp(&s, &present);
     if (rgb != NULL && sharp != NULL) {
@@ -333,8 +329,7 @@ static void far_away(const struct fail_method *method, double number[])
 {
     static const int offset[][3] = {{10000, -10000, 10000}, {-10000, 3, 9999}};
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "fail/far"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/far"));
     struct present_options present = fail_options(&s, method);
     uint8_t *here = fail_take(&s, &present, 0, 0);
     double worst = 0.0;
@@ -376,8 +371,7 @@ static void every_scene(const struct fail_method *method, double number[])
 static void exposures(const struct fail_method *method, double number[])
 {
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "fail/edge"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/edge"));
     for (int i = 0; i < 2; i++) {
         double worst = 0.0;
         for (int k = 0; k < 2; k++) {

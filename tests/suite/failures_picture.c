@@ -115,8 +115,7 @@ static void rotation(const struct fail_method *method, double number[])
 {
     static const double radius[3] = {10, 30, 55};
     struct taken t;
-    if (!take(&t, "fail/rotation", method))
-        return;
+    END_UNLESS(take(&t, "fail/rotation", method));
     number[0] = rmse(&t);
     number[1] = 0.0;
     for (int i = 0; i < 3; i++)
@@ -124,11 +123,9 @@ static void rotation(const struct fail_method *method, double number[])
                                          - around(&t.s, NULL, t.truth->code, radius[i])));
     put_away(&t);
     /* And with no more than the pose a frame ago. */
-    if (!taken_open(&t, "fail/rotation", method))
-        return;
+    END_UNLESS(taken_open(&t, "fail/rotation", method));
     t.present.shutter_poses = false;
-    if (!taken_draw(&t))
-        return;
+    END_UNLESS(taken_draw(&t));
     number[2] = rmse(&t);
     put_away(&t);
 }
@@ -164,17 +161,14 @@ static double centroid_error(const struct taken *t)
 static void curve(const struct fail_method *method, double number[])
 {
     struct taken t;
-    if (!take(&t, "fail/curve", method))
-        return;
+    END_UNLESS(take(&t, "fail/curve", method));
     number[0] = rmse(&t);
     number[1] = centroid_error(&t);
     put_away(&t);
     /* And with no more than the pose a frame ago. */
-    if (!taken_open(&t, "fail/curve", method))
-        return;
+    END_UNLESS(taken_open(&t, "fail/curve", method));
     t.present.shutter_poses = false;
-    if (!taken_draw(&t))
-        return;
+    END_UNLESS(taken_draw(&t));
     number[2] = centroid_error(&t);
     put_away(&t);
 }
@@ -245,8 +239,7 @@ static void thin(const struct fail_method *method, double number[])
     static double alpha[PIXELS];
     struct taken t OWNED(put_away) = { 0 };
     double got = 0.0, want = 0.0;
-    if (!take(&t, "fail/thin", method))
-        return;
+    END_UNLESS(take(&t, "fail/thin", method));
     fail_alpha(&t.s, t.rgb, fail_whole(&t.s), WHITE, GREY, false, alpha);
     for (int i = 0; i < t.s.width * t.s.height; i++)
         got += alpha[i];
@@ -289,8 +282,7 @@ static void edge(const struct fail_method *method, double number[])
 {
     struct taken t OWNED(put_away) = { 0 };
     double column[COLUMNS], want[COLUMNS];
-    if (!take(&t, "fail/edge", method))
-        return;
+    END_UNLESS(take(&t, "fail/edge", method));
     struct area middle = fail_around(&t.s, 0, 0, 60, 4);
     profiles(&t, middle, CREAM, GREY, column, want);
     number[0] = 0.0;
@@ -313,8 +305,7 @@ static void sprites(const struct fail_method *method, double number[])
 {
     struct taken t OWNED(put_away) = { 0 };
     double column[COLUMNS], want[COLUMNS];
-    if (!take(&t, "fail/sprites", method))
-        return;
+    END_UNLESS(take(&t, "fail/sprites", method));
     struct area middle = fail_around(&t.s, 0, 0, 60, 12);
     profiles(&t, middle, CREAM, 0x28503c, column, want);
     number[0] = 100.0 * (1.0 - spread(column, middle, &t.s) / spread(want, middle, &t.s));
@@ -325,8 +316,7 @@ static void sprites(const struct fail_method *method, double number[])
 static void enter(const struct fail_method *method, double number[])
 {
     struct taken t OWNED(put_away) = { 0 }, inside;
-    if (!take(&t, "fail/enter", method))
-        return;
+    END_UNLESS(take(&t, "fail/enter", method));
     if (take(&inside, "fail/enter_inside", method)) {
         struct area first = {0, 0, FAIL_ENTER_STREAK / 2, t.s.height}, same = first;
         same.x0 += FAIL_ENTER_ASIDE;
@@ -368,11 +358,9 @@ static void near_plane(const struct fail_method *method, double number[])
     struct taken t;
     double angle = 0.0, length = 0.0, error = 0.0;
     for (int i = 0; i < 2; i++) {
-        if (!taken_open(&t, i == 0 ? "fail/near" : "fail/pass", method))
-            return;
+        END_UNLESS(taken_open(&t, i == 0 ? "fail/near" : "fail/pass", method));
         t.present.shutter_poses = i == 1;       /* else the pose a frame ago, behind the eye */
-        if (!taken_draw(&t))
-            return;
+        END_UNLESS(taken_draw(&t));
         error = fmax(error, rmse(&t));
         bool looked = method->method != SMEAR_RECONSTRUCT
                    || near_velocities(&t.s, &t.present, i == 0 ? -1 : 1, &angle, &length);
@@ -391,8 +379,7 @@ static void hidden(const struct fail_method *method, double number[])
 {
     struct taken t OWNED(put_away) = { 0 };
     int reach = FAIL_HIDDEN_STREAK / 4;
-    if (!take(&t, "fail/hidden", method))
-        return;
+    END_UNLESS(take(&t, "fail/hidden", method));
     struct area left = fail_around(&t.s, -FAIL_HIDDEN_HALF - reach, 0, reach, FAIL_HIDDEN_HALF);
     struct area right = fail_around(&t.s, FAIL_HIDDEN_HALF + reach, 0, reach, FAIL_HIDDEN_HALF);
     number[0] = hypot(rmse_in(&t, left), rmse_in(&t, right)) / sqrt(2.0);
@@ -450,8 +437,7 @@ static void roll(const struct fail_method *method, double number[])
     enum { CORNER = 32 };
     struct taken t OWNED(put_away) = { 0 };
     double sum = 0.0;
-    if (!take(&t, "fail/roll", method))
-        return;
+    END_UNLESS(take(&t, "fail/roll", method));
     number[0] = rmse_in(&t, fail_around(&t.s, 0, 0, 8, 8));
     for (int i = 0; i < 4; i++) {
         int x = i & 1 ? t.s.width - CORNER : 0, y = i & 2 ? t.s.height - CORNER : 0;
@@ -475,8 +461,7 @@ static void sky(const struct fail_method *method, double number[])
 {
     struct taken t OWNED(put_away) = { 0 };
     double star[COLUMNS], post[COLUMNS], want[COLUMNS];
-    if (!take(&t, "fail/sky", method))
-        return;
+    END_UNLESS(take(&t, "fail/sky", method));
     struct area stars = fail_around(&t.s, 0, -22, 18, 3), posts = fail_around(&t.s, 0, 9, 18, 3);
     profiles(&t, stars, 0xfff4d8, 0x183058, star, want);
     profiles(&t, posts, 0xfff4d8, 0x183058, post, want);

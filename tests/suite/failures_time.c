@@ -263,8 +263,7 @@ static void rate(const struct fail_method *method, double number[])
     const double exposure = 1.0 / 60, want = FAIL_RATE_SPEED * exposure;
     struct subject s OWNED(subject_close) = { 0 };
     double column[BAR_COLUMNS], worst = 0.0;
-    if (!subject_open(&s, "fail/rate"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/rate"));
     bool ok = true;
     for (size_t i = 0; i < sizeof rates / sizeof *rates && ok; i++) {
         struct present_options present = fail_options(&s, method);
@@ -315,8 +314,7 @@ static void strobe(const struct fail_method *method, double number[])
 {
     struct subject s OWNED(subject_close) = { 0 };
     double gaps[3], ripple[3];
-    if (!subject_open(&s, "fail/strobe"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/strobe"));
     bool ok = strobe_at(&s, method, 90, &gaps[0], &ripple[0])
            && strobe_at(&s, method, 180, &gaps[1], &ripple[1])
            && strobe_at(&s, method, 360, &gaps[2], &ripple[2]);
@@ -379,8 +377,7 @@ static void attached(const struct fail_method *method, double number[])
 {
     enum { LAST = FAIL_STOP_FRAME + 2 };
     int difference[LAST + 1], worst = 0;
-    if (!differences("fail/attached", method, LAST, (struct area){0, 0, 128, 96}, difference))
-        return;
+    END_UNLESS(differences("fail/attached", method, LAST, (struct area){0, 0, 128, 96}, difference));
     for (int i = 0; i <= LAST; i++)
         worst = larger(worst, difference[i]);
     number[0] = worst;
@@ -390,8 +387,7 @@ static void stop(const struct fail_method *method, double number[])
 {
     enum { LAST = FAIL_STOP_FRAME + 2 };
     int difference[LAST + 1];
-    if (!differences("fail/stop", method, LAST, (struct area){0, 0, 192, 64}, difference))
-        return;
+    END_UNLESS(differences("fail/stop", method, LAST, (struct area){0, 0, 192, 64}, difference));
     number[0] = larger(difference[LAST - 1], difference[LAST]);
     CHECK_EQ(difference[FAIL_STOP_FRAME - 1] > 8,
              method->method != SMEAR_NONE && method->method != SMEAR_CAMERA);
@@ -419,8 +415,7 @@ static double largest_step(struct subject *s, const struct present_options *pres
 static void ghosts(const struct fail_method *method, double number[])
 {
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "fail/ghosts"))
-        return;
+    END_UNLESS(subject_open(&s, "fail/ghosts"));
     struct present_options present = fail_options(&s, method);
     present.light = SMEAR_LIGHT_ENCODED;
     number[0] = 31 * largest_step(&s, &present);

@@ -153,8 +153,7 @@ static void check_raster(struct subject *s, int width, int height, bool shutter_
     present.shutter_poses = shutter_poses;
     present.path = SMEAR_PATH_LINE;         /* the reference's velocities are now less a frame ago */
     present.light = encoded ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR;
-    if (!compare(s, &present, width, height, &d, &detail, &bar))
-        return;
+    END_UNLESS(compare(s, &present, width, height, &d, &detail, &bar));
     double coverage = (double)d.coverage / d.pixels, triangle = (double)d.triangle / d.pixels;
     double over = (double)detail.depth_over / d.pixels;
     say("    %-22s %4dx%-4d %-8s %-7s %6.3f %6.3f %3d  1/%-5.0f %6.3f  %6.3f %6.3f  %5.2f %6.1f "

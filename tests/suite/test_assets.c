@@ -60,8 +60,7 @@ static void check_subject(struct subject *s)
     present.reconstruct = SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM;
     none = present;
     none.method = SMEAR_NONE;
-    if (!reference_take(s, &present, WIDTH, HEIGHT, &frame))
-        return;
+    END_UNLESS(reference_take(s, &present, WIDTH, HEIGHT, &frame));
     if (shot_take(s, &none, &plain, &sharp) && shot_take(s, &present, &look, &under)
         && shot_take(s, &present, &plain, &blurred)) {
         struct likeness l = likeness_of(&frame, &sharp, &under);

@@ -21,8 +21,7 @@ static void check_packed(struct subject *s, int reach)
     int compared = 0, off = 0, worst = 0, worst_x = -1, worst_y = -1;
     present.method = SMEAR_RECONSTRUCT;
     present.shutter_poses = true;
-    if (!reference_take(s, &present, s->width, s->height, &frame))
-        return;
+    END_UNLESS(reference_take(s, &present, s->width, s->height, &frame));
     if (shot_take(s, &present, &(struct shot_options){.reach = reach, .look = true}, &shot)) {
         for (int y = 1; y < s->height - 1; y++)
             for (int x = 1; x < s->width - 1; x++) {
@@ -160,8 +159,7 @@ static void compare_port(struct subject *s, const struct port_case *c, struct di
     present.light = c->light;
     present.reconstruct = c->flags;
     struct shot_options options = {.reach = c->reach, .tile = c->tile, .look = true};
-    if (!shot_take(s, &present, &options, &shot))
-        return;
+    END_UNLESS(shot_take(s, &present, &options, &shot));
     if (run_port(&shot, &present, c->tile != 0 ? c->tile : tile_of(reach), &code)) {
         char names[40], what[240];
         measure(&shot, code, &d);
@@ -280,8 +278,7 @@ static void check_same(struct subject *s, const struct present_options *present,
 {
     struct shot shot OWNED(shot_free) = { 0 };
     int differing;
-    if (!shot_take(s, present, options, &shot))
-        return;
+    END_UNLESS(shot_take(s, present, options, &shot));
     int worst = picture_difference(shot.rgb, want->rgb, shot.width * shot.height, &differing);
     if (!CHECK(differing == 0))
         say("    %s, %s: %d pixels differ, by up to %d codes\n", s->name, what, differing, worst);
@@ -293,8 +290,7 @@ static void check_still(struct subject *s, smear_light_space light)
     struct shot none OWNED(shot_free) = { 0 };
     struct present_options present = method_options(s, SMEAR_NONE, 0, light);
     const struct shot_options plain = {0}, wide = {.reach = 24};
-    if (!shot_take(s, &present, &plain, &none))
-        return;
+    END_UNLESS(shot_take(s, &present, &plain, &none));
     for (int flags = 0; flags < 32; flags++) {
         char names[40];
         flag_names(flags, names);

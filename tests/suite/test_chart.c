@@ -291,8 +291,7 @@ static void test_a_file_brings_back_what_was_written(void)
     static struct chart back;
     struct failure f = { "" };
     const uint32_t mine = 0xfedcba98u, another = 1;
-    if (!make_folder())
-        return;
+    END_UNLESS(make_folder());
     fill_good();
     value("pan", "auto fine")->crc = 0xffffffffu;
     CHECK(chart_write_csv(&chart, NULL, mine, FOLDER "/chart.csv", &f));
@@ -309,8 +308,7 @@ static void test_a_spoilt_file_is_refused_with_its_line(void)
 {
     struct failure f = { "" };
     static const char text[] = "light,...\nencoded,shutter,pan,camera,none,1,2\n";
-    if (!make_folder())
-        return;
+    END_UNLESS(make_folder());
     CHECK(file_write(FOLDER "/bad.csv", (const uint8_t *)text, sizeof text - 1, &f));
     CHECK(!chart_read_csv(&chart, NULL, FOLDER "/bad.csv", &f));
     CHECK(strstr(f.text, "line 2") != NULL);
@@ -376,8 +374,7 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
 {
     static const char *const names[] = { "chart", "object", "camera", "field", "peer", "scenes" };
     struct failure f = { "" };
-    if (!make_folder())
-        return;
+    END_UNLESS(make_folder());
     fill_good();
     for (int k = KINDS; k < ALL_KINDS; k++)         /* of the demo; models are not there */
         for (int i = 0; i < chart_setting_count && kinds[k].group == GROUP_DEMO; i++)

@@ -303,8 +303,7 @@ static bool write_header(const struct conversion *c, const char *name, const cha
 /* The header compiles as C99 and as C++11. */
 static void check_header(const struct conversion *model, const char *from)
 {
-    if (!write_header(model, "model", from))
-        return;
+    END_UNLESS(write_header(model, "model", from));
     FILE *c = fopen("build/convert/model.c", "w");
     REQUIRE(c != NULL);
     fputs("#include \"model.h\"\nconst smear_model *the_model(void);\n"
@@ -442,8 +441,7 @@ static void check_file(const char *path)
 {
     struct converted_file file;
     const struct convert_options o = plain_options();
-    if (!open_file(&file, path, &o))
-        return;
+    END_UNLESS(open_file(&file, path, &o));
     const struct conversion *c = &file.result;
     size_t flash = c->bytes.meshes + c->bytes.textures + c->bytes.animation;
     say("    %-26s %5d %5d  %5.2f %5.2f  %7zu %6zu  %6.3f %6.3f\n", name_of(path), c->triangles, c->vertices,
@@ -485,8 +483,7 @@ static void test_the_header_and_the_blob_in_the_tests_are_what_the_tool_writes(v
     const struct convert_options o = plain_options();
     uint8_t *made, *kept;
     size_t made_size, kept_size;
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     if (CHECK(convert_to_header(&file.result, "arm", "arm.gltf", &made, &made_size, &f))) {
         if (CHECK(file_read("tests/data/arm.h", 1 << 20, &kept, &kept_size, &f))) {
             CHECK(made_size == kept_size && memcmp(made, kept, kept_size) == 0);
@@ -559,8 +556,7 @@ static void test_headers_of_other_textures_compile(void)
     for (int i = 0; i < 2; i++) {
         struct converted_file file;
         o.texture = texture[i];
-        if (!open_file(&file, arm_path, &o))
-            return;
+        END_UNLESS(open_file(&file, arm_path, &o));
         check_header(&file.result, name_of(arm_path));
         close_file(&file);
     }
@@ -732,8 +728,7 @@ static void test_scale_and_up_axis_reach_the_vertices(void)
     struct converted_file plain, large, z_up;
     struct convert_options o = plain_options();
     smear_draw a, b, c;
-    if (!open_file(&plain, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&plain, arm_path, &o));
     o.scale = 3;
     REQUIRE(open_file(&large, arm_path, &o));
     o.scale = 1;
@@ -774,8 +769,7 @@ static void test_fit_makes_the_largest_extent_so_long(void)
     struct converted_file file;
     struct convert_options o = plain_options();
     o.fit = 5;
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     smear_actor *actor = make_actor(&file.result.model, 1);
     const smear_play rest = { .rest = 1 };
     double low[3] = { 1e9, 1e9, 1e9 }, high[3] = { -1e9, -1e9, -1e9 }, extent = 0;
@@ -939,13 +933,11 @@ static void test_nodes_that_stand_still_go_into_the_vertices_unless_kept(void)
     struct converted_file file;
     struct convert_options o = plain_options();
     uint8_t keep[8] = { 0, 0, 1, 0, 0, 0, 1, 0 };       /* the flag and a plate */
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     int nodes = file.result.model.node_count;
     close_file(&file);
     o.keep = keep;
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     CHECK_EQ(file.result.model.node_count, nodes + 1);  /* the plates share a mesh, so they had nodes */
     CHECK_BAR(file.result.error_px, position_bar, "arm");
     bool has_flag = false;
@@ -963,8 +955,7 @@ static void test_clips_and_normals_can_be_left_out(void)
     o.clip = turn;
     o.clip_count = 1;
     o.flat = true;
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     CHECK_EQ(file.result.model.clip_count, 1);
     CHECK_EQ(smear_model_find_clip(&file.result.model, "turn"), 0);
     CHECK_EQ(smear_model_find_clip(&file.result.model, "wave"), -1);
@@ -975,8 +966,7 @@ static void test_clips_and_normals_can_be_left_out(void)
     CHECK_BAR(file.result.error_px, position_bar, "arm");
     close_file(&file);
     o.clip_count = 0;
-    if (!open_file(&file, arm_path, &o))
-        return;
+    END_UNLESS(open_file(&file, arm_path, &o));
     CHECK_EQ(file.result.model.clip_count, 0);
     check_blob(&file.result);
     close_file(&file);
@@ -990,8 +980,7 @@ static void test_fewer_keys_for_a_larger_error(void)
         struct convert_options o = plain_options();
         int keys = 0;
         o.clip_error_px = error;
-        if (!open_file(&file, arm_path, &o))
-            return;
+        END_UNLESS(open_file(&file, arm_path, &o));
         for (int i = 0; i < file.result.model.clip_count; i++)
             keys += file.result.clip_report[i].keys;
         say("    clip error %.2f px: %3d keys, measured %.3f px\n", error, keys, file.result.error_px);

@@ -107,8 +107,7 @@ static void check_measure(const struct fail_row *row, int i, int method, double 
 {
     const struct fail_measure *m = &row->measure[i];
     char subject[160];
-    if (!is_taken(m, method))
-        return;
+    END_UNLESS(is_taken(m, method));
     snprintf(subject, sizeof subject, "%d %s, %s, %s", row->number, row->name, m->what,
              fail_method[method].name);
     CHECK_BAR(number, fmax(m->bar, known_of(row, i, method)), subject);

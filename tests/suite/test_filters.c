@@ -137,8 +137,7 @@ static double rmse_of(const uint8_t *a, const uint8_t *b, int values)
 static void test_8_and_8_taps_on_a_pan_are_within_1_5_codes_of_64(void)
 {
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "suite/pan"))
-        return;
+    END_UNLESS(subject_open(&s, "suite/pan"));
     for (int degrees = 90; degrees <= 360; degrees += 90) {
         struct shot_options options = { .reach = 48, .tile = 64 };
         struct present_options p = subject_options(&s);
@@ -402,8 +401,7 @@ static void test_half_size_keeps_the_detail_of_what_it_does_not_touch(void)
     struct strip strip = { .width = 128 };
     for (int x = 0; x < 128; x++)
         strip_fill(&strip, x, x + 1, x & 1 ? 0xffffff : 0x000000, 50, x < 32 ? 24 : 0);
-    if (!strip_filter(&strip, &(smear_frame){ .method = SMEAR_HALF, .filter.flags = SMEAR_FENCE }))
-        return;
+    END_UNLESS(strip_filter(&strip, &(smear_frame){ .method = SMEAR_HALF, .filter.flags = SMEAR_FENCE }));
     for (int x = 0; x < 128; x++) {
         if (x < 24)
             CHECK_NEAR(strip.out[x] & 255, 128, 3);
@@ -418,8 +416,7 @@ static void test_scattered_maxima_carry_streaks_over_several_tiles(void)
 {
     static const uint8_t weights[] = { SMEAR_WEIGHTS_STACK, SMEAR_WEIGHTS_JIMENEZ };
     struct subject s OWNED(subject_close) = { 0 };
-    if (!subject_open(&s, "suite/long"))
-        return;
+    END_UNLESS(subject_open(&s, "suite/long"));
     for (int w = 0; w < 2; w++) {
         struct present_options p = subject_options(&s);
         p.method = SMEAR_RECONSTRUCT;

@@ -426,8 +426,7 @@ static void test_each_instance_is_drawn_and_moves_with_its_node(void)
         struct model_pose pose OWNED(model_pose_free) = { 0 };
         struct failure f = { "" };
         make_instanced(&w);
-        if (!load_instanced(&w, &m))
-            return;
+        END_UNLESS(load_instanced(&w, &m));
         double time = w.is_animated ? uniform(0, 1) : 0;
         int seen = 0, node = model_find_node(&m, "flock");
         if (CHECK(model_pose(&m, w.is_animated ? 0 : MODEL_CLIP_NONE, time, false, &pose, &f)))

@@ -338,8 +338,7 @@ static void test_held_keys_jump_without_a_path(void)
         const struct kinds kinds = { .held = true, .mixed = i % 3 != 0, .pairs = i % 2 != 0, .closes = i % 5 == 0 };
         struct model m, held;
         random_state = 1000u + (uint32_t)i;
-        if (!random_model(&kinds, &m))
-            return;
+        END_UNLESS(random_model(&kinds, &m));
         random_state = 1000u + (uint32_t)i;
         random_model(&kinds, &held);
         const struct moment at = random_moment(&m);
@@ -382,8 +381,7 @@ static void test_a_frame_in_which_all_jumps_is_sharp(void)
         struct model m OWNED(model_free) = { 0 };
         double sum = 0;
         random_state = 70000u + (uint32_t)i;
-        if (!random_model(&kinds, &m))
-            return;
+        END_UNLESS(random_model(&kinds, &m));
         struct moment at = random_moment(&m);
         at.time = (double)m.clip[0].channel[0].time[m.clip[0].channel[0].key_count / 2] + 0.3 * (i % 2) / at.fps;
         const bool ok = draw_picture(&m, &at, false, &a) && draw_picture(&m, &at, true, &b);
@@ -418,8 +416,7 @@ static void test_motion_without_jumps_is_posed_as_ever(void)
         struct shown s;
         struct scene_instant own = { 0 }, joined = { 0 };
         random_state = 20000u + (uint32_t)i;
-        if (!random_model(&kinds, &m))
-            return;
+        END_UNLESS(random_model(&kinds, &m));
         struct moment at = random_moment(&m);
         at.loop = at.loop && kinds.closes;
         bool ok = show(&m, &at, &s);
@@ -600,8 +597,7 @@ static void test_motion_goes_on_beyond_a_jump_as_on_its_near_side(void)
         struct model m, straight;
         struct model_pose plain = { 0 }, joined = { 0 }, want = { 0 };
         random_state = 40000u + (uint32_t)i;
-        if (!random_model(&kinds, &m))
-            return;
+        END_UNLESS(random_model(&kinds, &m));
         random_state = 40000u + (uint32_t)i;
         random_model(&kinds, &straight);
         const struct moment at = random_moment(&m);
@@ -731,8 +727,7 @@ static void test_an_actor_jumps_as_the_file_does(void)
         struct conversion c;
         struct model m;
         random_state = 90000u + (uint32_t)i;
-        if (!random_model(&kinds, &m))
-            return;
+        END_UNLESS(random_model(&kinds, &m));
         bool ok = convert_model(&m, &o, &c, &f);
         if (!ok)
             say("    file %d: %s\n", i, f.text);

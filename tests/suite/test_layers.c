@@ -84,8 +84,7 @@ static void test_object_is_within_1_8_codes_of_the_truth(void)
     double sum = 0.0;
     for (int i = 0; i < 5; i++) {
         struct image truth OWNED(image_free) = { 0 };
-        if (!draw_truth(scene[i], &truth))
-            return;
+        END_UNLESS(draw_truth(scene[i], &truth));
         sum += log(error_of(scene[i], SMEAR_OBJECT, 0, &truth));
     }
     CHECK(exp(sum / 5) <= 1.8);
@@ -99,8 +98,7 @@ static void test_layered_errs_two_thirds_of_reconstruct(void)
         struct image truth;
         if (kinds[i].group != GROUP_OBJECT)
             continue;
-        if (!draw_truth(kinds[i].scene, &truth))
-            return;
+        END_UNLESS(draw_truth(kinds[i].scene, &truth));
         sum += log(error_of(kinds[i].scene, SMEAR_LAYERED, 8, &truth) / error_of(kinds[i].scene, SMEAR_RECONSTRUCT, 8, &truth));
         image_free(&truth);
         n++;
@@ -238,8 +236,7 @@ static void test_a_streak_is_a_ramp_over_the_way(void)
             smear_frame frame = frame_of(both[k]);
             frame.clear = 0;
             frame.samples = 32;
-            if (!render(picture, &frame, &draw, 1))
-                return;
+            END_UNLESS(render(picture, &frame, &draw, 1));
             double worst = 0.0, sum = 0.0, energy = 0.0;
             for (int y = 0; y < H; y++)
                 for (int x = 0; x < W; x++) {
@@ -269,11 +266,9 @@ static void test_what_enters_the_frame_is_blurred_as_within_it(void)
         smear_frame frame = frame_of(both[k]);
         mover_make(&m, 0, 0, 10, 8, 12, 16, 0);
         smear_draw draw = draw_of(&m, &red);
-        if (!render(inside, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(inside, &frame, &draw, 1));
         mover_make(&m, -W / 2.0, 0, 10, 8, 12, 16, 0);
-        if (!render(picture, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(picture, &frame, &draw, 1));
         for (int y = 0; y < H; y++)
             for (int x = 0; x < 20; x++)
                 /* Nodes of a line lie elsewhere on it. */
@@ -298,8 +293,7 @@ static void test_pixels_that_no_streak_passes_are_those_of_none(void)
         return;
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
-        if (!render(picture, &frame, draw, 3))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 3));
         /* Its way and its size, and a pixel. */
         int x0 = W / 2 + 20 - 8 - 7 - 1, x1 = W / 2 + 20 + 8 + 7 + 1, y0 = H / 2 - 8 - 2 - 2, y1 = H / 2 + 8 + 2 + 2;
         CHECK_EQ(difference(picture, scene, 0, 0, x0, H), 0);
@@ -323,8 +317,7 @@ static void test_a_frame_in_which_nothing_moves_is_that_of_none(void)
     mover_make(&b, 12, -5, 10, 9, 17, 0, 0);
     smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
     smear_frame none = frame_of(SMEAR_NONE);
-    if (!render(sharp, &none, draw, 2))
-        return;
+    END_UNLESS(render(sharp, &none, draw, 2));
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
         if (render(picture, &frame, draw, 2))
@@ -347,13 +340,11 @@ static void test_a_fence_before_a_mover_keeps_its_pixels(void)
         draw[1 + i] = draw_of(&bar[i], &green);
     }
     smear_frame none = frame_of(SMEAR_NONE);
-    if (!render(sharp, &none, draw, 13))
-        return;
+    END_UNLESS(render(sharp, &none, draw, 13));
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
         int fence = 0, between = 0;
-        if (!render(picture, &frame, draw, 13))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 13));
         for (int i = 0; i < W * H; i++) {
             if (sharp[i] == 0x00ff00) {
                 fence++;
@@ -384,8 +375,7 @@ static void test_two_movers_each_have_their_way_and_their_depth(void)
             draw[1] = swap;
         }
         frame.clear = 0;
-        if (!render(picture, &frame, draw, 2))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 2));
         CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);
         CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 8), 255, 8);
         CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 16), 0, 8);
@@ -405,8 +395,7 @@ static void test_movers_out_of_view_change_nothing(void)
     const smear_draw draw[3] = { draw_of(&beside, &green), draw_of(&seen, &red), draw_of(&beside, &green) };
     for (int k = 0; k < 2; k++) {
         const smear_frame frame = frame_of(both[k]);
-        if (!render(alone, &frame, &draw[1], 1))
-            return;
+        END_UNLESS(render(alone, &frame, &draw[1], 1));
         for (int i = 0; i < 3; i++)
             if (render(picture, &frame, &draw[i == 2], i == 0 ? 3 : 2))
                 CHECK_EQ(difference(picture, alone, 0, 0, W, H), 0);
@@ -428,13 +417,11 @@ static void test_movers_of_several_fills_count_once(void)
         const smear_frame frame = frame_of(both[k]);
         smear_desc desc = desc_of(whole);
         desc.height = ROW;
-        if (!render_with(&desc, &frame, draw, COUNT))
-            return;
+        END_UNLESS(render_with(&desc, &frame, draw, COUNT));
         const smear_stats once = stats;
         desc.user = picture;
         desc.max_triangles = 4;
-        if (!render_with(&desc, &frame, draw, COUNT))
-            return;
+        END_UNLESS(render_with(&desc, &frame, draw, COUNT));
         CHECK(stats.parts_added != 0);
         CHECK_EQ(stats.triangles_drawn, once.triangles_drawn);
         CHECK_EQ(once.triangles_drawn, 2 * COUNT);
@@ -455,8 +442,7 @@ static void test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pi
     }
     smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
     smear_frame frame = frame_of(SMEAR_OBJECT);
-    if (!render(picture, &frame, draw, 2))
-        return;
+    END_UNLESS(render(picture, &frame, draw, 2));
     CHECK_EQ(picture[H / 2 * W + W / 2 + 18], 0x00ff00);
     CHECK_EQ(picture[H / 2 * W + W / 2 - 18], 0xff0000);
 }
@@ -490,8 +476,7 @@ static void test_what_turns_is_blurred_by_its_pixels(void)
     smear_draw draw = draw_of(&m, &red);
     smear_frame frame = frame_of(SMEAR_OBJECT);
     frame.clear = 0;
-    if (!render(picture, &frame, &draw, 1))
-        return;
+    END_UNLESS(render(picture, &frame, &draw, 1));
     CHECK(stats.tiles[SMEAR_LAYERED] > 0);
     CHECK_EQ(stats.tiles[SMEAR_OBJECT], 0);
     CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);             /* the hub */
@@ -525,8 +510,7 @@ static void test_what_turns_behind_a_mover_does_not_hide_it(void)
     for (int linear = 0; linear < 2; linear++) {
         smear_frame frame = frame_of(SMEAR_OBJECT);
         frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
-        if (!render(picture, &frame, draw, 3))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 3));
         CHECK(stats.tiles[SMEAR_LAYERED] > 0);
         for (int y = H / 2 - 8; y < H / 2 + 8; y++)
             for (int x = W / 2 - 4; x < W / 2 + 4; x++)
@@ -548,8 +532,7 @@ static void test_no_halo_lies_around_what_is_before_a_fast_wall(void)
     smear_draw draw[2] = { draw_of(&wall, &green), draw_of(&slow, &red) };
     smear_frame frame = frame_of(SMEAR_LAYERED);
     frame.clear = 0x0000ff;
-    if (!render(picture, &frame, draw, 2))
-        return;
+    END_UNLESS(render(picture, &frame, draw, 2));
     int most = 0;
     for (int y = 8; y < H - 8; y++)
         for (int x = 16; x < W - 16; x++)
@@ -569,14 +552,12 @@ static void test_only_masked_draws_are_blurred(void)
     draw[1].layers = 4;
     const smear_layer masked = { .mask = 4 };
     smear_frame none = frame_of(SMEAR_NONE);
-    if (!render(sharp, &none, draw, 2))
-        return;
+    END_UNLESS(render(sharp, &none, draw, 2));
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
         frame.layer = &masked;
         frame.layer_count = 1;
-        if (!render(picture, &frame, draw, 2))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 2));
         CHECK_EQ(difference(picture, sharp, 0, 0, W / 2, H), 0);
         CHECK(difference(picture, sharp, W / 2, 0, W, H) > 100);
     }
@@ -609,13 +590,11 @@ static void test_a_layer_has_its_own_shutter(void)
         smear_frame frame = frame_of(both[k]);
         frame.clear = 0;
         frame.samples = 32;
-        if (!render(picture, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(picture, &frame, &draw, 1));
         double once = red_width();
         frame.layer = &longer;
         frame.layer_count = 1;
-        if (!render(picture, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(picture, &frame, &draw, 1));
         CHECK_CLOSE(once, 16 + 8, 1.5);
         double twice = red_width();
         CHECK_CLOSE(twice, 16 + 16, 3.5);      /* nodes of long streaks lie 4 px apart */
@@ -639,8 +618,7 @@ static void test_a_layer_has_its_own_method(void)
         return;
     frame.layer = layer;
     frame.layer_count = 3;
-    if (!render(picture, &frame, draw, 3))
-        return;
+    END_UNLESS(render(picture, &frame, draw, 3));
     CHECK(difference(picture, object, 0, 0, W / 2 - 15, H) <= 8);        /* there it was one group with others */
     CHECK_EQ(difference(picture, layered, W / 2 - 15, 0, W / 2 + 15, H), 0);
     CHECK_EQ(difference(picture, sharp, W / 2 + 15, 0, W, H), 0);
@@ -661,8 +639,7 @@ static void test_a_layer_with_its_own_camera_stays_sharp_over_the_view(void)
     draw[0].layers = 2;
     const smear_layer layer[2] = { { .mask = 1 }, { .mask = 2, .camera = &camera } };
     smear_frame none = frame_of(SMEAR_NONE);
-    if (!render(alone, &none, draw, 1))
-        return;
+    END_UNLESS(render(alone, &none, draw, 1));
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
         frame.camera = &view;
@@ -670,8 +647,7 @@ static void test_a_layer_with_its_own_camera_stays_sharp_over_the_view(void)
         frame.close = &after;
         frame.layer = layer;
         frame.layer_count = 2;
-        if (!render(picture, &frame, draw, 2))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 2));
         int cockpit = 0, streak = 0;
         for (int i = 0; i < W * H; i++) {
             if (alone[i] == 0x0000ff) {
@@ -701,13 +677,11 @@ static void test_a_layers_camera_blurs_what_stands_still(void)
         const smear_layer layer = { .mask = 255, .camera = &camera, .open = &before };
         smear_frame frame = frame_of(both[k]);
         frame.open = &before;
-        if (!render(view, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(view, &frame, &draw, 1));
         frame.open = NULL;
         frame.layer = &layer;
         frame.layer_count = 1;
-        if (!render(picture, &frame, &draw, 1))
-            return;
+        END_UNLESS(render(picture, &frame, &draw, 1));
         CHECK_EQ(stats.draws_moved, 1);
         CHECK_EQ(difference(picture, view, 0, 0, W, H), 0);
         CHECK(channel(view[(H / 2 - 4) * W + W / 2 - 9], 8) > 60 && channel(view[(H / 2 - 4) * W + W / 2 - 9], 8) < 220);
@@ -735,8 +709,7 @@ static void test_cameras_of_two_kinds_are_as_a_camera_that_stands(void)
         } else {
             frame.camera = now;
         }
-        if (!render(still, &frame, draw, 2))
-            return;
+        END_UNLESS(render(still, &frame, draw, 2));
         layer.open = other;
         if (i >= 4)
             frame.open = other;
@@ -759,8 +732,7 @@ static void test_a_layer_may_lie_over_all(void)
             layer = (smear_layer){ .mask = 2, .two_camera = 1 };
         frame.layer = &layer;
         frame.layer_count = 1;
-        if (!render(picture, &frame, draw, 2))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 2));
         CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);
         CHECK_EQ(picture[4 * W + W / 2], 0x00ff00);
     }
@@ -778,8 +750,7 @@ static void test_a_plain_layer_has_no_dark_fringe(void)
     frame.samples = 5;
     frame.layer = &plain;
     frame.layer_count = 1;
-    if (!render(picture, &frame, &draw, 1))
-        return;
+    END_UNLESS(render(picture, &frame, &draw, 1));
     for (int i = 0; i < W * H; i++)
         CHECK_EQ(picture[i], 0xffffff);
     frame.clear = 0;
@@ -795,8 +766,7 @@ static void test_the_first_frame_and_cuts_have_no_motion(void)
     mover_make(&m, 0, 0, 10, 10, 10, 16, 0);
     smear_draw draw = draw_of(&m, &red);
     smear_frame none = frame_of(SMEAR_NONE);
-    if (!render(sharp, &none, &draw, 1))
-        return;
+    END_UNLESS(render(sharp, &none, &draw, 1));
     for (int k = 0; k < 6; k++) {
         smear_frame frame = frame_of(both[k & 1]);
         smear_draw first = draw;
@@ -823,8 +793,7 @@ static void test_blended_draws_are_over_the_blur_and_behind_movers(void)
     smear_draw draw[3] = { draw_of(&ball, &red), draw_of(&before, &pane), draw_of(&behind, &pane) };
     for (int k = 0; k < 2; k++) {
         smear_frame frame = frame_of(both[k]);
-        if (!render(picture, &frame, draw, 3))
-            return;
+        END_UNLESS(render(picture, &frame, draw, 3));
         CHECK_NEAR(channel(picture[H / 2 * W + W / 2 - 3], 8), 128, 2);
         CHECK_EQ(picture[H / 2 * W + W / 2 + 3], 0xff0000);
         CHECK(channel(picture[H / 2 * W + W / 2 + 30], 8) > 128);

@@ -62,11 +62,9 @@ static void test_the_macro_is_enough_for_usual_descs_and_at_most_a_fiftieth_more
         const size_t any = SMEAR_MEMORY(d.width, d.height, d.max_triangles, d.max_draws);
         const size_t named = SMEAR_MEMORY(d.width, d.height, d.max_triangles, d.max_draws, d.format);
         CHECK(named <= any);
-        if (!is_tight(&d, named, 50, "named"))
-            return;
+        END_UNLESS(is_tight(&d, named, 50, "named"));
         d.format = SMEAR_XRGB8888;
-        if (!is_tight(&d, any, 50, "any"))
-            return;
+        END_UNLESS(is_tight(&d, any, 50, "any"));
     }
 }
 
@@ -80,8 +78,7 @@ static void test_bands_and_workers_take_what_their_macros_say(void)
         const size_t words = SMEAR_MEMORY(d.width, d.height, d.max_triangles, d.max_draws, d.format)
                            + (size_t)(d.bands - 1) * SMEAR_MEMORY_BAND(d.width, d.height, d.format)
                            + (size_t)(d.workers - 1) * SMEAR_MEMORY_WORKER(d.width, d.height);
-        if (!is_tight(&d, words, 10, "more"))
-            return;
+        END_UNLESS(is_tight(&d, words, 10, "more"));
     }
 }
 
@@ -94,8 +91,7 @@ static void test_the_macro_is_enough_for_the_methods_that_are_drawn_alike(void)
     for (int n = 0; n < 6000; n++) {
         smear_desc d = pick_usual();
         d.methods = (uint16_t)sets[n % 3];
-        if (!is_tight(&d, SMEAR_MEMORY(d.width, d.height, d.max_triangles, d.max_draws, d.format), 10, "alike"))
-            return;
+        END_UNLESS(is_tight(&d, SMEAR_MEMORY(d.width, d.height, d.max_triangles, d.max_draws, d.format), 10, "alike"));
     }
 }
 

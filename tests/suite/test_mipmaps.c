@@ -61,8 +61,7 @@ static void test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels(
     static uint32_t texels[TEXELS], palette[256];
     const smear_desc desc = desc_of();
     struct rig r;
-    if (!rig_begin(&r, &desc, false))
-        return;
+    END_UNLESS(rig_begin(&r, &desc, false));
     for (int format = SMEAR_TEXEL_8888; format <= SMEAR_TEXEL_PALETTE8; format++) {
         smear_texture t;
         make_texture(&t, texels, palette, (smear_texel_format)format, false);
@@ -102,8 +101,7 @@ static void test_levels_that_cannot_be_are_refused(void)
     const smear_desc desc = desc_of();
     struct rig r;
     struct scene s;
-    if (!rig_begin(&r, &desc, false))
-        return;
+    END_UNLESS(rig_begin(&r, &desc, false));
     make_scene(&s, 0, SMEAR_NONE);
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
         smear_texture t;

@@ -1774,8 +1774,7 @@ static void test_the_fan_turns_once_around_in_a_quarter_second(void)
 {
     struct model m OWNED(model_free) = { 0 };
     struct model_pose a OWNED(model_pose_free) = { 0 }, b = { 0 };
-    if (!load_sample("own/fan.glb", &m))
-        return;
+    END_UNLESS(load_sample("own/fan.glb", &m));
     int node = m.clip[0].channel[0].node;
     CHECK_CLOSE(m.clip[0].duration, 0.25, 1e-6);
     for (int i = 0; i <= 16; i++) {
@@ -1796,8 +1795,7 @@ static void test_the_fan_turns_once_around_in_a_quarter_second(void)
 static void test_the_teapot_faces_outwards(void)
 {
     struct model m OWNED(model_free) = { 0 };
-    if (!load_sample("classic/teapot.obj", &m))
-        return;
+    END_UNLESS(load_sample("classic/teapot.obj", &m));
     const struct model_primitive *p = &m.mesh[0].primitive[0];
     double volume = 0;
     for (int i = 0; i < p->triangle_count; i++) {
@@ -1815,8 +1813,7 @@ static void test_the_robot_is_posed_in_far_less_than_five_milliseconds(void)
     enum { POSES = 50 };
     struct model m OWNED(model_free) = { 0 };
     struct model_pose pose OWNED(model_pose_free) = { 0 };
-    if (!load_sample("quaternius/RobotExpressive.glb", &m))
-        return;
+    END_UNLESS(load_sample("quaternius/RobotExpressive.glb", &m));
     clock_t start = clock();
     for (int i = 0; i < POSES; i++)
         CHECK(poses(&m, i % m.clip_count, i / 30.0, true, &pose));

@@ -419,8 +419,7 @@ static void test_deformation_scales_with_objects(void)
     struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.methods = SMEAR_SET_FILTERS | SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS;
-    if (!rig_begin(&r, &desc, true))
-        return;
+    END_UNLESS(rig_begin(&r, &desc, true));
     for (int m = 0; m < 7; m++)
         for (int i = 0; i < 5; i++)
             for (int poses = 0; poses < 2; poses++) {
@@ -535,8 +534,7 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
     struct stage s;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-    if (!rig_begin(&r, &desc, false))
-        return;
+    END_UNLESS(rig_begin(&r, &desc, false));
     for (int m = 0; m < 4; m++)
         for (int mode = 0; mode < 4; mode++)
             for (int i = 0; i < 8; i++) {

@@ -61,8 +61,7 @@ static void check_stripe(double near_plane, int least_white)
         { SMEAR_AUTO, 0 }
     };
     int white = 0;
-    if (!draw(SMEAR_ACCUMULATE, 64, near_plane, want))
-        return;
+    END_UNLESS(draw(SMEAR_ACCUMULATE, 64, near_plane, want));
     for (int i = 0; i < BYTES; i += 4)
         white += want[i] > 200;
     CHECK(white > least_white);

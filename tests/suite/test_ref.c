@@ -191,8 +191,7 @@ static void test_ground_through_the_eye_plane_is_cut_at_near_and_far(void)
     camera.zfar = 8.0;
     struct scene_instant now = instant_of(&draw, 1, camera);
     struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-    if (!draw_now(&now, false, &frame))
-        return;
+    END_UNLESS(draw_now(&now, false, &frame));
     CHECK_EQ(count_drawn(&frame), 12 * SIZE);
     for (int y = 0; y < SIZE; y++) {
         double d = 32.0 / (y + 0.5 - 32.0);
@@ -257,8 +256,7 @@ static void test_wild_triangles_cover_what_rays_hit(void)
         struct scene_draw draw = draw_of(&surface);
         struct scene_instant now = instant_of(&draw, 1, camera);
         struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-        if (!draw_now(&now, false, &frame))
-            return;
+        END_UNLESS(draw_now(&now, false, &frame));
         for (int y = 0; y < SIZE; y++)
             for (int x = 0; x < SIZE; x++) {
                 double margin, d = hit(corner, parallel, x + 0.5, y + 0.5, &margin);
@@ -315,8 +313,7 @@ static void test_nearer_wins_and_the_first_of_equals(void)
         draw[i] = draw_of(&surface[i]);
     }
     struct scene_instant now = instant_of(draw, 3, camera);
-    if (!draw_now(&now, false, &frame))
-        return;
+    END_UNLESS(draw_now(&now, false, &frame));
     CHECK_EQ(frame.draw[at(12, 20)], 0);
     CHECK_EQ(frame.draw[at(20, 20)], 1);
     CHECK_EQ(frame.draw[at(43, 20)], 1);
@@ -325,8 +322,7 @@ static void test_nearer_wins_and_the_first_of_equals(void)
     CHECK_EQ(frame.triangle[at(47, 11)], 5);    /* the second of the third */
     ref_frame_free(&frame);
     draw[0].hidden = true;
-    if (!draw_now(&now, false, &frame))
-        return;
+    END_UNLESS(draw_now(&now, false, &frame));
     CHECK_EQ(frame.draw[at(12, 20)], -1);
     CHECK_EQ(frame.triangle[at(47, 11)], 5);    /* hidden draws keep their ids */
     ref_frame_free(&frame);
@@ -348,8 +344,7 @@ static void test_inverse_depth_is_linear_on_the_screen(void)
     struct scene_surface surface = surface_of(position, 4, quad_index, 2);
     struct scene_draw draw = draw_of(&surface);
     struct scene_instant now = instant_of(&draw, 1, camera);
-    if (!draw_now(&now, false, &frame))
-        return;
+    END_UNLESS(draw_now(&now, false, &frame));
     for (int x = 16; x < 48; x++) {
         double share = (x + 0.5 - 16.0) / 32.0, d = 1.0 / (0.25 * (1.0 - share) + 0.125 * share);
         CHECK_CLOSE(frame.depth[at(x, 30)], d, 1e-6);
@@ -567,8 +562,7 @@ static void test_texels_are_found_under_every_wrap_mode(void)
         struct ref_frame frame OWNED(ref_frame_free) = { 0 };
         surface.material.wrap_u = modes[mode % 3];
         surface.material.wrap_v = modes[mode / 3];
-        if (!draw_now(&now, true, &frame))
-            return;
+        END_UNLESS(draw_now(&now, true, &frame));
         for (int y = 0; y < SIZE; y++)
             for (int x = 0; x < SIZE; x++) {
                 uint8_t want = texel_value(wrapped(x / 4 - 6, 4, surface.material.wrap_u),
@@ -593,8 +587,7 @@ static void test_bilinear_texels_mix_in_the_working_light(void)
         struct scene_draw draw = draw_of(&surface);
         struct scene_instant now = instant_of(&draw, 1, camera);
         struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-        if (!draw_now(&now, encoded != 0, &frame))
-            return;
+        END_UNLESS(draw_now(&now, encoded != 0, &frame));
         /* Pixel 5, 5 is at texel 1.375, 0.34: between columns 0 and 1, rows -1 and 0. */
         double value[4];
         for (int k = 0; k < 4; k++) {
@@ -628,8 +621,7 @@ static void test_texture_coordinates_are_perspective_correct(void)
     struct scene_draw draw = draw_of(&surface);
     struct scene_instant now = instant_of(&draw, 1, camera);
     struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-    if (!draw_now(&now, true, &frame))
-        return;
+    END_UNLESS(draw_now(&now, true, &frame));
     for (int x = 16; x < 48; x++) {
         double share = (x + 0.5 - 16.0) / 32.0;
         double u = share / 8.0 / ((1.0 - share) / 4.0 + share / 8.0);
@@ -655,8 +647,7 @@ static void test_cutouts_show_what_lies_behind_with_its_depth(void)
     struct scene_draw draw[2] = { draw_of(&surface[0]), draw_of(&surface[1]) };
     struct scene_instant now = instant_of(draw, 2, camera);
     struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-    if (!draw_now(&now, false, &frame))
-        return;
+    END_UNLESS(draw_now(&now, false, &frame));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             bool hole = x >= 16 && x < 32 && y < 32;
@@ -685,8 +676,7 @@ static void test_blended_draws_mix_after_everything_opaque(void)
     for (int encoded = 0; encoded < 2; encoded++) {
         struct scene_instant now = instant_of(draw, 3, camera);
         struct ref_frame frame OWNED(ref_frame_free) = { 0 };
-        if (!draw_now(&now, encoded != 0, &frame))
-            return;
+        END_UNLESS(draw_now(&now, encoded != 0, &frame));
         /* Black over white, the far one is hidden; beside it, in submission order, white last. */
         CHECK_CLOSE(frame.color[3 * at(10, 10) + 1], 0.75, 1e-9);
         CHECK_CLOSE(frame.depth[at(10, 10)], 20.0, 1e-9);

@@ -468,8 +468,7 @@ static double streak(struct shown *s, int draw)
 static void test_long_has_streaks_of_72_and_92_pixels(void)
 {
     struct shown s;
-    if (!open_scene(&s, "suite/long"))
-        return;
+    END_UNLESS(open_scene(&s, "suite/long"));
     CHECK_CLOSE(streak(&s, 1), 92, 2);
     CHECK_CLOSE(streak(&s, 2), 72, 2);
     close_scene(&s);
@@ -479,8 +478,7 @@ static void test_subpixel_moves_by_about_half_a_pixel_everywhere(void)
 {
     struct shown s;
     struct ref_frame frame = {0};
-    if (!open_scene(&s, "suite/subpixel"))
-        return;
+    END_UNLESS(open_scene(&s, "suite/subpixel"));
     if (draw_at(&s, s.scene.time + 1.0 / 120, s.scene.time - 1.0 / 120, &frame)) {
         int odd = 0;
         for (int i = 0; i < frame.width * frame.height; i++)
@@ -520,8 +518,7 @@ static void test_only_the_named_side_moves(void)
 static void test_teleport_cuts_between_the_last_frame_and_the_exposure(void)
 {
     struct shown s;
-    if (!open_scene(&s, "suite/teleport"))
-        return;
+    END_UNLESS(open_scene(&s, "suite/teleport"));
     double t = s.scene.time, trailing = t - 1.0 / 60;
     CHECK(scene_pose(&s.scene, t - 1 / 30.0, &s.before, &s.f));
     CHECK(scene_pose(&s.scene, t, &s.now, &s.f));

@@ -281,8 +281,7 @@ static void test_shears_zeros_and_mirrorings_are_linear(void)
             *e = n % 3 == 0 ? *e + t->basis[3 * i + (j + 1) % 3] / 64       /* sheared */
                : n % 3 == 1 ? 0 : -*e;                                      /* flat, mirrored */
         }
-        if (!is_linear(&before, &now, time))
-            return;
+        END_UNLESS(is_linear(&before, &now, time));
     }
     smear_transform still = SMEAR_IDENTITY;
     is_linear(&still, &still, 0.5);

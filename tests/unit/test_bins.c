@@ -97,8 +97,7 @@ static void test_lists_keep_the_order_of_submission_over_rows(void)
             int rows = between(0, 3) == 0 ? between(1, most) : between(1, most < 9 ? most : 9);
             add(first, first + rows, between(0, 2) == 0);
         }
-        if (!check_frame(0, ROWS))
-            return;
+        END_UNLESS(check_frame(0, ROWS));
     }
 }
 
@@ -117,8 +116,7 @@ static void test_parts_of_a_frame_hold_their_rows_only(void)
             int bottom = between(top < first * ROW_PX ? first * ROW_PX + 1 : top + 1, ROWS * ROW_PX);
             add(top, bottom, between(0, 1));
         }
-        if (!check_frame(first, end))
-            return;
+        END_UNLESS(check_frame(first, end));
         for (int row = 0; row < ROWS; row++)
             if (row < first || row >= end)
                 CHECK(opaque_last[row] == 12345 && blend_last[row] == 12345);

@@ -115,8 +115,7 @@ static void test_reciprocals_keep_their_stated_errors(void)
             return;
     }
     for (uint64_t m = 0x80000000u; m <= UINT32_MAX; m += 78643u)
-        if (!check_reciprocals((uint32_t)m))
-            return;
+        END_UNLESS(check_reciprocals((uint32_t)m));
 }
 
 static void test_reciprocals_of_powers_of_two_are_close_to_powers_of_two(void)
@@ -178,8 +177,7 @@ static void test_ratios_are_within_2_to_the_minus_25_of_the_quotient(void)
     for (int i = 0; i < 20000; i++) {
         int64_t c = (int64_t)(random_u64() >> 1) | 1;
         int64_t a = (int64_t)(random_u64() % ((uint64_t)c + 1));
-        if (!check_ratio(a, c))
-            return;
+        END_UNLESS(check_ratio(a, c));
     }
 }
 
@@ -194,8 +192,7 @@ static bool check_root(uint64_t x)
 static void test_square_roots_are_exact_floors(void)
 {
     for (uint64_t x = 0; x < 300; x++)
-        if (!check_root(x))
-            return;
+        END_UNLESS(check_root(x));
     for (uint32_t root = 1; root != 0 && root >> 31 == 0; root = root * 3 + 1) {
         uint64_t square = (uint64_t)root * root;
         if (!check_root(square) || !check_root(square - 1) || !check_root(square + 1))
@@ -207,8 +204,7 @@ static void test_square_roots_are_exact_floors(void)
     check_root(UINT64_MAX);
     random_state = 5;
     for (int i = 0; i < 4000; i++)
-        if (!check_root(random_u64()))
-            return;
+        END_UNLESS(check_root(random_u64()));
 }
 
 static void test_short_roots_keep_their_stated_error(void)

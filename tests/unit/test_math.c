@@ -141,8 +141,7 @@ static void test_rotations_are_orthonormal(void)
             smear_look_at(v, target, up)
         };
         for (int k = 0; k < 7; k++)
-            if (!is_rotation(&turns[k]))
-                return;
+            END_UNLESS(is_rotation(&turns[k]));
     }
 }
 

@@ -215,8 +215,7 @@ static void test_the_order_of_the_corners_does_not_matter(void)
         }
         count_clear();
         for (int turn = 0; turn < 6; turn++) {      /* all orders of the corners */
-            if (!draw_and_check(p))
-                return;
+            END_UNLESS(draw_and_check(p));
             int swap = turn & 1;
             for (int axis = 0; axis < 2; axis++) {
                 int32_t keep = p[swap][axis];
@@ -243,8 +242,7 @@ static void test_random_triangles_of_every_size_cover_exactly_their_centres(void
                 p[i][1] = (p[i][1] & ~127);
             }
         }
-        if (!draw_and_check(p))
-            return;
+        END_UNLESS(draw_and_check(p));
     }
 }
 
@@ -261,8 +259,7 @@ static void test_boxes_around_the_limit_of_the_small_path_cover_exactly_their_ce
         p[1][1] = y;
         p[2][0] = x + between(0, w);
         p[2][1] = y + h + between(-1, 1);
-        if (!draw_and_check(p))
-            return;
+        END_UNLESS(draw_and_check(p));
     }
 }
 
@@ -279,8 +276,7 @@ static void test_triangles_that_reach_the_guard_band_cover_exactly_their_centres
             p[i][0] = cx + (chance(3) && !near ? (chance(2) ? -guard : guard) : between(-reach, reach));
             p[i][1] = cy + (chance(3) && !near ? (chance(2) ? -guard : guard) : between(-reach, reach));
         }
-        if (!draw_and_check(p))
-            return;
+        END_UNLESS(draw_and_check(p));
     }
     /* Slivers whose long edges all but coincide. */
     for (int n = 0; n < 60; n++) {
@@ -294,8 +290,7 @@ static void test_triangles_that_reach_the_guard_band_cover_exactly_their_centres
                 p[i][0] = p[i][1] - cy + cx;
                 p[i][1] = keep + cy;
             }
-        if (!draw_and_check(p))
-            return;
+        END_UNLESS(draw_and_check(p));
     }
 }
 
@@ -518,11 +513,9 @@ static void test_fans_to_the_guard_band_cover_every_pixel_once(void)
         for (int i = 0; i < 24; i++) {
             const int32_t *b = rim[i], *c = rim[(i + 1) % 24];
             int32_t p[3][2] = { { hub[0], hub[1] }, { b[0], b[1] }, { c[0], c[1] } };
-            if (!draw_and_check(p))
-                return;
+            END_UNLESS(draw_and_check(p));
         }
-        if (!check_counts(0, 0, W * 256, H * 256))
-            return;
+        END_UNLESS(check_counts(0, 0, W * 256, H * 256));
     }
 }
 
@@ -660,8 +653,7 @@ static void test_depth_is_the_plane_through_the_corners(void)
                  : n % 3 == 1  ? (32768 << 11) + between(-(1 << 24), 1 << 24)
                               : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
         /* Gradients are rounded to 1/2 step of q11 per pixel: 1/32 unit over 64 px, two over 4096. */
-        if (!check_depths(p, q, large ? 3 : 1))
-            return;
+        END_UNLESS(check_depths(p, q, large ? 3 : 1));
     }
 }
 
@@ -779,8 +771,7 @@ static void test_colors_are_interpolated_in_perspective_too(void)
         if (kind == 2 ? !small_triangle(p, 350 << n % 3, 60000)
                       : !fat_triangle(p, kinds[kind].least, -2000, W * 256 + 2000, H * 256 + 2000))
             continue;
-        if (!check_colors(p, q, kind != 1, n & 1, kinds[kind].slack + (n & 1)))
-            return;
+        END_UNLESS(check_colors(p, q, kind != 1, n & 1, kinds[kind].slack + (n & 1)));
     }
 }
 
@@ -925,8 +916,7 @@ static void test_texels_are_within_half_a_texel_or_half_a_pixel(void)
                               : kind == 1 ? between(0, 8191)
                                           : between(0, 1) * 24576 + between(-2000, 2000);
         }
-        if (!check_texels(&t))
-            return;
+        END_UNLESS(check_texels(&t));
     }
 }
 
@@ -1028,8 +1018,7 @@ static void test_velocities_are_those_of_the_surface(void)
                 motion[pose][i][1] = between(-size, size);
                 motion[pose][i][2] = kind == 1 ? between(3500, 4800) << 8 : 1 << 20;
             }
-        if (!check_velocity(p, 1 + n % 2, motion, kind == 1 ? 48 : 8))
-            return;
+        END_UNLESS(check_velocity(p, 1 + n % 2, motion, kind == 1 ? 48 : 8));
     }
 }
 
@@ -1339,8 +1328,7 @@ static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
                 t.color_rows.ring_row = t.window_rows.ring_row = y;
                 smear_raster_list(&frame, &t, 0);
             }
-        if (!same_planes(&full, &cut))
-            return;
+        END_UNLESS(same_planes(&full, &cut));
     }
 }
 
@@ -1398,8 +1386,7 @@ static void test_what_bands_keep_of_triangles_changes_nothing(void)
         }
         if (late >= 0 && late < H)
             draw_band(&cut, &cache, late, min_i32(late + band, H));
-        if (!same_planes(&full, &cut))
-            return;
+        END_UNLESS(same_planes(&full, &cut));
     }
 }
 #endif
@@ -1483,8 +1470,7 @@ static void test_drawing_from_the_front_changes_nothing(void)
         random_planes();
         draw_bands(&full, H, false);
         moved += draw_bands(&cut, chance(2) ? H : between(8, 24), true);
-        if (!same_planes(&full, &cut))
-            return;
+        END_UNLESS(same_planes(&full, &cut));
     }
     CHECK(moved > 1000);
 }
@@ -1504,8 +1490,7 @@ static void test_rows_without_marks_have_the_same_velocities(void)
         struct smear_raster_target t = target_of(&cut);
         t.moving = NULL;
         smear_raster_list(&frame, &t, 0);
-        if (!same_planes(&full, &cut))
-            return;
+        END_UNLESS(same_planes(&full, &cut));
         for (int i = 0; i < W / 8; i++)
             CHECK_EQ(moving[i], 0);
     }
@@ -1548,8 +1533,7 @@ static void test_columns_within_long_blocks_draw_their_own_pixels(void)
         }
         draw_alone(v);
         for (int32_t x0 = 0; x0 < W; x0++)
-            if (!check_columns(x0, min_i32(x0 + between(1, 24), W)))
-                return;
+            END_UNLESS(check_columns(x0, min_i32(x0 + between(1, 24), W)));
     }
 }
 
@@ -1633,8 +1617,7 @@ static void test_texels_in_rows_are_those_of_the_general_loop(void)
                                         .height = size[n % 4][1], .format = (uint8_t)(n / 9 % 3) };
         smear_sampler_make(&draw[0].sampler, &texture, between(9, 15), false, false);
         random_kind(between(0, 8), between(0, 3) * 4);
-        if (!check_general())
-            return;
+        END_UNLESS(check_general());
     }
 }
 
@@ -1647,8 +1630,7 @@ static void test_colors_in_rows_are_those_of_the_general_loop(void)
         set_layout(0, false, true, 1 + n % 2, SHADE_GOURAUD);      /* what moves is never tiny */
         frame.linear = SMEAR_WITH_LINEAR && n / 2 % 2 == 1;
         random_kind(between(0, 8), between(0, 3) * 4);
-        if (!check_general())
-            return;
+        END_UNLESS(check_general());
     }
 }
 
@@ -1711,8 +1693,7 @@ static void test_rings_of_rows_change_nothing(void)
                     }
                 }
         }
-        if (!same_planes(&full, &cut))
-            return;
+        END_UNLESS(same_planes(&full, &cut));
     }
 }
 

@@ -487,8 +487,7 @@ static void test_tiles_are_the_mean_of_whole_frames(void)
     uint32_t seen = 0;
     for (int n = 0; n < 240; n++) {
         random_scene(n & 1);
-        if (!check_scene(8 << (n & 3), between(1, 12)))
-            return;
+        END_UNLESS(check_scene(8 << (n & 3), between(1, 12)));
         seen += samples != 0;
     }
     CHECK(seen > 200);
@@ -524,11 +523,9 @@ static void test_every_number_of_instants_divides_exactly(void)
     for (int linear = 0; linear < 2; linear++) {
         square_scene(linear, 9);
         for (int32_t n = 1; n <= 66; n++)
-            if (!check_scene(16, n))
-                return;
+            END_UNLESS(check_scene(16, n));
         for (int i = 0; i < (int)(sizeof many / sizeof *many); i++)
-            if (!check_scene(16, many[i]))
-                return;
+            END_UNLESS(check_scene(16, many[i]));
     }
 }
 
@@ -551,8 +548,7 @@ static void test_tiles_together_are_what_they_are_alone(void)
     random_state = 12;
     for (int n = 0; n < 30; n++) {
         random_scene(n & 1);
-        if (!check_wide(n % 3 == 0 ? 8 : 16, 2 + n % 4, between(2, 12)))
-            return;
+        END_UNLESS(check_wide(n % 3 == 0 ? 8 : 16, 2 + n % 4, between(2, 12)));
     }
 }
 
@@ -760,8 +756,7 @@ static void test_shutters_weigh_by_their_slots(void)
         shutter.time[0] = between(0, 3000);
         for (int i = 1; i <= SHUTTER_SAMPLES; i++)
             shutter.time[i] = shutter.time[i - 1] + between(0, (SHUTTER_CLOSE - shutter.time[i - 1]) / 4);
-        if (!check_scene(16, between(1, 40)))
-            return;
+        END_UNLESS(check_scene(16, between(1, 40)));
     }
 }
 
@@ -789,8 +784,7 @@ static void test_paths_that_stand_turn_over_or_vanish(void)
                     c.at[1][k][0] = c.at[1][0][0];
             add_mover(between(STILL_SEGMENTS, SEGMENTS - 2), &c, random_u32());
         }
-        if (!check_scene(16, between(1, 9)))
-            return;
+        END_UNLESS(check_scene(16, between(1, 9)));
     }
 }
 
@@ -821,8 +815,7 @@ static void test_paths_that_leave_the_guard_band(void)
                 add_mover(between(STILL_SEGMENTS, SEGMENTS - 2), &c, random_u32());
             }
         }
-        if (!check_scene(16, between(1, 9)))
-            return;
+        END_UNLESS(check_scene(16, between(1, 9)));
     }
 }
 
@@ -855,8 +848,7 @@ static void test_more_movers_than_a_tile_remembers(void)
         draw_still();
         draw_want(4);
         for (int32_t column = 0; column < 4; column++)
-            if (!check_tiles(16, column, 1, 1, 4))
-                return;
+            END_UNLESS(check_tiles(16, column, 1, 1, 4));
     }
 }
 

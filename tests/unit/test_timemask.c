@@ -587,8 +587,7 @@ static void test_meshes_that_turn_and_grow_come_near_the_truth_as_segments_get_s
         truth(32);
         draw_movers(32, 16, 8192, 256);
         struct difference chord = compare();
-        if (!check_against_truth(32, 2, 5, 500))
-            return;
+        END_UNLESS(check_against_truth(32, 2, 5, 500));
         struct difference d = compare();
         REQUIRE(d.squares <= chord.squares + 200);
     }
@@ -622,8 +621,7 @@ static void test_a_mover_passes_before_and_behind_still_surfaces(void)
             still_depth[i] = (uint16_t)(i % W % 8 < 3 ? 24000 : 15000);
         struct motion m = { between(-3000, 3000), between(-3000, 3000), 0, 0 };
         add_slab(FLAT, 3000, 2000, 9000, 8000, depth_middle, depth_middle, &m, 0, 0xffe0c0u);
-        if (!check_against_truth(32, 64, 2, 200))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 2, 200));
         for (int i = 0; i < W * H; i++)
             if (still_depth[i] == 24000 && !CHECK_EQ(result[i], still_color[i]))
                 return;
@@ -639,8 +637,7 @@ static void test_two_movers_that_cross_hide_each_other_by_depth(void)
         add_slab(FLAT, 2000, 2000, 7000, 8000, depth_middle, depth_middle, &right, 0, 0xffe0c0u);
         add_slab(FLAT, 5000, 3000, 10000, 9000, depth_middle + (n & 2 ? 3000000 : -3000000), depth_middle, &left, 0,
                  0x4080ffu);
-        if (!check_against_truth(32, 64, 2, 200))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 2, 200));
     }
 }
 
@@ -655,8 +652,7 @@ static void test_surfaces_that_run_through_each_other_part_where_they_meet(void)
         add_slab(FLAT, 1000, 1000, 11000, 9000, depth_middle - 6000000, depth_middle + 6000000, &m, 0, 0xffe0c0u);
         add_slab(FLAT, 1000, 2000, 11000, 8000, depth_middle + 7000000, depth_middle - 5000000, &m, 0, 0x4080ffu);
         /* A run takes one side: the middle decides. */
-        if (!check_against_truth(32, 64, 16, 80000))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 16, 80000));
     }
 }
 
@@ -687,8 +683,7 @@ static void test_more_surfaces_than_entries_still_add_up(void)
             uint16_t a = random_vertex(FLAT, x, y, size, dx, dy), b = random_vertex(FLAT, x, y, size, dx, dy);
             add_mover(FLAT, a, b, random_vertex(FLAT, x, y, size, dx, dy), random_u32() & 0xffffffu);
         }
-        if (!check_against_truth(32, 64, 16, 400))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 16, 400));
     }
     /* Of one colour, whatever is merged. */
     scene_begin(true);
@@ -767,8 +762,7 @@ static void test_what_enters_and_leaves_the_frame_is_blurred_as_if_there_were_mo
         scene_begin(n & 1);
         struct motion m = { n & 2 ? 12000 : -12000, n & 4 ? 6000 : -2000, 0, 0 };
         add_mesh(FLAT, 2, 3000, n & 2 ? 0 : W * 256, between(0, H * 256), depth_middle, 0, &m, n & 1 ? 0 : 0xffe0c0u);
-        if (!check_against_truth(8 << n % 3, 64, 2, 200))
-            return;
+        END_UNLESS(check_against_truth(8 << n % 3, 64, 2, 200));
     }
 }
 
@@ -789,8 +783,7 @@ static void test_coordinates_of_the_guard_band_are_exact_enough(void)
             quad_corner(between(-far / 2, far / 2), far / 2, depth_middle - 8000000, &m, 0)
         };
         add_mover(FLAT, add_vertex(FLAT, &corner[0]), add_vertex(FLAT, &corner[1]), add_vertex(FLAT, &corner[2]), 0xffe0c0u);
-        if (!check_against_truth(32, 64, 3, 300))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 3, 300));
     }
 }
 
@@ -873,8 +866,7 @@ static void test_what_turns_over_is_seen_while_it_faces(void)
         };
         corner[1].middle.x = (corner[1].open.x + corner[1].close.x) / 2;
         add_mover(FLAT, add_vertex(FLAT, &corner[0]), add_vertex(FLAT, &corner[1]), add_vertex(FLAT, &corner[2]), 0xffe0c0u);
-        if (!check_against_truth(32, 64, 3, 300))
-            return;
+        END_UNLESS(check_against_truth(32, 64, 3, 300));
         CHECK_EQ(result[20 * W + 20], still_color[20 * W + 20]);       /* behind it, where only its back would be */
     }
 }
@@ -891,8 +883,7 @@ static void test_a_shutter_that_is_not_a_box_weighs_time(void)
         }
         struct motion m = { between(-4000, 4000), between(-4000, 4000), 0, 0 };
         add_mesh(FLAT, between(1, 4), 1500, W * 128, H * 128, depth_middle, 0, &m, 0xffe0c0u);
-        if (!check_against_truth(32, 16, 3, 4000))
-            return;
+        END_UNLESS(check_against_truth(32, 16, 3, 4000));
     }
 }
 
@@ -906,8 +897,7 @@ static void test_colours_between_vertices_follow_the_surface(void)
         struct motion m = { between(-4000, 4000), between(-4000, 4000), n & 2 ? 30 : 0, 0 };
         segment[GOURAUD].flat_depth = (n & 4) != 0;
         add_mesh(GOURAUD, between(1, 4), between(1500, 4000), W * 128, H * 128, depth_middle, n & 8 ? 9000000 : 0, &m, 0);
-        if (!check_against_truth(32, 16, 8, 700))
-            return;
+        END_UNLESS(check_against_truth(32, 16, 8, 700));
     }
 }
 
