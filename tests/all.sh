@@ -93,7 +93,7 @@ frames() {
     suite frames-valid build/host/frames valid 1 2000
     suite frames-parts build/host/frames parts 1 590
     suite frames-threads build/host/frames threads 1 250
-    suite frames-many build/host/frames many 1 80
+    suite frames-many build/host/frames many 1 150
     suite frames-wild build/host/frames wild 1 1500
 }
 

@@ -9,7 +9,8 @@ find "$build" -name '*.gcda' -exec rm -f {} +
 # Beside each other: counts are added up as programs end. The other suites judge what these do with -O2.
 export SMEAR_ASSETS=
 {
-    "$build/frames" valid 1 2000 && "$build/frames" wild 1 4000 && "$build/frames" threads 1 300 || echo "frames fail"
+    "$build/frames" valid 1 2000 && "$build/frames" wild 1 4000 && "$build/frames" threads 1 300 && "$build/frames" parts 1 590 &&
+        "$build/frames" many 1 200 || echo "frames fail"
 } >"$build/frames.log" 2>&1 &
 for suite in $suites; do
     "$build/run" --suite "$suite" >"$build/$suite.log" 2>&1

@@ -1621,4 +1621,102 @@ static void test_the_filter_refuses_what_it_cannot_do(void)
     CHECK_EQ(smear_error_kind(smear_filter_begin(r.ctx, &f)), SMEAR_ERR_ARG);
 }
 
+static void test_the_filter_takes_any_velocity_and_depth(void)
+{
+    static const int16_t wild[] = { INT16_MIN, INT16_MAX, 0, 1, -1, 1000, -1000, 255 };
+    struct rig r;
+    for (int reach = 1; reach <= 64; reach += 21) {
+        smear_desc desc = small_desc(90, 75);
+        desc.reach = (int16_t)reach;
+        if (rig_begin(&r, &desc, false)) {
+            uint32_t random = 7;
+            smear_camera camera = { .near_plane = reach == 1 ? INT32_MAX : 1 << reach / 3 };
+            for (int n = 0; n < 6; n++) {
+                smear_frame f = { .camera = &camera, .filter.flags = (uint8_t)(n * 11 & 31), .samples = 1024,
+                                  .shutter.degrees = 3600 };
+                CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
+                rig_forget_output(&r);
+                for (int y = 0; y < 75; y++) {
+                    uint32_t color[90], depth[90];
+                    int16_t velocity[180];
+                    for (int x = 0; x < 90; x++) {
+                        random = random * 1664525u + 1013904223u;
+                        color[x] = random;
+                        depth[x] = random >> 7 >> (random >> 2 & 31u);
+                        velocity[2 * x] = wild[random >> 20 & 7u];
+                        velocity[2 * x + 1] = wild[random >> 24 & 7u];
+                    }
+                    CHECK_EQ(smear_filter_row(r.ctx, color, depth, velocity), SMEAR_OK);
+                }
+                CHECK(r.bands_in_order && r.next_row == 75);
+            }
+        }
+        rig_end(&r);
+    }
+}
+
+static void test_wild_transforms_and_cameras_are_drawn_without_harm(void)
+{
+    static const int32_t wild[] = { INT32_MAX, INT32_MIN, -INT32_MAX, 1, -1, 0, 0x40000000, SMEAR_BASIS_ONE };
+    enum { WILD = sizeof wild / sizeof wild[0] };
+    struct rig r;
+    smear_desc desc = small_desc(40, 24);
+    desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
+    if (!rig_begin(&r, &desc, true)) {
+        rig_end(&r);
+        return;
+    }
+    uint32_t random = 1;
+    for (int n = 0; n < 2400; n++) {
+        struct scene s;
+        make_scene(&s, 0.1 * (n % 7), 1 + n % 6);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            for (int e = 0; e < 12; e++) {
+                random = random * 1664525u + 1013904223u;
+                int32_t value = wild[random >> 24 & (WILD - 1)];
+                if ((random >> 16 & 3u) < (unsigned)n % 4u) {
+                    if (e < 9)
+                        s.pose[i].basis[e] = value;
+                    else
+                        s.pose[i].origin[e - 9] = value;
+                }
+            }
+        smear_mesh mesh = square;
+        random = random * 1664525u + 1013904223u;
+        mesh.scale = wild[random >> 29] < 0 ? 1 : wild[random >> 29];
+        mesh.shift = (int8_t)((int)(random >> 16 & 127u) % 95 - 32);
+        mesh.offset[0] = (int32_t)(random >> 8 & 0xfffffu);
+        if (n % 2)
+            s.draw[0].mesh = &mesh;
+        if (n % 5 == 0) {
+            s.camera.half_height = wild[random >> 20 & 7u] > 0 ? wild[random >> 20 & 7u] : 0;
+            s.camera.near_plane = 1;
+            s.camera.far_plane = random & 64u ? INT32_MAX : 2;
+            for (int e = 0; e < 3; e++)
+                s.camera.pose.origin[e] = wild[random >> (4 * e) & 7u];
+        }
+        if (n % 5 == 1)
+            s.camera.focal = random & 128u ? INT32_MAX : 1;
+        s.frame.shutter.degrees = n % 3 ? 0 : 3600;
+        s.frame.shutter.exposure = (uint8_t)(n % 3);
+        s.frame.samples = 3;
+        s.frame.shutter.poses = n % 7 == 0;
+        if (n % 11 == 0)        /* the largest there are */
+            s.frame.scale = (smear_motion_scale){ 16128, 16128, 16128 };
+        const int result = rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS);
+        if (!CHECK(result == SMEAR_OK || (result == SMEAR_ERR_ROOM && s.frame.method == SMEAR_TIMEMASK))
+            || !CHECK(guards_intact(&r)))
+            break;
+    }
+    /* And then a plain frame as ever. */
+    struct rig fresh;
+    if (rig_begin(&fresh, &desc, true)) {
+        CHECK_EQ(render_scene(&fresh, 0.1, SMEAR_NONE), SMEAR_OK);
+        CHECK_EQ(render_scene(&r, 0.1, SMEAR_NONE), SMEAR_OK);
+        same_picture(&r, fresh.picture);
+    }
+    rig_end(&fresh);
+    rig_end(&r);
+}
+
 #include "build/suites/api.h"

@@ -148,6 +148,8 @@ static void test_the_text_of_a_bad_frame_names_the_field(void)
               "frame.filter.kind");
         CHECK_EQ(smear_error_kind(smear_begin(r.ctx, NULL)), SMEAR_ERR_ARG);
         CHECK_EQ(smear_error_kind(smear_begin(NULL, &s.frame)), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_render(NULL), SMEAR_ERR_ARG);
+        smear_work(NULL, 1);
         CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
         CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
     }

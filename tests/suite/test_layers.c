@@ -857,4 +857,29 @@ static void test_memory_of_layers_is_small(void)
     CHECK(need > 0 && need <= 209u * 1024u);
 }
 
+static void test_small_frames_and_wild_velocities_are_drawn(void)
+{
+    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 1 }, { 1, 40 }, { 96, 17 } };
+    static const double way[] = { 0, 0.1, 3, 40, -300, 5000 };
+    for (int i = 0; i < 5 * 6 * 6 * 2; i++) {
+        struct mover m;
+        const int16_t *s = size[i % 5];
+        mover_make(&m, 0, 0, 10, 12, 9, way[i / 5 % 6], way[i / 30 % 6]);
+        smear_draw draw = draw_of(&m, &red);
+        smear_frame frame = frame_of(both[i / 180]);
+        smear_desc desc = desc_of(picture);
+        desc.width = s[0];
+        desc.height = s[1];
+        desc.tile = (int16_t)(8 << i % 4);
+        desc.reach = (int16_t)(1 + i % 8);
+        frame.light_space = (uint8_t)(i & 1 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED);
+        desc.flush = keep_band;
+        static uint32_t small[2048];
+        desc.user = small;
+        if (!render_with(&desc, &frame, &draw, 1))
+            return;
+        CHECK_EQ(stats.pixels, (uint32_t)(s[0] * s[1]));
+    }
+}
+
 #include "build/suites/layers.h"
