@@ -13,6 +13,7 @@
 #include "tools/bench/groups.h"
 #include "tools/bench/promise.h"
 #include "tools/bench/sheet.h"
+#include "tools/options/say.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -43,8 +44,13 @@ enum { REPORTS = sizeof reports / sizeof *reports };
 
 static int usage(const char *what)
 {
-    fprintf(stderr, "smear: %s: no report of bench (smear help bench)\n", what);
-    return 2;
+    struct guess guess = { .word = what };
+    for (int i = 0; i < REPORTS; i++)
+        guess_try(&guess, reports[i].name);
+    guess_try(&guess, "promise");
+    guess_try(&guess, "targets");
+    guess_try(&guess, "--strict");
+    return say_unknown(what, "no report of bench", &guess, "smear help bench");
 }
 
 static const struct report *find_report(const char *name)

@@ -6,8 +6,9 @@
  * anew. */
 #include "tools/bench/chart.h"
 
-#include "tools/image/image.h"
 #include "tools/bench/sheet.h"
+#include "tools/image/image.h"
+#include "tools/options/say.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -22,65 +23,70 @@ struct options {
     bool is_part, few_scenes, quick, strict;
 };
 
-static int bad_usage(const char *what, const char *text)
-{
-    fprintf(stderr, "smear: %s: %s (smear help chart)\n", what, text);
-    return 2;
-}
-
-static int bad_input(const char *what, const struct failure *f)
-{
-    fprintf(stderr, "smear: %s: %s\n", what, f->text);
-    return 1;
-}
+static const char help[] = "smear help chart";
 
 /* ------------------------------------------------------------------ options */
 
-/* The next word of a list with commas; its length, or 0 at the end. */
-static size_t next_word(const char **list, const char **word)
+/* The next word of a list with commas; false at the end. */
+static bool next_word(const char **list, char word[64])
 {
     *list += strspn(*list, ",");
-    *word = *list;
     size_t length = strcspn(*list, ",");
+    snprintf(word, 64, "%.*s", (int)length, *list);
     *list += length;
-    return length;
+    return length > 0;
 }
 
-static bool choose_scenes(struct options *o, const char *list)
+static int choose_scenes(struct options *o, const char *list)
 {
-    const char *word;
+    char word[64];
     memset(o->choice.kind, 0, sizeof o->choice.kind);
-    for (size_t n; (n = next_word(&list, &word)) > 0;) {
-        int found = -1;
-        for (int k = 0; k < ALL_KINDS; k++)
-            if (strlen(kinds[k].name) == n && strncmp(kinds[k].name, word, n) == 0)
-                found = k;
-        if (found < 0)
-            return false;
-        o->choice.kind[found] = true;
+    while (next_word(&list, word)) {
+        struct guess guess = { .word = word };
+        bool found = false;
+        for (int k = 0; k < ALL_KINDS; k++) {
+            guess_try(&guess, kinds[k].name);
+            if (strcmp(kinds[k].name, word) == 0)
+                found = o->choice.kind[k] = true;
+        }
+        if (!found)
+            return say_unknown(word, "no scene of the suite", &guess, help);
     }
-    return true;
+    return 0;
 }
 
-static bool choose_methods(struct options *o, const char *list)
+static int choose_methods(struct options *o, const char *list)
 {
-    const char *word;
+    char word[64];
     memset(o->choice.setting, 0, sizeof o->choice.setting);
     o->choice.setting[chart_none] = true;
-    for (size_t n; (n = next_word(&list, &word)) > 0;) {
+    while (next_word(&list, word)) {
+        struct guess guess = { .word = word };
         bool found = false;
-        for (int s = 0; s < chart_setting_count; s++)
-            if (strncmp(chart_settings[s].name, word, n) == 0)
+        for (int s = 0; s < chart_setting_count; s++) {
+            guess_try(&guess, chart_settings[s].name);
+            if (strncmp(chart_settings[s].name, word, strlen(word)) == 0)
                 found = o->choice.setting[s] = true;
+        }
         if (!found)
-            return false;
+            return say_unknown(word, "no setting begins so", &guess, help);
     }
-    return true;
+    return 0;
+}
+
+static int say_no_option(const char *name)
+{
+    static const char *const names[] = { "--scenes", "--methods", "--from", "--out", "--jobs", "--quick", "--strict" };
+    struct guess guess = { .word = name };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        guess_try(&guess, names[i]);
+    return say_unknown(name, "unknown option", &guess, help);
 }
 
 /* 0, or an exit status. Empty lists, as from a Makefile, choose everything. */
 static int read_options(struct options *o, int count, char **text)
 {
+    int status;
     *o = (struct options){ .jobs = 2 };
     memset(&o->choice, 1, sizeof o->choice);
     for (int i = 0; i < count; i++) {
@@ -99,18 +105,18 @@ static int read_options(struct options *o, int count, char **text)
                   || strcmp(name, "--from") == 0 || strcmp(name, "--out") == 0
                   || strcmp(name, "--jobs") == 0;
         if (!known)
-            return bad_usage(name, "unknown option");
+            return say_no_option(name);
         if (value == NULL)
-            return bad_usage(name, "wants a value");
+            return say_bad_usage(name, "wants a value (%s)", help);
         i++;
         if (strcmp(name, "--scenes") == 0 && value[0] != '\0') {
             o->is_part = o->few_scenes = true;
-            if (!choose_scenes(o, value))
-                return bad_usage(value, "not scenes of the suite");
+            if ((status = choose_scenes(o, value)) != 0)
+                return status;
         } else if (strcmp(name, "--methods") == 0 && value[0] != '\0') {
             o->is_part = true;
-            if (!choose_methods(o, value))
-                return bad_usage(value, "no setting begins so");
+            if ((status = choose_methods(o, value)) != 0)
+                return status;
         } else if (strcmp(name, "--from") == 0) {
             o->from = value;
         } else if (strcmp(name, "--out") == 0) {
@@ -119,7 +125,7 @@ static int read_options(struct options *o, int count, char **text)
             char *end;
             long jobs = strtol(value, &end, 10);
             if (*end != '\0' || jobs < 1 || jobs > 8)
-                return bad_usage(value, "not 1 to 8");
+                return say_bad_usage(value, "not 1 to 8 (%s)", help);
             o->jobs = (int)jobs;
         }
     }
@@ -252,6 +258,6 @@ int chart_command(const char *program, int count, char **text)
     ok = ok && (o.from != NULL || measure(&chart, &o, program, number, &f));
     keep_chosen(&chart, &o.choice);
     if (!ok || !report(&chart, &o, number, &verdict, &f))
-        return bad_input(o.from != NULL ? o.from : "chart", &f);
+        return say_bad_input(o.from != NULL ? o.from : "chart", &f);
     return o.strict && verdict.missed + verdict.unknown > 0 ? 1 : 0;
 }

@@ -12,6 +12,7 @@
 #include "tools/bench/count.h"
 #include "tools/bench/sheet.h"
 #include "tools/bench/truth.h"
+#include "tools/options/say.h"
 
 #include <errno.h>
 #include <math.h>
@@ -220,6 +221,20 @@ static bool has_scenes(const struct options *o)
     return false;
 }
 
+static void say_no_option(const char *name)
+{
+    static const char *const names[] = { "--scenes", "--models", "--light", "--count" };
+    struct guess guess = { .word = name };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        guess_try(&guess, names[i]);
+        if (strcmp(name, names[i]) == 0) {
+            say_bad_usage(name, "needs a value");
+            return;
+        }
+    }
+    say_unknown(name, "no option of promise", &guess, "smear help bench");
+}
+
 static bool read_options(struct options *o, int count, char **text)
 {
     *o = (struct options){ .light = { true, true } };
@@ -239,7 +254,7 @@ static bool read_options(struct options *o, int count, char **text)
             }
             o->light[!linear] = false;
         } else {
-            fprintf(stderr, "smear: %s: no option of promise (smear help bench)\n", text[i]);
+            say_no_option(text[i]);
             return false;
         }
     }

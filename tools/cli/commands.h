@@ -15,6 +15,13 @@ int command_help(int count, char **text);
 
 int view_help_print(void);
 
+/* The board of this name. Returns null, or what is wrong with the name. */
+struct board;
+const char *view_read_board(const char *value, const struct board **board);
+
+/* Says that there is no such command, and which may have been meant. A status. */
+int say_unknown_command(const char *name);
+
 /* Prints the help of a command (null: of the program) on standard output. */
 int help_print(const char *command);
 

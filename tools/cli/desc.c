@@ -26,48 +26,91 @@ static const struct field fields[] = {
     FIELD(display.doubled, option_doubles)
 };
 
-/* Adds methods joined by plus signs; accumulate stands for that of the whole frame. */
-static bool read_methods(smear_desc *desc, char *value)
+/* What is read, and what is wrong with it. */
+struct reading {
+    smear_desc *desc;
+    char wrong[280];
+};
+
+/* Adds methods joined by plus signs; accumulate_bands is the one whose memory differs from the method's of its name. */
+static bool read_methods(struct reading *r, char *value)
 {
     for (char *name = strtok(value, "+"); name != NULL; name = strtok(NULL, "+")) {
         const struct method *method = method_named(name);
-        if (method == NULL && strcmp(name, "accumulate_bands") != 0)
+        if (method == NULL && strcmp(name, "accumulate_bands") != 0) {
+            for (int i = 0; i < method_count; i++)
+                read_near(name, method_list[i].name);
+            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, joined by +", name,
+                     method_names());
             return false;
-        desc->methods = (uint16_t)(desc->methods | (method != NULL ? SMEAR_SET(method->method) : SMEAR_SET_ACCUMULATE_BANDS));
+        }
+        r->desc->methods = (uint16_t)(r->desc->methods | (method != NULL ? SMEAR_SET(method->method) : SMEAR_SET_ACCUMULATE_BANDS));
     }
     return true;
 }
 
+static const struct field *find_field(const char *name)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (strcmp(fields[i].name, name) == 0)
+            return &fields[i];
+    return NULL;
+}
+
+static bool say_no_field(struct reading *r, const char *name)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        read_near(name, fields[i].name);
+    read_near(name, "methods");
+    snprintf(r->wrong, sizeof r->wrong, "%.40s is no field of smear_desc", name);
+    return false;
+}
+
+static bool say_no_value(struct reading *r, const struct field *f, long most)
+{
+    int used = snprintf(r->wrong, sizeof r->wrong, "%s needs ", f->name);
+    if (f->values == NULL)
+        snprintf(r->wrong + used, sizeof r->wrong - (size_t)used, "a number from 0 to %ld", most);
+    for (const char *const *name = f->values; name != NULL && *name != NULL; name++)
+        used += snprintf(r->wrong + used, sizeof r->wrong - (size_t)used, "%s%s", name[0],
+                         name[1] == NULL ? "" : name[2] == NULL ? " or " : ", ");
+    return false;
+}
+
 static bool read_field(void *to, const char *name, const char *value)
 {
-    char copy[32];
-    long number;
-    if (value == NULL)
+    struct reading *r = to;
+    char copy[LIST_PART];
+    const bool is_methods = strcmp(name, "methods") == 0;
+    const struct field *f = find_field(name);
+    if (f == NULL && !is_methods)
+        return say_no_field(r, name);
+    if (value == NULL || *value == '\0') {
+        snprintf(r->wrong, sizeof r->wrong, "%s needs %s value", name, value == NULL ? "an equals sign and a" : "a");
         return false;
-    if (strcmp(name, "methods") == 0) {
+    }
+    if (is_methods) {
         snprintf(copy, sizeof copy, "%s", value);
-        return read_methods(to, copy);
+        return read_methods(r, copy);
     }
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        const struct field *f = &fields[i];
-        if (strcmp(f->name, name) != 0)
-            continue;
-        if (f->values != NULL && (number = read_name(value, f->values)) < 0)
-            return false;
-        if (f->values == NULL && !read_integer(value, 0, f->size == 1 ? UINT8_MAX : f->size == 2 ? INT16_MAX : INT32_MAX, &number))
-            return false;
-        const uint8_t narrow = (uint8_t)number;
-        const uint16_t middle = (uint16_t)number;
-        const uint32_t wide = (uint32_t)number;
-        memcpy((char *)to + f->offset, f->size == 1 ? (const void *)&narrow : f->size == 2 ? (const void *)&middle : &wide, f->size);
-        return true;
-    }
-    return false;
+    const long most = f->size == 1 ? UINT8_MAX : f->size == 2 ? INT16_MAX : INT32_MAX;
+    long number = -1;
+    if (f->values != NULL ? (number = read_name(value, f->values)) < 0 : !read_integer(value, 0, most, &number))
+        return say_no_value(r, f, most);
+    const uint8_t narrow = (uint8_t)number;
+    const uint16_t middle = (uint16_t)number;
+    const uint32_t wide = (uint32_t)number;
+    memcpy((char *)r->desc + f->offset, f->size == 1 ? (const void *)&narrow : f->size == 2 ? (const void *)&middle : &wide, f->size);
+    return true;
 }
 
 const char *desc_read(smear_desc *desc, const char *text)
 {
-    return read_list(text, read_field, desc) ? NULL : "needs fields of smear_desc, as width=240,height=240,methods=auto+none";
+    static struct reading r;
+    r = (struct reading){ .desc = desc };
+    if (read_list(text, read_field, &r))
+        return NULL;
+    return r.wrong[0] != '\0' ? r.wrong : "needs fields of smear_desc, as width=240,height=240,methods=auto+none";
 }
 
 static int flush(void *user, const smear_band *band)

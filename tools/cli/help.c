@@ -306,7 +306,7 @@ int help_print(const char *command)
     if (strcmp(command, "view") == 0)
         return view_help_print();
     if (found < 0)
-        return say_bad_usage(command, "unknown command (smear help)");
+        return say_unknown_command(command);
     for (const char *const *text = texts[found]; *text != NULL; text++)
         if (*text == method_lines)
             print_methods();

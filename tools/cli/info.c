@@ -27,8 +27,7 @@ static const struct board *info_board;
 static const char *read_board(void *to, const char *value)
 {
     (void)to;
-    info_board = board_find(value);
-    return info_board != NULL ? NULL : "is no board (smear help view lists them)";
+    return view_read_board(value, &info_board);
 }
 
 /* What --desc says; without a width it was not given. */

@@ -30,16 +30,20 @@ static const struct {
     { "--version", command_version }, { "-v", command_version },
 };
 
+int say_unknown_command(const char *name)
+{
+    struct guess guess = { .word = name };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        guess_try(&guess, commands[i].name);
+    return say_unknown(name, "unknown command", &guess, "smear help");
+}
+
 static int run_command(const char *name, int count, char **text)
 {
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(count, text);
-    struct guess guess = { .word = name };
-    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        guess_try(&guess, commands[i].name);
-    return guess.best != NULL ? say_bad_usage(name, "unknown command (did you mean %s?)", guess.best)
-                              : say_bad_usage(name, "unknown command (smear help)");
+    return say_unknown_command(name);
 }
 
 int main(int argc, char **argv)

@@ -25,14 +25,25 @@ static const char *read_out(void *to, const char *value)
     return read_name(value, screen_names) >= 0 ? NULL : "needs x11, term, fb, drm or null";
 }
 
-static const char *read_board(void *to, const char *value)
+const char *view_read_board(const char *value, const struct board **board)
 {
     static char wrong[200];
     int used = snprintf(wrong, sizeof wrong, "is no board; there is");
-    (void)to;                   /* its options have been put before all others */
-    for (const struct board *b = board_list; b->name != NULL && used < (int)sizeof wrong; b++)
+    *board = board_find(value);
+    if (*board != NULL)
+        return NULL;
+    for (const struct board *b = board_list; b->name != NULL && used < (int)sizeof wrong; b++) {
         used += snprintf(wrong + used, sizeof wrong - (size_t)used, " %s%s", b->name, b[1].name != NULL ? "," : "");
-    return board_find(value) != NULL ? NULL : wrong;
+        read_near(value, b->name);
+    }
+    return wrong;
+}
+
+static const char *read_board(void *to, const char *value)
+{
+    const struct board *board;
+    (void)to;                   /* its options have been put before all others */
+    return view_read_board(value, &board);
 }
 
 static const char *read_zoom(void *to, const char *value)
@@ -209,12 +220,9 @@ static const char *read_colors(void *to, const char *value)
 static const char *read_split(void *to, const char *value)
 {
     struct view_options *o = to;
-    const struct method *found = method_named(value);
-    if (found == NULL)
-        return "needs a method";
-    o->has_split = true;
-    o->split = found->method;
-    return NULL;
+    const char *wrong = read_method_name(value, &o->split);
+    o->has_split = wrong == NULL;
+    return wrong;
 }
 
 static const char *read_see(void *to, const char *value)

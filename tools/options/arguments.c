@@ -31,7 +31,7 @@ void arguments_guess_also(const struct option *table)
     other_table = table;
 }
 
-static int say_unknown(const char *text, const struct option *table)
+static int say_no_option(const char *text, const struct option *table)
 {
     char word[GUESS_LETTERS + 2];
     struct guess guess = { .word = word };
@@ -40,8 +40,26 @@ static int say_unknown(const char *text, const struct option *table)
         guess_try(&guess, table->name);
     for (table = other_table; table != NULL && table->name != NULL; table++)
         guess_try(&guess, table->name);
-    return guess.best != NULL ? say_bad_usage(text, "unknown option (did you mean %s?)", guess.best)
-                              : say_bad_usage(text, "unknown option");
+    return say_unknown(text, "unknown option", &guess, NULL);
+}
+
+/* What a value may have meant that is none of the names it can have. */
+static struct guess near;
+
+void read_near(const char *text, const char *name)
+{
+    if (near.word != text)
+        near = (struct guess){ .word = text };
+    guess_try(&near, name);
+}
+
+static int say_wrong(const char *option, const char *wrong, const char *value)
+{
+    if (value == NULL)
+        return say_bad_usage(option, "%s", wrong);
+    if (near.best == NULL)
+        return say_bad_usage(option, "%s (\"%s\")", wrong, value);
+    return say_bad_usage(option, "%s; did you mean %s? (\"%s\")", wrong, near.best, value);
 }
 
 int arguments_read(int count, char **text, const struct option *table, void *options,
@@ -70,17 +88,17 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
         }
         const struct option *option = find_option(table, text[i], &value);
         if (option == NULL)
-            return say_unknown(text[i], table);
+            return say_no_option(text[i], table);
         if (!option->has_value && value != NULL)
             return say_bad_usage(option->name, "takes no value");
         if (option->has_value && value == NULL && ++i == count)
             return say_bad_usage(option->name, "needs a value");
         if (option->has_value && value == NULL)
             value = text[i];
+        near = (struct guess){ NULL };
         wrong = option->read(options, value);
         if (wrong != NULL)
-            return value != NULL ? say_bad_usage(option->name, "%s (\"%s\")", wrong, value)
-                                 : say_bad_usage(option->name, "%s", wrong);
+            return say_wrong(option->name, wrong, value);
     }
     return STATUS_OK;
 }
@@ -179,13 +197,15 @@ int read_name(const char *text, const char *const *names)
     for (int i = 0; names[i] != NULL; i++)
         if (strcmp(text, names[i]) == 0)
             return i;
+    for (int i = 0; names[i] != NULL; i++)
+        read_near(text, names[i]);
     return -1;
 }
 
 bool read_list(const char *text, read_part_fn *take, void *to)
 {
     for (;;) {
-        char part[32];
+        char part[LIST_PART];
         size_t length = strcspn(text, ",");
         if (length >= sizeof part)
             return false;

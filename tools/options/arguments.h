@@ -38,10 +38,13 @@ bool read_size(const char *text, long limit, int *width, int *height);
 bool read_range(const char *text, long *first, long *last);
 /* RRGGBB, six hexadecimal digits. */
 bool read_color(const char *text, unsigned *rgb);
-/* The index of `text` in a null-terminated list, or -1. */
+/* The index of `text` in a null-terminated list, or -1; then the line that is said tells the nearest name. */
 int read_name(const char *text, const char *const *names);
+/* Takes a name into account that `text`, which is none, may have meant. */
+void read_near(const char *text, const char *name);
 /* A list NAME or NAME=VALUE with commas: takes one after the other, with a null value where there is none. False when that
  * says so, or a part is too long. */
+enum { LIST_PART = 160 };       /* bytes of a part, with its end */
 typedef bool read_part_fn(void *to, const char *name, const char *value);
 bool read_list(const char *text, read_part_fn *take, void *to);
 

@@ -152,16 +152,23 @@ static const char *read_path(void *to, const char *value)
     return NULL;
 }
 
-static const char *read_method(void *to, const char *value)
+const char *read_method_name(const char *value, smear_method *method)
 {
     static char text[280];
     const struct method *found = method_named(value);
-    if (found == NULL) {
-        snprintf(text, sizeof text, "needs %s", method_names());
-        return text;
+    if (found != NULL) {
+        *method = found->method;
+        return NULL;
     }
-    ((struct render_options *)to)->method = found->method;
-    return NULL;
+    for (int i = 0; i < method_count; i++)
+        read_near(value, method_list[i].name);
+    snprintf(text, sizeof text, "needs %s", method_names());
+    return text;
+}
+
+static const char *read_method(void *to, const char *value)
+{
+    return read_method_name(value, &((struct render_options *)to)->method);
 }
 
 static const char *read_samples(void *to, const char *value)

@@ -85,6 +85,9 @@ void options_outputs(const struct render_options *options, struct apart_output o
 /* Reach and tile in pixels for a picture of this height, as the library wants them. A status. */
 int options_reach(const struct render_options *options, int height, int *reach, int *tile);
 
+/* The method of this name. Returns null, or what is wrong with the name. */
+const char *read_method_name(const char *value, smear_method *method);
+
 /* The name of the format as the command line has it. */
 const char *options_format_name(smear_format format);
 

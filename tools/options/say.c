@@ -47,6 +47,13 @@ int say_bad_usage(const char *what, const char *format, ...)
     return STATUS_BAD_USAGE;
 }
 
+int say_unknown(const char *what, const char *text, const struct guess *guess, const char *help)
+{
+    if (guess->best != NULL)
+        return say_bad_usage(what, "%s (did you mean %s?)", text, guess->best);
+    return help != NULL ? say_bad_usage(what, "%s (%s)", text, help) : say_bad_usage(what, "%s", text);
+}
+
 void say_warning(const char *what, const char *text)
 {
     say_line(what, "warning: ", text);
