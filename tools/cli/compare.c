@@ -21,22 +21,10 @@ struct compare_options {
 /* Differences are small; this much shows a code as a step one can see. */
 enum { DEFAULT_GAIN = 8, MAX_PIXELS = 1 << 23 };
 
-static const char *read_diff(void *to, const char *value)
-{
-    ((struct compare_options *)to)->difference = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_gain(void *to, const char *value)
-{
-    return read_integer(value, 1, 255, &((struct compare_options *)to)->gain)
-               ? NULL : "needs a number from 1 to 255";
-}
-
 static const struct option table[] = {
-    { "--diff", true, read_diff },
-    { "--gain", true, read_gain },
-    { NULL, false, NULL },
+    { "--diff", OPTION_TEXT, OPTION_AT(struct compare_options, difference) },
+    { "--gain", OPTION_INTEGER, OPTION_AT(struct compare_options, gain), .low = 1, .high = 255 },
+    { NULL },
 };
 
 static bool load_pfm(const uint8_t *bytes, size_t size, struct image *out, struct failure *f)

@@ -30,12 +30,6 @@ struct convert_command {
 
 /* ------------------------------------------------------------------ options */
 
-static const char *read_output(void *to, const char *value)
-{
-    ((struct convert_command *)to)->output = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
 static const char *read_identifier(void *to, const char *value)
 {
     size_t length = strlen(value);
@@ -64,142 +58,6 @@ static const char *read_keep(void *to, const char *value)
     return NULL;
 }
 
-static const char *read_outside(void *to, const char *value)
-{
-    (void)value;
-    ((struct convert_command *)to)->files = MODEL_FILES_ANYWHERE;
-    return NULL;
-}
-
-static const char *read_double_sided(void *to, const char *value)
-{
-    (void)value;
-    ((struct convert_command *)to)->double_sided = true;
-    return NULL;
-}
-
-static const char *read_scale(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 1e-9, 1e9, &c->options.scale) ? NULL : "needs a factor from 1e-9 to 1e9";
-}
-
-static const char *read_fit(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 1e-3, 20000, &c->options.fit) ? NULL : "needs units from 0.001 to 20000";
-}
-
-static const char *read_up(void *to, const char *value)
-{
-    static const char *const names[] = { "y", "z", NULL };
-    int found = read_name(value, names);
-    ((struct convert_command *)to)->options.z_up = found == 1;
-    return found >= 0 ? NULL : "needs y or z";
-}
-
-static const char *read_texture(void *to, const char *value)
-{
-    static const char *const names[] = { "palette8", "rgb565", "rgb8888", "baked", "none", NULL };
-    int found = read_name(value, names);
-    ((struct convert_command *)to)->options.texture = (enum convert_texture)found;
-    return found >= 0 ? NULL : "needs palette8, rgb565, rgb8888, baked or none";
-}
-
-static const char *read_whole(const char *value, long low, long high, int *out, const char *wrong)
-{
-    long number;
-    if (!read_integer(value, low, high, &number))
-        return wrong;
-    *out = (int)number;
-    return NULL;
-}
-
-static const char *read_texture_size(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_whole(value, 1, 4096, &c->options.texture_edge, "needs pixels from 1 to 4096");
-}
-
-static const char *read_colors(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_whole(value, 2, 256, &c->options.colors, "needs a number from 2 to 256");
-}
-
-static const char *read_mipmaps(void *to, const char *value)
-{
-    (void)value;
-    ((struct convert_command *)to)->options.mipmaps = true;
-    return NULL;
-}
-
-static const char *read_texels(void *to, const char *value)
-{
-    static const char *const names[] = { "nearest", "bilinear", NULL };
-    int found = read_name(value, names);
-    ((struct convert_command *)to)->options.bilinear = found == 1;
-    return found >= 0 ? NULL : "needs nearest or bilinear";
-}
-
-static const char *read_normals(void *to, const char *value)
-{
-    static const char *const names[] = { "keep", "flat", NULL };
-    int found = read_name(value, names);
-    ((struct convert_command *)to)->options.flat = found == 1;
-    return found >= 0 ? NULL : "needs keep or flat";
-}
-
-static const char *read_influences(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_whole(value, 1, 4, &c->options.influences, "needs a number from 1 to 4");
-}
-
-static const char *read_clip_error(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 1e-3, 100, &c->options.clip_error_px) ? NULL : "needs pixels from 0.001 to 100";
-}
-
-static const char *read_distance(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 1e-6, 1e9, &c->options.distance) ? NULL : "needs units from 1e-6 to 1e9";
-}
-
-static const char *read_rows(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 1, 2048, &c->options.rows) ? NULL : "needs rows from 1 to 2048";
-}
-
-static const char *read_view_angle(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    return read_number(value, 0.01, 179, &c->options.fov_degrees) ? NULL : "needs degrees from 0.01 to 179";
-}
-
-static const char *read_limit(const char *value, long *out)
-{
-    return read_integer(value, 1, 1L << 30, out) ? NULL : "needs a number from 1 to 1073741824";
-}
-
-static const char *read_max_triangles(void *to, const char *value)
-{
-    return read_limit(value, &((struct convert_command *)to)->max_triangles);
-}
-
-static const char *read_max_flash(void *to, const char *value)
-{
-    return read_limit(value, &((struct convert_command *)to)->max_flash);
-}
-
-static const char *read_max_ram(void *to, const char *value)
-{
-    return read_limit(value, &((struct convert_command *)to)->max_ram);
-}
-
 static const char *read_cell(void *to, const char *value)
 {
     struct convert_command *c = to;
@@ -218,37 +76,40 @@ static const char *read_key(void *to, const char *value)
     return NULL;
 }
 
-static const char *read_mask(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    (void)value;
-    c->is_sprite = c->sprite.mask = true;
-    return NULL;
-}
-
-static const char *read_font(void *to, const char *value)
-{
-    struct convert_command *c = to;
-    c->is_sprite = c->sprite.font = true;
-    return read_whole(value, 0, 255, &c->sprite.first, "needs the code of its first letter, 0 to 255");
-}
+#define AT(member) OPTION_AT(struct convert_command, member)
+#define SPRITE .given = offsetof(struct convert_command, is_sprite)
+#define LIMIT .low = 1, .high = 1 << 30
 
 static const struct option table[] = {
-    { "-o", true, read_output },                { "--name", true, read_identifier },
-    { "--clip", true, read_clips },             { "--keep", true, read_keep },
-    { "--scale", true, read_scale },            { "--fit", true, read_fit },
-    { "--up", true, read_up },                  { "--texture", true, read_texture },
-    { "--texture-size", true, read_texture_size }, { "--colors", true, read_colors },
-    { "--mipmaps", false, read_mipmaps },
-    { "--filter", true, read_texels },          { "--normals", true, read_normals },
-    { "--influences", true, read_influences },  { "--clip-error", true, read_clip_error },
-    { "--distance", true, read_distance },      { "--rows", true, read_rows },
-    { "--outside", false, read_outside },       { "--double-sided", false, read_double_sided },
-    { "--fov", true, read_view_angle },         { "--max-triangles", true, read_max_triangles },
-    { "--max-flash", true, read_max_flash },    { "--max-ram", true, read_max_ram },
-    { "--cell", true, read_cell },              { "--key", true, read_key },
-    { "--mask", false, read_mask },             { "--font", true, read_font },
-    { NULL, false, NULL },
+    { "-o", OPTION_TEXT, AT(output) },
+    { "--name", OPTION_READ, .read = read_identifier },
+    { "--clip", OPTION_READ, .read = read_clips },
+    { "--keep", OPTION_READ, .read = read_keep },
+    { "--scale", OPTION_NUMBER, AT(options.scale), .low = 1e-9, .high = 1e9, .needs = "a factor" },
+    { "--fit", OPTION_NUMBER, AT(options.fit), .low = 1e-3, .high = 20000, .needs = "units" },
+    { "--up", OPTION_NAME, AT(options.z_up), OPTION_NAMES("y", "z") },
+    { "--texture", OPTION_NAME, AT(options.texture), OPTION_NAMES("palette8", "rgb565", "rgb8888", "baked", "none") },
+    { "--texture-size", OPTION_INTEGER, AT(options.texture_edge), .low = 1, .high = 4096, .needs = "pixels" },
+    { "--colors", OPTION_INTEGER, AT(options.colors), .low = 2, .high = 256 },
+    { "--mipmaps", OPTION_FLAG, AT(options.mipmaps) },
+    { "--filter", OPTION_NAME, AT(options.bilinear), OPTION_NAMES("nearest", "bilinear") },
+    { "--normals", OPTION_NAME, AT(options.flat), OPTION_NAMES("keep", "flat") },
+    { "--influences", OPTION_INTEGER, AT(options.influences), .low = 1, .high = 4 },
+    { "--clip-error", OPTION_NUMBER, AT(options.clip_error_px), .low = 1e-3, .high = 100, .needs = "pixels" },
+    { "--distance", OPTION_NUMBER, AT(options.distance), .low = 1e-6, .high = 1e9, .needs = "units" },
+    { "--rows", OPTION_NUMBER, AT(options.rows), .low = 1, .high = 2048, .needs = "rows" },
+    { "--outside", OPTION_FLAG, AT(files) },
+    { "--double-sided", OPTION_FLAG, AT(double_sided) },
+    { "--fov", OPTION_NUMBER, AT(options.fov_degrees), .low = 0.01, .high = 179, .needs = "degrees" },
+    { "--max-triangles", OPTION_INTEGER, AT(max_triangles), LIMIT },
+    { "--max-flash", OPTION_INTEGER, AT(max_flash), LIMIT },
+    { "--max-ram", OPTION_INTEGER, AT(max_ram), LIMIT },
+    { "--cell", OPTION_READ, .read = read_cell },
+    { "--key", OPTION_READ, .read = read_key },
+    { "--mask", OPTION_FLAG, AT(sprite.mask), SPRITE },
+    { "--font", OPTION_INTEGER, AT(sprite.first), .given = offsetof(struct convert_command, sprite.font), .high = 255,
+      .needs = "the code of its first letter" },
+    { NULL },
 };
 
 static bool ends_with(const char *text, const char *end)
@@ -561,7 +422,7 @@ int command_convert(int count, char **text)
     }
     if (is_picture(path))
         return convert_picture(&command, path);
-    if (command.is_sprite)
+    if (command.is_sprite || command.sprite.font)
         return say_bad_usage("--cell", "as --key, --mask and --font: for pictures, .png or .ppm (\"%s\")", path);
     if (!model_load_from(path, command.files, &model, &f))
         return say_bad_input(path, &f);

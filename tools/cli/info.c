@@ -14,13 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *read_outside(void *to, const char *value)
-{
-    (void)value;
-    ((struct source_view *)to)->files = MODEL_FILES_ANYWHERE;
-    return NULL;
-}
-
 /* The board whose memory is compared with what the frame takes; null: none. */
 static const struct board *info_board;
 
@@ -40,8 +33,12 @@ static const char *read_desc(void *to, const char *value)
     return wrong == NULL && info_desc.width == 0 ? "needs a width" : wrong;
 }
 
-static const struct option table[] = { { "--outside", false, read_outside }, { "--board", true, read_board },
-                                       { "--desc", true, read_desc }, { NULL, false, NULL } };
+static const struct option table[] = {
+    { "--outside", OPTION_FLAG, OPTION_AT(struct source_view, files) },
+    { "--board", OPTION_READ, .read = read_board },
+    { "--desc", OPTION_READ, .read = read_desc },
+    { NULL },
+};
 
 /* ------------------------------------------------------------------ a model's parts */
 

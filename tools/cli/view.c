@@ -17,7 +17,7 @@
 
 static const char default_scene[] = "builtin:demo/race";
 
-/* ------------------------------------------------------------------ one function per option */
+/* ------------------------------------------------------------------ values with a form of their own */
 
 static const char *read_out(void *to, const char *value)
 {
@@ -46,32 +46,6 @@ static const char *read_board(void *to, const char *value)
     return view_read_board(value, &board);
 }
 
-static const char *read_zoom(void *to, const char *value)
-{
-    long zoom;
-    if (!read_integer(value, 1, 8, &zoom))
-        return "needs a whole number from 1 to 8";
-    ((struct view_options *)to)->look.zoom = (int)zoom;
-    return NULL;
-}
-
-static const char *read_rotate(void *to, const char *value)
-{
-    static const char *const names[] = { "0", "90", "180", "270", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs 0, 90, 180 or 270";
-    ((struct view_options *)to)->look.turns = found;
-    return NULL;
-}
-
-static const char *read_round(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->look.round = true;
-    return NULL;
-}
-
 static const char *read_tint(void *to, const char *value)
 {
     struct panel_look *look = &((struct view_options *)to)->look;
@@ -86,25 +60,6 @@ static const char *read_tint(void *to, const char *value)
     look->has_tint = true;
     look->dark = d;
     look->lit = l;
-    return NULL;
-}
-
-static const char *read_bus(void *to, const char *value)
-{
-    double *hz = &((struct view_options *)to)->bus.hz;
-    return read_number(value, 1.0, 1e12, hz) ? NULL : "needs bits per second from 1 to 1e12";
-}
-
-static const char *read_panel_hz(void *to, const char *value)
-{
-    double *hz = &((struct view_options *)to)->bus.panel_hz;
-    return read_number(value, 0.1, 1000.0, hz) ? NULL : "needs a refresh from 0.1 to 1000 Hz";
-}
-
-static const char *read_sync(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->bus.synced = true;
     return NULL;
 }
 
@@ -125,15 +80,6 @@ static const char *read_cpu(void *to, const char *value)
                                                          : "needs a clock from 1e3 to 1e11 Hz";
 }
 
-static const char *read_pace(void *to, const char *value)
-{
-    int found = read_name(value, pace_names);
-    if (found < 0)
-        return "needs time, every or board";
-    ((struct view_options *)to)->pace = (enum pace)found;
-    return NULL;
-}
-
 /* N pictures, or frames A to B. */
 static const char *read_frames(void *to, const char *value)
 {
@@ -147,76 +93,6 @@ static const char *read_frames(void *to, const char *value)
                                                          : "needs a number from 1 to 999999999, or FIRST-LAST";
 }
 
-static const char *read_crc(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->crc = true;
-    return NULL;
-}
-
-static const char *read_check(void *to, const char *value)
-{
-    ((struct view_options *)to)->check = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_update(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->update = true;
-    return NULL;
-}
-
-static const char *read_record(void *to, const char *value)
-{
-    ((struct view_options *)to)->record = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_play(void *to, const char *value)
-{
-    ((struct view_options *)to)->play = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_times(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->times = true;
-    return NULL;
-}
-
-static const char *read_paused(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->paused = true;
-    return NULL;
-}
-
-static const char *read_figures(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->figures = true;
-    return NULL;
-}
-
-static const char *read_no_shared_memory(void *to, const char *value)
-{
-    (void)value;
-    ((struct view_options *)to)->no_shared_memory = true;
-    return NULL;
-}
-
-static const char *read_colors(void *to, const char *value)
-{
-    static const char *const names[] = { "256", "24bit", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs 256 or 24bit";
-    ((struct view_options *)to)->colors = found == 0 ? 8 : 24;
-    return NULL;
-}
-
 static const char *read_split(void *to, const char *value)
 {
     struct view_options *o = to;
@@ -225,41 +101,34 @@ static const char *read_split(void *to, const char *value)
     return wrong;
 }
 
-static const char *read_see(void *to, const char *value)
-{
-    int found = read_name(value, debug_names);
-    if (found < 0)
-        return "needs picture, velocity, depth, tiles, methods, samples, bands or wire";
-    ((struct view_options *)to)->debug = (enum debug_kind)found;
-    return NULL;
-}
+#define AT(member) OPTION_AT(struct view_options, member)
 
 static const struct option table[] = {
-    { "--out", true, read_out },
-    { "--board", true, read_board },
-    { "--zoom", true, read_zoom },
-    { "--rotate", true, read_rotate },
-    { "--round", false, read_round },
-    { "--tint", true, read_tint },
-    { "--bus", true, read_bus },
-    { "--panel-hz", true, read_panel_hz },
-    { "--sync", false, read_sync },
-    { "--cpu", true, read_cpu },
-    { "--pace", true, read_pace },
-    { "--frames", true, read_frames },
-    { "--paused", false, read_paused },
-    { "--crc", false, read_crc },
-    { "--check", true, read_check },
-    { "--update", false, read_update },
-    { "--record", true, read_record },
-    { "--play", true, read_play },
-    { "--split", true, read_split },
-    { "--see", true, read_see },
-    { "--figures", false, read_figures },
-    { "--no-shared-memory", false, read_no_shared_memory },
-    { "--colors", true, read_colors },
-    { "--times", false, read_times },
-    { NULL, false, NULL },
+    { "--out", OPTION_READ, .read = read_out },
+    { "--board", OPTION_READ, .read = read_board },
+    { "--zoom", OPTION_INTEGER, AT(look.zoom), .low = 1, .high = 8 },
+    { "--rotate", OPTION_NAME, AT(look.turns), OPTION_NAMES("0", "90", "180", "270") },
+    { "--round", OPTION_FLAG, AT(look.round) },
+    { "--tint", OPTION_READ, .read = read_tint },
+    { "--bus", OPTION_NUMBER, AT(bus.hz), .low = 1, .high = 1e12, .needs = "bits per second" },
+    { "--panel-hz", OPTION_NUMBER, AT(bus.panel_hz), .low = 0.1, .high = 1000, .needs = "Hz" },
+    { "--sync", OPTION_FLAG, AT(bus.synced) },
+    { "--cpu", OPTION_READ, .read = read_cpu },
+    { "--pace", OPTION_NAME, AT(pace), .names = pace_names },
+    { "--frames", OPTION_READ, .read = read_frames },
+    { "--paused", OPTION_FLAG, AT(paused) },
+    { "--crc", OPTION_FLAG, AT(crc) },
+    { "--check", OPTION_TEXT, AT(check) },
+    { "--update", OPTION_FLAG, AT(update) },
+    { "--record", OPTION_TEXT, AT(record) },
+    { "--play", OPTION_TEXT, AT(play) },
+    { "--split", OPTION_READ, .read = read_split },
+    { "--see", OPTION_NAME, AT(debug), .names = debug_names },
+    { "--figures", OPTION_FLAG, AT(figures) },
+    { "--no-shared-memory", OPTION_FLAG, AT(no_shared_memory) },
+    { "--colors", OPTION_NAME, AT(colors), OPTION_NAMES("256", "24bit"), OPTION_VALUES(8, 24) },
+    { "--times", OPTION_FLAG, AT(times) },
+    { NULL },
 };
 
 /* ------------------------------------------------------------------ two kinds of options */
@@ -353,7 +222,7 @@ static bool part(int count, char **text, struct parted *p)
             continue;
         }
         p->own[p->own_count++] = t;
-        if (own->has_value && strchr(t, '=') == NULL && i + 1 < p->all_count)
+        if (option_has_value(own) && strchr(t, '=') == NULL && i + 1 < p->all_count)
             p->own[p->own_count++] = p->all[++i];
     }
     return true;

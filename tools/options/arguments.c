@@ -62,6 +62,75 @@ static int say_wrong(const char *option, const char *wrong, const char *value)
     return say_bad_usage(option, "%s; did you mean %s? (\"%s\")", wrong, near.best, value);
 }
 
+/* ------------------------------------------------------------------ values */
+
+static const char *say_needs(const char *format, ...)
+{
+    static char text[280];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return text;
+}
+
+static const char *say_names(const char *const *names)
+{
+    char list[240] = "";
+    for (size_t used = 0; *names != NULL && used < sizeof list; names++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", *names,
+                                 names[1] == NULL ? "" : names[2] == NULL ? " or " : ", ");
+    return say_needs("needs %s", list);
+}
+
+static void put_integer(const struct option *option, void *options, long number)
+{
+    void *to = (char *)options + option->at;
+    switch (option->size) {
+    case sizeof(bool): *(bool *)to = number != 0; break;
+    case sizeof(int): *(int *)to = (int)number; break;
+    default: *(long *)to = number; break;
+    }
+}
+
+/* Returns null, or what is wrong. */
+static const char *take_value(const struct option *option, void *options, const char *value)
+{
+    void *to = (char *)options + option->at;
+    const char *noun = option->needs;
+    long number = 1;
+    int found;
+    switch (option->kind) {
+    case OPTION_READ: return option->read(options, value);
+    case OPTION_TEXT:
+        *(const char **)to = value;
+        if (value[0] == '\0')
+            return say_needs("needs %s", noun != NULL ? noun : "a file name");
+        break;
+    case OPTION_NUMBER:
+        if (!read_number(value, option->low, option->high, to))
+            return say_needs("needs %s from %.9g to %.9g", noun != NULL ? noun : "a number", option->low, option->high);
+        break;
+    case OPTION_INTEGER:
+        if (!read_integer(value, (long)option->low, (long)option->high, &number))
+            return say_needs("needs %s from %ld to %ld", noun != NULL ? noun : "a number", (long)option->low, (long)option->high);
+        put_integer(option, options, number);
+        break;
+    case OPTION_NAME:
+        found = read_name(value, option->names);
+        if (found < 0)
+            return say_names(option->names);
+        put_integer(option, options, option->values != NULL ? option->values[found] : (long)option->low + found);
+        break;
+    case OPTION_FLAG: put_integer(option, options, 1); break;
+    }
+    if (option->given != 0)
+        *((bool *)options + option->given) = true;
+    return NULL;
+}
+
+/* ------------------------------------------------------------------ command lines */
+
 int arguments_read(int count, char **text, const struct option *table, void *options,
                    const char **operand, int operand_limit, bool *wants_help)
 {
@@ -89,14 +158,14 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
         const struct option *option = find_option(table, text[i], &value);
         if (option == NULL)
             return say_no_option(text[i], table);
-        if (!option->has_value && value != NULL)
+        if (!option_has_value(option) && value != NULL)
             return say_bad_usage(option->name, "takes no value");
-        if (option->has_value && value == NULL && ++i == count)
+        if (option_has_value(option) && value == NULL && ++i == count)
             return say_bad_usage(option->name, "needs a value");
-        if (option->has_value && value == NULL)
+        if (option_has_value(option) && value == NULL)
             value = text[i];
         near = (struct guess){ NULL };
-        wrong = option->read(options, value);
+        wrong = take_value(option, options, value);
         if (wrong != NULL)
             return say_wrong(option->name, wrong, value);
     }

@@ -6,16 +6,41 @@
 #define SMEAR_TOOLS_CLI_ARGUMENTS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
-/* How an option's value (null when it has none) gets into what `options` points to. Returns null,
- * or what is wrong with it. */
+/* How a value gets into what `options` points to, where no other kind does. Returns null, or what is wrong with it. */
 typedef const char *option_read_fn(void *options, const char *value);
+
+/* What the value of an option is, and what it becomes in the member of a struct of options. */
+enum option_kind {
+    OPTION_FLAG,                /* there is none: a bool or enum becomes 1 */
+    OPTION_TEXT,                /* a text that is not empty */
+    OPTION_INTEGER,             /* a whole number within low..high */
+    OPTION_NUMBER,              /* a number within low..high: a double */
+    OPTION_NAME,                /* one of `names`: an integer, bool or enum becomes its value or, without values, low + its index */
+    OPTION_READ                 /* what `read` takes */
+};
 
 struct option {
     const char *name;           /* with its dashes; null ends the table */
-    bool has_value;
+    enum option_kind kind;
+    size_t at, size;            /* of the member, whose size tells its type */
+    size_t given;               /* of a bool that becomes true with it; 0: none */
+    double low, high;
+    const char *needs;          /* the noun of its error; null: "a number", "a file name" */
+    const char *const *names;   /* null ends them */
+    const int *values;
     option_read_fn *read;
 };
+
+#define OPTION_AT(type, member) .at = offsetof(type, member), .size = sizeof(((type *)0)->member)
+#define OPTION_NAMES(...) .names = (const char *const[]){ __VA_ARGS__, NULL }
+#define OPTION_VALUES(...) .values = (const int[]){ __VA_ARGS__ }
+
+static inline bool option_has_value(const struct option *option)
+{
+    return option->kind != OPTION_FLAG;
+}
 
 /* Reads a whole command line: options through the table, up to `operand_limit` operands into
  * `operand` (the rest null). With --help among the options *wants_help is set and the rest is not

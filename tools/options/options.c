@@ -13,20 +13,17 @@
 
 enum { MAX_EDGE = 2048, MAX_SAMPLES = 1024, MAX_EXACT_SAMPLES = 65536, MAX_REACH = 64 };
 
-/* ------------------------------------------------------------------ one function per option */
+const char *const option_formats[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332", "l8", "l4", "l1", "l1pages", NULL };
+const char *const option_dithers[] = { "ordered", "none", "blue", "diffuse", NULL };
+const char *const option_doubles[] = { "1x1", "2x1", "1x2", "2x2", NULL };
+
+/* ------------------------------------------------------------------ values with a form of their own */
 
 static const char *read_size_option(void *to, const char *value)
 {
     struct render_options *o = to;
     o->has_size = read_size(value, MAX_EDGE, &o->width, &o->height);
     return o->has_size ? NULL : "needs WIDTHxHEIGHT, both from 1 to 2048";
-}
-
-static const char *read_fps(void *to, const char *value)
-{
-    struct render_options *o = to;
-    o->has_fps = read_number(value, 0.001, 100000.0, &o->fps);
-    return o->has_fps ? NULL : "needs frames per second from 0.001 to 100000";
 }
 
 static const char *read_frames(void *to, const char *value)
@@ -42,52 +39,12 @@ static const char *read_frames(void *to, const char *value)
     return o->has_frames ? NULL : "needs FIRST-LAST, two frame numbers from 0 to 999999999";
 }
 
-static const char *read_time(void *to, const char *value)
-{
-    struct render_options *o = to;
-    o->has_time = read_number(value, 0.0, 1e9, &o->time);
-    return o->has_time ? NULL : "needs seconds from 0 to 1e9";
-}
-
-static const char *read_clip(void *to, const char *value)
-{
-    ((struct render_options *)to)->view.clip = value;
-    return NULL;
-}
-
-static const char *read_loop(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->view.loop = true;
-    return NULL;
-}
-
 static const char *read_orbit(void *to, const char *value)
 {
     double turns;
     if (!read_number(value, -100.0, 100.0, &turns) || turns == 0.0)
         return "needs turns from -100 to 100, not 0";
     ((struct render_options *)to)->orbit = turns;
-    return NULL;
-}
-
-static const char *read_outside(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->view.files = MODEL_FILES_ANYWHERE;
-    return NULL;
-}
-
-static const char *read_double_sided(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->view.double_sided = true;
-    return NULL;
-}
-
-static const char *read_camera(void *to, const char *value)
-{
-    ((struct render_options *)to)->view.camera = value;
     return NULL;
 }
 
@@ -103,53 +60,6 @@ static const char *read_look(void *to, const char *value)
     struct render_options *o = to;
     o->has_look = read_vector(value, o->view.look);
     return o->has_look ? NULL : "needs X,Y,Z, each from -1e9 to 1e9";
-}
-
-static const char *read_fov(void *to, const char *value)
-{
-    struct render_options *o = to;
-    o->has_fov = read_number(value, 0.01, 179.0, &o->view.fov_degrees);
-    return o->has_fov ? NULL : "needs degrees from 0.01 to 179";
-}
-
-static const char *read_filter(void *to, const char *value)
-{
-    static const char *const names[] = { "nearest", "bilinear", NULL };
-    struct render_options *o = to;
-    int found = read_name(value, names);
-    o->has_filter = found >= 0;
-    o->view.bilinear = found == 1;
-    return found >= 0 ? NULL : "needs nearest or bilinear";
-}
-
-static const char *read_exposure(void *to, const char *value)
-{
-    static const char *const names[] = { "centred", "trailing", "leading", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs centred, trailing or leading";
-    ((struct render_options *)to)->exposure = (smear_exposure)found;
-    return NULL;
-}
-
-static const char *read_poses(void *to, const char *value)
-{
-    static const char *const names[] = { "previous", "shutter", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs previous or shutter";
-    ((struct render_options *)to)->shutter_poses = found == 1;
-    return NULL;
-}
-
-static const char *read_path(void *to, const char *value)
-{
-    static const char *const names[] = { "curve", "line", "origin", "screw", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs curve, line, origin or screw";
-    ((struct render_options *)to)->path = (smear_path)(SMEAR_PATH_CURVE + found);
-    return NULL;
 }
 
 const char *read_method_name(const char *value, smear_method *method)
@@ -171,46 +81,6 @@ static const char *read_method(void *to, const char *value)
     return read_method_name(value, &((struct render_options *)to)->method);
 }
 
-static const char *read_samples(void *to, const char *value)
-{
-    long samples;
-    if (!read_integer(value, 1, MAX_EXACT_SAMPLES, &samples))
-        return "needs a number from 1 to 1024, with --exact to 65536";
-    ((struct render_options *)to)->samples = (int)samples;
-    return NULL;
-}
-
-static const char *read_exact(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->exact = true;
-    return NULL;
-}
-
-static const char *read_budget(void *to, const char *value)
-{
-    struct render_options *o = to;
-    long budget;
-    if (!read_integer(value, 1, 2000000000, &budget))
-        return "needs a number from 1 to 2000000000";
-    o->budget = (uint32_t)budget;
-    return NULL;
-}
-
-static const char *read_keep_still(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->cache_static = true;
-    return NULL;
-}
-
-static const char *read_keep_display(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->keep_display = true;
-    return NULL;
-}
-
 static bool read_departure(void *to, const char *name, const char *value)
 {
     static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
@@ -227,19 +97,6 @@ static const char *read_reconstruct(void *to, const char *value)
     ((struct render_options *)to)->reconstruct = 0;
     return read_list(value, read_departure, to) ? NULL
                                                 : "needs a list of fence, corner, box, direction, uniform";
-}
-
-static const char *read_quality(void *to, const char *value)
-{
-    static const char *const names[] = { "sketch", "draft", "balanced", "fine", NULL };
-    static const int target[] = { SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
-    struct render_options *o = to;
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs sketch, draft, balanced or fine";
-    o->has_quality = true;
-    o->target = target[found];
-    return NULL;
 }
 
 static const char *read_target(void *to, const char *value)
@@ -273,22 +130,6 @@ static const char *read_reach(void *to, const char *value)
     return "needs pixels from 1 on, or a percentage of the height above 0%";
 }
 
-static const char *read_tile(void *to, const char *value)
-{
-    static const char *const names[] = { "4", "8", "16", "32", "64", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs 4, 8, 16, 32 or 64";
-    ((struct render_options *)to)->tile = 4 << found;
-    return NULL;
-}
-
-static const char *read_mask(void *to, const char *value)
-{
-    ((struct render_options *)to)->mask = value;
-    return value[0] != '\0' ? NULL : "needs nodes, with commas";
-}
-
 static const char *read_motion(void *to, const char *value)
 {
     struct render_options *o = to;
@@ -305,16 +146,6 @@ static const char *read_cut(void *to, const char *value)
         return "too many of them";
     return read_integer(value, 0, 999999999, &o->cut[o->cut_count++]) ? NULL
                                                                       : "needs a frame number from 0 to 999999999";
-}
-
-static const char *read_light(void *to, const char *value)
-{
-    static const char *const names[] = { "linear", "encoded", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs linear or encoded";
-    ((struct render_options *)to)->light = (smear_light_space)found;
-    return NULL;
 }
 
 static const char *read_clear(void *to, const char *value)
@@ -341,156 +172,65 @@ static const char *read_fog(void *to, const char *value)
              ? NULL : "needs 0 <= NEAR < FAR, a 256th of FAR apart";
 }
 
-static const char *read_edges(void *to, const char *value)
-{
-    static const char *const names[] = { "hard", "smooth", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs hard or smooth";
-    ((struct render_options *)to)->edges = (smear_edges)found;
-    return NULL;
-}
-
-const char *const option_formats[] = { "rgb888", "rgb565", "rgb565be", "rgb555", "rgb332",
-                                            "l8", "l4", "l1", "l1pages", NULL };
-
-static const char *read_format(void *to, const char *value)
-{
-    int found = read_name(value, option_formats);
-    if (found < 0)
-        return "needs rgb888, rgb565, rgb565be, rgb555, rgb332, l8, l4, l1 or l1pages";
-    ((struct render_options *)to)->format = (smear_format)found;
-    return NULL;
-}
-
-const char *const option_dithers[] = { "ordered", "none", "blue", "diffuse", NULL };
-
-static const char *read_dither(void *to, const char *value)
-{
-    int found = read_name(value, option_dithers);
-    if (found < 0)
-        return "needs none, ordered, blue or diffuse";
-    ((struct render_options *)to)->dither = (smear_dither)found;
-    return NULL;
-}
-
-const char *const option_doubles[] = { "1x1", "2x1", "1x2", "2x2", NULL };
-
-static const char *read_double(void *to, const char *value)
-{
-    int found = read_name(value, option_doubles);
-    if (found < 0)
-        return "needs 1x1, 2x1, 1x2 or 2x2";
-    ((struct render_options *)to)->doubled = (smear_doubled)found;
-    return NULL;
-}
-
-static const char *read_arena(void *to, const char *value)
-{
-    long bytes;
-    if (!read_integer(value, 1, LONG_MAX, &bytes))
-        return "needs a number of bytes";
-    ((struct render_options *)to)->arena = (size_t)bytes;
-    return NULL;
-}
-
-static const char *read_threads(void *to, const char *value)
-{
-    long threads;
-    if (!read_integer(value, 1, 8, &threads))
-        return "needs a number from 1 to 8";
-    ((struct render_options *)to)->threads = (int)threads;
-    return NULL;
-}
-
-static const char *read_repeat(void *to, const char *value)
-{
-    long repeat;
-    if (!read_integer(value, 1, 100000, &repeat))
-        return "needs a number from 1 to 100000";
-    ((struct render_options *)to)->repeat = (int)repeat;
-    return NULL;
-}
-
-static const char *read_output(void *to, const char *value)
-{
-    ((struct render_options *)to)->output = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_depth(void *to, const char *value)
-{
-    ((struct render_options *)to)->depth = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_velocity(void *to, const char *value)
-{
-    ((struct render_options *)to)->velocity = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_stats(void *to, const char *value)
-{
-    ((struct render_options *)to)->stats = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
+#define AT(member) OPTION_AT(struct render_options, member)
+#define GIVEN(member) .given = offsetof(struct render_options, member)
 
 static const struct option table[] = {
-    { "--size", true, read_size_option },
-    { "--fps", true, read_fps },
-    { "--frames", true, read_frames },
-    { "--time", true, read_time },
-    { "--clip", true, read_clip },
-    { "--loop", false, read_loop },
-    { "--orbit", true, read_orbit },
-    { "--outside", false, read_outside },
-    { "--double-sided", false, read_double_sided },
-    { "--camera", true, read_camera },
-    { "--eye", true, read_eye },
-    { "--look", true, read_look },
-    { "--fov", true, read_fov },
-    { "--shutter", true, read_shutter },
-    { "--exposure", true, read_exposure },
-    { "--poses", true, read_poses },
-    { "--path", true, read_path },
-    { "--method", true, read_method },
-    { "--samples", true, read_samples },
-    { "--exact", false, read_exact },
-    { "--reconstruct", true, read_reconstruct },
-    { "--inside", true, read_inside },
-    { "--camera-step", true, read_camera_step },
-    { "--pingpong", true, read_pingpong },
-    { "--weights", true, read_weights },
-    { "--budget", true, read_budget },
-    { "--keep-still", false, read_keep_still },
-    { "--keep-display", false, read_keep_display },
-    { "--scatter", false, read_scatter },
-    { "--scale", true, read_scale },
-    { "--quality", true, read_quality },
-    { "--target", true, read_target },
-    { "--reach", true, read_reach },
-    { "--tile", true, read_tile },
-    { "--mask", true, read_mask },
-    { "--motion", true, read_motion },
-    { "--cut", true, read_cut },
-    { "--shutter-mode", true, read_shutter_mode },
-    { "--light", true, read_light },
-    { "--filter", true, read_filter },
-    { "--clear", true, read_clear },
-    { "--fog", true, read_fog },
-    { "--edges", true, read_edges },
-    { "--format", true, read_format },
-    { "--dither", true, read_dither },
-    { "--double", true, read_double },
-    { "--arena", true, read_arena },
-    { "--threads", true, read_threads },
-    { "--repeat", true, read_repeat },
-    { "-o", true, read_output },
-    { "--depth", true, read_depth },
-    { "--velocity", true, read_velocity },
-    { "--stats", true, read_stats },
-    { NULL, false, NULL },
+    { "--size", OPTION_READ, .read = read_size_option },
+    { "--fps", OPTION_NUMBER, AT(fps), GIVEN(has_fps), .low = 0.001, .high = 100000, .needs = "frames per second" },
+    { "--frames", OPTION_READ, .read = read_frames },
+    { "--time", OPTION_NUMBER, AT(time), GIVEN(has_time), .high = 1e9, .needs = "seconds" },
+    { "--clip", OPTION_TEXT, AT(view.clip), .needs = "a clip" },
+    { "--loop", OPTION_FLAG, AT(view.loop) },
+    { "--orbit", OPTION_READ, .read = read_orbit },
+    { "--outside", OPTION_FLAG, AT(view.files) },
+    { "--double-sided", OPTION_FLAG, AT(view.double_sided) },
+    { "--camera", OPTION_TEXT, AT(view.camera), .needs = "a camera" },
+    { "--eye", OPTION_READ, .read = read_eye },
+    { "--look", OPTION_READ, .read = read_look },
+    { "--fov", OPTION_NUMBER, AT(view.fov_degrees), GIVEN(has_fov), .low = 0.01, .high = 179, .needs = "degrees" },
+    { "--shutter", OPTION_READ, .read = read_shutter },
+    { "--exposure", OPTION_NAME, AT(exposure), OPTION_NAMES("centred", "trailing", "leading") },
+    { "--poses", OPTION_NAME, AT(shutter_poses), OPTION_NAMES("previous", "shutter") },
+    { "--path", OPTION_NAME, AT(path), OPTION_NAMES("curve", "line", "origin", "screw"), .low = SMEAR_PATH_CURVE },
+    { "--method", OPTION_READ, .read = read_method },
+    { "--samples", OPTION_INTEGER, AT(samples), .low = 1, .high = MAX_EXACT_SAMPLES, .needs = "a number (without --exact, 1 to 1024)" },
+    { "--exact", OPTION_FLAG, AT(exact) },
+    { "--reconstruct", OPTION_READ, .read = read_reconstruct },
+    { "--inside", OPTION_NAME, AT(filter), OPTION_NAMES("mean", "reconstruct", "pingpong"), .low = SMEAR_FILTER_MEAN },
+    { "--camera-step", OPTION_NAME, AT(camera_step), OPTION_NAMES("1", "2", "4"), OPTION_VALUES(1, 2, 4) },
+    { "--pingpong", OPTION_READ, .read = read_pingpong },
+    { "--weights", OPTION_NAME, AT(weights), OPTION_NAMES("stack", "mcguire", "guertin", "jimenez") },
+    { "--budget", OPTION_INTEGER, AT(budget), .low = 1, .high = 2000000000 },
+    { "--keep-still", OPTION_FLAG, AT(cache_static) },
+    { "--keep-display", OPTION_FLAG, AT(keep_display) },
+    { "--scatter", OPTION_FLAG, AT(scatter) },
+    { "--scale", OPTION_READ, .read = read_scale },
+    { "--quality", OPTION_NAME, AT(target), GIVEN(has_quality), OPTION_NAMES("sketch", "draft", "balanced", "fine"),
+      OPTION_VALUES(SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE) },
+    { "--target", OPTION_READ, .read = read_target },
+    { "--reach", OPTION_READ, .read = read_reach },
+    { "--tile", OPTION_NAME, AT(tile), OPTION_NAMES("4", "8", "16", "32", "64"), OPTION_VALUES(4, 8, 16, 32, 64) },
+    { "--mask", OPTION_TEXT, AT(mask), .needs = "nodes, with commas" },
+    { "--motion", OPTION_READ, .read = read_motion },
+    { "--cut", OPTION_READ, .read = read_cut },
+    { "--shutter-mode", OPTION_READ, .read = read_shutter_mode },
+    { "--light", OPTION_NAME, AT(light), OPTION_NAMES("linear", "encoded") },
+    { "--filter", OPTION_NAME, AT(view.bilinear), GIVEN(has_filter), OPTION_NAMES("nearest", "bilinear") },
+    { "--clear", OPTION_READ, .read = read_clear },
+    { "--fog", OPTION_READ, .read = read_fog },
+    { "--edges", OPTION_NAME, AT(edges), OPTION_NAMES("hard", "smooth") },
+    { "--format", OPTION_NAME, AT(format), .names = option_formats },
+    { "--dither", OPTION_NAME, AT(dither), .names = option_dithers },
+    { "--double", OPTION_NAME, AT(doubled), .names = option_doubles },
+    { "--arena", OPTION_INTEGER, AT(arena), .low = 1, .high = LONG_MAX / 2 + 1, .needs = "bytes" },
+    { "--threads", OPTION_INTEGER, AT(threads), .low = 1, .high = 8 },
+    { "--repeat", OPTION_INTEGER, AT(repeat), .low = 1, .high = 100000 },
+    { "-o", OPTION_TEXT, AT(output) },
+    { "--depth", OPTION_TEXT, AT(depth) },
+    { "--velocity", OPTION_TEXT, AT(velocity) },
+    { "--stats", OPTION_TEXT, AT(stats) },
+    { NULL },
 };
 
 /* ------------------------------------------------------------------ all of them together */

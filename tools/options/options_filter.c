@@ -7,26 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *read_inside(void *to, const char *value)
-{
-    static const char *const names[] = { "mean", "reconstruct", "pingpong", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs mean, reconstruct or pingpong";
-    ((struct render_options *)to)->filter = (smear_filter_kind)(SMEAR_FILTER_MEAN + found);
-    return NULL;
-}
-
-const char *read_camera_step(void *to, const char *value)
-{
-    static const char *const names[] = { "1", "2", "4", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs 1, 2 or 4";
-    ((struct render_options *)to)->camera_step = 1 << found;
-    return NULL;
-}
-
 static bool read_pass_setting(void *to, const char *name, const char *number)
 {
     smear_pingpong *p = to;
@@ -70,23 +50,6 @@ const char *read_pingpong(void *to, const char *value)
     o->has_pingpong = true;
     if (!read_list(value, read_pass_setting, &o->pingpong))
         return "needs a list of passes=1..3, taps=2..64, base=2..64, bias=1..255, jitter=0..1, spread";
-    return NULL;
-}
-
-const char *read_weights(void *to, const char *value)
-{
-    static const char *const names[] = { "stack", "mcguire", "guertin", "jimenez", NULL };
-    int found = read_name(value, names);
-    if (found < 0)
-        return "needs stack, mcguire, guertin or jimenez";
-    ((struct render_options *)to)->weights = (smear_weights)found;
-    return NULL;
-}
-
-const char *read_scatter(void *to, const char *value)
-{
-    (void)value;
-    ((struct render_options *)to)->scatter = true;
     return NULL;
 }
 
