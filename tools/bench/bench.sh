@@ -5,8 +5,7 @@
 #
 #     [MAKE=make] sh tools/bench/bench.sh PROGRAM [REPORT...]
 #
-# With reports (peers, accuracy, filters, formats, targets) only those. Files are kept in
-# build/bench.
+# With reports (peers, targets) only those. Files are kept in build/bench.
 set -eu
 
 program=$1
@@ -18,7 +17,7 @@ mkdir -p "$folder"
 host=
 targets=
 if [ $# -eq 0 ]; then
-    host='peers accuracy filters formats'
+    host=peers
     targets=yes
 fi
 for report in "$@"; do

@@ -149,8 +149,7 @@ static bool measure(struct run *run, const struct job *job, struct failure *f)
         ok = measure_error(&truths, index[i], &value[i], f);
     }
     close_truths(&truths);
-    ok = ok && count_list(&run->how->counter, "chart", index, missing.count, &count_frame,
-                          instructions, f);
+    ok = ok && count_list(&run->how->counter, "chart", index, missing.count, instructions, f);
     pthread_mutex_lock(&run->lock);
     for (int i = 0; i < missing.count && ok; i++) {
         struct chart_value *out = &run->chart->value[job->condition][job->kind]

@@ -15,9 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { PATH_LIMIT = 512, ARGUMENT_LIMIT = 32, NOT_RUN = 127 };
-
-const struct count_toggles count_frame = { 1, { "bench_frame" } };
+enum { PATH_LIMIT = 512, NOT_RUN = 127 };
 
 /* ------------------------------------------------------------------ running */
 
@@ -103,13 +101,10 @@ static void tell(const char *group, int frames)
         fprintf(stderr, "\r\033[K");
 }
 
-bool count_list(const struct counter *counter, const char *group, const int *index, int frames,
-                const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+bool count_list(const struct counter *counter, const char *group, const int *index, int frames, uint64_t *instructions,
+                struct failure *f)
 {
     char base[PATH_LIMIT], log[PATH_LIMIT], out[PATH_LIMIT + 64], name[64];
-    char toggle[COUNT_MAX_TOGGLES][64];
-    const char *argument[ARGUMENT_LIMIT];
-    int n = 0;
     snprintf(name, sizeof name, "count.%ld.%d", (long)getpid(), index[0]);
     if (!path_in(base, counter, name))
         return fail(f, "the folder's name is too long");
@@ -117,27 +112,16 @@ bool count_list(const struct counter *counter, const char *group, const int *ind
     if (!path_in(log, counter, name))
         return fail(f, "the folder's name is too long");
     snprintf(out, sizeof out, "--callgrind-out-file=%s", base);
-    argument[n++] = "valgrind";
-    argument[n++] = "--tool=callgrind";
-    argument[n++] = "--dump-after=bench_frame";
-    argument[n++] = out;
-    for (int i = 0; i < toggles->count; i++) {
-        snprintf(toggle[i], sizeof toggle[i], "--toggle-collect=%s", toggles->name[i]);
-        argument[n++] = toggle[i];
-    }
-    argument[n++] = counter->program;
-    argument[n++] = "--draw";
-    argument[n++] = group;
     char *list = list_text(index, frames);
     if (list == NULL)
         return fail(f, "out of memory");
-    argument[n++] = list;
-    argument[n] = NULL;
     /* execvp takes pointers to char for history's sake and changes nothing. */
-    char *plain[ARGUMENT_LIMIT];
-    memcpy(plain, argument, sizeof plain);
+    char *const argument[] = {
+        (char *)"valgrind", (char *)"--tool=callgrind", (char *)"--dump-after=bench_frame", (char *)"--toggle-collect=bench_frame",
+        out, (char *)counter->program, (char *)"--draw", (char *)group, list, NULL
+    };
     tell(group, frames);
-    int status = run(plain, log);
+    int status = run(argument, log);
     tell(group, 0);
     free(list);
     if (status == NOT_RUN)
@@ -148,15 +132,15 @@ bool count_list(const struct counter *counter, const char *group, const int *ind
     return read_dumps(base, frames, instructions, f);
 }
 
-bool count_takes(const struct counter *counter, const char *group, int first, int frames,
-                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f)
+bool count_takes(const struct counter *counter, const char *group, int first, int frames, uint64_t *instructions,
+                 struct failure *f)
 {
     int index[COUNT_MAX_FRAMES];
     if (frames > COUNT_MAX_FRAMES)
         return fail(f, "too many takes at once (%d)", frames);
     for (int i = 0; i < frames; i++)
         index[i] = first + i;
-    return count_list(counter, group, index, frames, toggles, instructions, f);
+    return count_list(counter, group, index, frames, instructions, f);
 }
 
 /* ------------------------------------------------------------------ the other side */
@@ -173,8 +157,7 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->camera_step == b->camera_step && a->weights == b->weights
         && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0 && a->shutter_poses == b->shutter_poses
         && a->workers == b->workers && a->texels_565 == b->texels_565 && a->fit_grid == b->fit_grid
-        && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later
-        && a->change == b->change;
+        && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later;
 }
 
 bool count_serve(const char *group, const char *list, struct failure *f)

@@ -9,31 +9,21 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { COUNT_MAX_FRAMES = 512, COUNT_MAX_TOGGLES = 12 };
+enum { COUNT_MAX_FRAMES = 512 };
 
 struct counter {
     const char *program;        /* path of this program */
     const char *folder;         /* for callgrind's files; exists */
 };
 
-/* What to collect. Entering or leaving a function of the list turns collecting on or off, so a
- * function inside bench_frame is left out by naming it, too. */
-struct count_toggles {
-    int count;
-    const char *name[COUNT_MAX_TOGGLES];
-};
-
-/* In and below bench_frame, on the thread that calls it. */
-extern const struct count_toggles count_frame;
-
-/* Draws the takes of a group that are listed (at most COUNT_MAX_FRAMES) and counts each. May run
- * on several threads, as long as no two lists begin with the same take. */
-bool count_list(const struct counter *counter, const char *group, const int *index, int frames,
-                const struct count_toggles *toggles, uint64_t *instructions, struct failure *f);
+/* Draws the takes of a group that are listed (at most COUNT_MAX_FRAMES) and counts each: what is in and below bench_frame, on the
+ * thread that calls it. May run on several threads, as long as no two lists begin with the same take. */
+bool count_list(const struct counter *counter, const char *group, const int *index, int frames, uint64_t *instructions,
+                struct failure *f);
 
 /* The same for `frames` takes from the first on. */
-bool count_takes(const struct counter *counter, const char *group, int first, int frames,
-                 const struct count_toggles *toggles, uint64_t *instructions, struct failure *f);
+bool count_takes(const struct counter *counter, const char *group, int first, int frames, uint64_t *instructions,
+                 struct failure *f);
 
 /* The other side: what this program does when it is run by count_list; numbers with commas. */
 bool count_serve(const char *group, const char *list, struct failure *f);

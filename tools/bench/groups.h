@@ -11,6 +11,5 @@ bool group_take(const char *group, int index, struct take *out);
 
 /* Each group's own file. */
 bool peers_take(int index, struct take *out);
-bool filters_take(int index, struct take *out);
 
 #endif

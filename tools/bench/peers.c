@@ -65,7 +65,7 @@ static int index_of(int scene, int at, int layout)
 static bool count_mean(const struct sheet *sheet, int index, double *millions, struct failure *f)
 {
     uint64_t each[FRAMES], sum = 0;
-    if (!count_takes(&sheet->counter, "peers", index, FRAMES, &count_frame, each, f))
+    if (!count_takes(&sheet->counter, "peers", index, FRAMES, each, f))
         return false;
     for (int i = 0; i < FRAMES; i++)
         sum += each[i];

@@ -104,7 +104,7 @@ static bool measure(int scene, bool linear, const struct options *o, const struc
     float_image_free(&truth);
     if (ok && o->count) {
         uint64_t instructions[SETTINGS];
-        ok = count_takes(counter, "promise", (2 * scene + linear) * SETTINGS, SETTINGS, &count_frame, instructions, f);
+        ok = count_takes(counter, "promise", (2 * scene + linear) * SETTINGS, SETTINGS, instructions, f);
         for (int i = 0; i < SETTINGS && ok; i++)
             out->cost[i] = (double)instructions[i] / 1e6;
     }

@@ -6,23 +6,14 @@
 #include <stdlib.h>
 #include <time.h>
 
-static const char *note(struct sheet *sheet, bool is_met)
+const char *sheet_most(struct sheet *sheet, double value, double bar)
 {
+    const bool is_met = value <= bar;
     if (is_met)
         sheet->met++;
     else
         sheet->missed++;
     return is_met ? "met" : "MISSED";
-}
-
-const char *sheet_most(struct sheet *sheet, double value, double bar)
-{
-    return note(sheet, value <= bar);
-}
-
-const char *sheet_least(struct sheet *sheet, double value, double bar)
-{
-    return note(sheet, value >= bar);
 }
 
 static int compare(const void *a, const void *b)

@@ -14,9 +14,8 @@ struct sheet {
     int met, missed;            /* bars */
 };
 
-/* Notes whether value <= bar (or >= for floors), and returns the word for it. */
+/* Notes whether value <= bar, and returns the word for it. */
 const char *sheet_most(struct sheet *sheet, double value, double bar);
-const char *sheet_least(struct sheet *sheet, double value, double bar);
 
 /* Sorts; the middle one, or the mean of the two in the middle. */
 double median(double *value, int count);
@@ -30,9 +29,6 @@ double process_seconds(void);
 
 /* The reports. Each prints to standard output. */
 bool peers_report(struct sheet *sheet, struct failure *f);      /* instructions, time */
-bool accuracy_report(struct sheet *sheet, struct failure *f);   /* against the double reference */
-bool filters_report(struct sheet *sheet, struct failure *f);    /* camera, pingpong, half, weights */
-bool formats_report(struct sheet *sheet, struct failure *f);     /* few greys through an eye */
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f);
 
 #endif

@@ -2,6 +2,8 @@
 /* take.c - sets up scenes and contexts, draws, collects what is flushed. */
 #include "tools/bench/take.h"
 
+#include "tools/player/picture.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -81,15 +83,16 @@ static bool draw_with_workers(struct rig *rig, int *result, struct failure *f)
 
 /* ------------------------------------------------------------------ rigs */
 
+static size_t row_bytes(const struct take *take)
+{
+    return picture_row_bytes(take->width, take->format);
+}
+
 static int take_band(void *user, const smear_band *band)
 {
     const struct rig *rig = user;
-    size_t row = (size_t)band->width * (rig->take.format == SMEAR_RGB565 ? 2 : 4);
-    if (rig->display == NULL)
-        return 0;
-    for (int y = 0; y < band->height; y++)
-        memcpy(rig->display + (size_t)(band->y + y) * row,
-               (const uint8_t *)band->pixels + (size_t)y * band->stride, row);
+    if (rig->display != NULL)
+        picture_put_band(rig->display, row_bytes(&rig->take), rig->take.format, band);
     return 0;
 }
 
@@ -188,27 +191,12 @@ static bool open_model(struct rig *rig, struct failure *f)
     return false;
 }
 
-static bool open_scene(struct rig *rig, struct failure *f)
-{
-    const struct take *take = &rig->take;
-    rig->is_file = take_is_file(take->scene);
-    if (rig->is_file ? !open_model(rig, f) : !scene_builtin(take->scene, &rig->scene, f))
-        return false;
-    if (take->change == NULL)
-        return true;
-    rig->original = rig->scene;
-    if (take->change(&rig->original, &rig->scene, f))
-        return true;
-    rig->scene = rig->original;
-    rig->original = (struct scene){ 0 };
-    return false;
-}
-
 bool rig_open(struct rig *rig, const struct take *take, struct failure *f)
 {
     memset(rig, 0, sizeof *rig);
     rig->take = *take;
-    bool ok = open_scene(rig, f);
+    rig->is_file = take_is_file(take->scene);
+    bool ok = rig->is_file ? open_model(rig, f) : scene_builtin(take->scene, &rig->scene, f);
     if (ok && take->width == 0)
         rig->take.width = rig->scene.width;
     if (ok && take->height == 0)
@@ -225,7 +213,6 @@ void rig_close(struct rig *rig)
 {
     presenter_free(rig->presenter);
     scene_free(&rig->scene);
-    scene_free(&rig->original);
     if (rig->is_file)
         model_free(&rig->model);
     free(rig->memory);
@@ -249,27 +236,8 @@ bool rig_draw(struct rig *rig, struct failure *f)
 
 /* ------------------------------------------------------------------ pictures */
 
-static void widen_565(const uint8_t *in, uint8_t rgba[4])
-{
-    unsigned p = in[0] | (unsigned)in[1] << 8;
-    unsigned r = p >> 11, g = p >> 5 & 63, b = p & 31;
-    rgba[0] = (uint8_t)(r << 3 | r >> 2);
-    rgba[1] = (uint8_t)(g << 2 | g >> 4);
-    rgba[2] = (uint8_t)(b << 3 | b >> 2);
-}
-
-static void widen_8888(const uint8_t *in, uint8_t rgba[4])
-{
-    uint32_t p;
-    memcpy(&p, in, sizeof p);
-    rgba[0] = (uint8_t)(p >> 16);
-    rgba[1] = (uint8_t)(p >> 8);
-    rgba[2] = (uint8_t)p;
-}
-
 bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failure *f)
 {
-    size_t pixels = (size_t)rig->take.width * (size_t)rig->take.height;
     const struct presented *kept = rig->frame;
     struct presented frame = *kept;
     if (clear != CLEAR_OF_SCENE)
@@ -277,15 +245,11 @@ bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failu
     if (!image_alloc(out, rig->take.width, rig->take.height, f))
         return false;
     rig->frame = &frame;
-    rig->display = malloc(pixels * 4);
+    rig->display = malloc(row_bytes(&rig->take) * (size_t)rig->take.height);
     bool ok = rig->display != NULL ? rig_draw(rig, f) : fail(f, "no memory for a picture");
     rig->frame = kept;
-    for (size_t i = 0; i < pixels && ok; i++) {
-        if (rig->take.format == SMEAR_RGB565)
-            widen_565(rig->display + 2 * i, out->rgba + 4 * i);
-        else
-            widen_8888(rig->display + 4 * i, out->rgba + 4 * i);
-    }
+    if (ok)
+        picture_expand(out, rig->display, row_bytes(&rig->take), rig->take.format);
     free(rig->display);
     rig->display = NULL;
     if (!ok)

@@ -43,14 +43,12 @@ struct take {
     bool texels_565;            /* textures as RGB565 */
     bool fit_grid;              /* meshes on grids that fit them */
     int workers;                /* 0: one */
-    bool (*change)(struct scene *scene, struct scene *out, struct failure *f);  /* null: as it is */
 };
 
 /* A take that is ready to be drawn, any number of times. */
 struct rig {
     struct take take;
-    struct scene scene;         /* changed, if the take changes it */
-    struct scene original;      /* then */
+    struct scene scene;
     struct model model;         /* of a scene from a file */
     bool is_file;
     struct presenter *presenter;
@@ -84,8 +82,7 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f);
  * nowhere else: both names are looked for by the counter. */
 bool rig_draw(struct rig *rig, struct failure *f);
 
-/* Draws into a picture of 8-bit codes, on a colour 0xRRGGBB or CLEAR_OF_SCENE; RGB565 is widened by
- * repeating its upper bits. *out is allocated here, and empty on failure. */
+/* Draws into a picture of 8-bit codes, on a colour 0xRRGGBB or CLEAR_OF_SCENE. *out is allocated here, and empty on failure. */
 bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failure *f);
 
 #endif

@@ -3,7 +3,7 @@
 #include "tools/bench/truth.h"
 
 #include "tools/bench/take.h"
-#include "tools/ref/ref.h"
+#include "tools/scenes/color.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { SHUTTER_DEGREES = TAKE_SHUTTER_DEGREES, MAX_BYTES = 1 << 28, PATH_LIMIT = 512 };
+enum { MAX_BYTES = 1 << 28, PATH_LIMIT = 512 };
 
 /* ------------------------------------------------------------------ kept files */
 
@@ -63,64 +63,35 @@ static bool keep(const char *path, struct float_image *truth, struct failure *f)
 
 /* ------------------------------------------------------------------ by the library */
 
-struct exposure {
-    double open, length;        /* seconds */
-};
-
-static struct exposure exposure_of(const struct rig *rig)
+static bool mean_of(struct rig *rig, int instants, double *mean, struct failure *f)
 {
+    const struct take *take = &rig->take;
     const struct scene *scene = &rig->scene;
-    double length = SHUTTER_DEGREES / 360.0 / scene->fps;
-    double time = rig->take.frame < 0 ? scene->time : rig->take.frame / scene->fps;
-    return (struct exposure){ time + rig->take.later / scene->fps - length / 2.0, length };
+    const struct present_options options = { .fps = scene->fps, .shutter_degrees = TAKE_SHUTTER_DEGREES, .clear = scene->clear,
+                                             .light = take->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED };
+    const double time = take->frame < 0 ? scene->time : take->frame / scene->fps;
+    return presenter_mean(rig->presenter, time + take->later / scene->fps, &options, take->width, take->height, instants, mean, f);
 }
 
-/* `at` is 0 at shutter open, 1 at close. */
-static bool instant(struct rig *rig, double at, struct image *out, struct failure *f)
-{
-    const struct exposure e = exposure_of(rig);
-    return rig_seek_time(rig, e.open + e.length * at, f)
-        && rig_picture(rig, CLEAR_OF_SCENE, out, f);
-}
-
-/* Of a few instants, so that a change of scene or rasterizer shows. */
-static bool fingerprint_exact(struct rig *rig, uint32_t *crc, struct failure *f)
+/* Reads what is kept under the number of a mean of few instants, which changes with scene and rasterizer; else draws and keeps it. */
+static bool truth_of_rig(struct rig *rig, const char *folder, struct float_image *out, struct failure *f)
 {
     enum { LOOKS = 5 };
-    *crc = 0;
-    for (int i = 0; i < LOOKS; i++) {
-        struct image picture;
-        if (!instant(rig, (i + 0.5) / LOOKS, &picture, f))
-            return false;
-        *crc = crc32_update(*crc, picture.rgba,
-                            4 * (size_t)picture.width * (size_t)picture.height);
-        image_free(&picture);
+    const int width = rig->take.width, height = rig->take.height;
+    const size_t values = 3 * (size_t)width * (size_t)height;
+    double *mean = malloc(values * sizeof *mean);
+    char path[PATH_LIMIT], kind[48];
+    bool ok = mean != NULL ? mean_of(rig, LOOKS, mean, f) : fail(f, "no memory for a truth");
+    snprintf(kind, sizeof kind, "%s-%.0f", rig->take.linear ? "linear" : "encoded", 1000.0 * rig->take.later);
+    ok = ok && kept_path(path, folder, rig->take.scene, TRUTH_INSTANTS, kind,
+                         crc32_update(0, (const uint8_t *)mean, values * sizeof *mean), f);
+    if (ok && !read_kept(path, width, height, out)) {
+        ok = mean_of(rig, TRUTH_INSTANTS, mean, f) && float_image_alloc(out, width, height, 3, f);
+        for (size_t i = 0; i < values && ok; i++)
+            out->value[i] = (float)(rig->take.linear ? color_encode(mean[i]) : mean[i]);
+        ok = ok && keep(path, out, f);
     }
-    return true;
-}
-
-static bool draw_exact(struct rig *rig, int instants, struct float_image *out, struct failure *f)
-{
-    const size_t values = 3 * (size_t)rig->take.width * (size_t)rig->take.height;
-    double *sum = calloc(values, sizeof *sum), value[256];
-    bool ok = sum != NULL || fail(f, "no memory for a truth");
-    for (int code = 0; code < 256; code++)
-        value[code] = rig->take.linear ? ref_srgb_decode(code / 255.0) : code / 255.0;
-    for (int i = 0; i < instants && ok; i++) {
-        struct image picture;
-        ok = instant(rig, (i + 0.5) / instants, &picture, f);
-        if (!ok)
-            break;
-        for (size_t k = 0; k < values; k++)
-            sum[k] += value[picture.rgba[k / 3 * 4 + k % 3]];
-        image_free(&picture);
-    }
-    ok = ok && float_image_alloc(out, rig->take.width, rig->take.height, 3, f);
-    for (size_t i = 0; i < values && ok; i++) {
-        const double mean = sum[i] / instants;
-        out->value[i] = (float)(rig->take.linear ? ref_srgb_encode(mean) : mean);
-    }
-    free(sum);
+    free(mean);
     return ok;
 }
 
@@ -131,14 +102,9 @@ bool truth_of_take(const struct take *of, const char *folder, struct float_image
         .format = SMEAR_XRGB8888, .method = SMEAR_NONE, .linear = of->linear, .instant_only = true
     };
     struct rig rig;
-    uint32_t crc;
-    char path[PATH_LIMIT], kind[48];
     if (!rig_open(&rig, &take, f))
         return false;
-    snprintf(kind, sizeof kind, "%s-%.0f", take.linear ? "linear" : "encoded", 1000.0 * take.later);
-    bool ok = fingerprint_exact(&rig, &crc, f) && kept_path(path, folder, take.scene, TRUTH_INSTANTS, kind, crc, f);
-    if (ok && !read_kept(path, rig.take.width, rig.take.height, out))
-        ok = draw_exact(&rig, TRUTH_INSTANTS, out, f) && keep(path, out, f);
+    const bool ok = truth_of_rig(&rig, folder, out, f);
     rig_close(&rig);
     return ok;
 }

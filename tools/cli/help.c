@@ -242,11 +242,10 @@ static const char *const info_help[] = {
 static const char *const bench_help[] = {
     "smear bench [REPORT...]\n"
     "\n"
-    "Instructions per frame (counted by valgrind) and picture quality, beside the bars set for\n"
-    "them. Reports: peers, accuracy, filters, formats (few greys through an eye); all without a\n"
-    "name. `promise` alone: whether SMEAR_AUTO has the error it aims at, and what it costs beside\n"
-    "plain instants (--count: by valgrind; --light, --scenes, --models FOLDER).\n"
-    "`make bench` adds what frames cost on Cortex-M.\n"
+    "Instructions per frame of scenes by which other rasterizers were measured (counted by valgrind),\n"
+    "beside the bars set for them: the report `peers`, which needs no name. `promise` alone: whether\n"
+    "SMEAR_AUTO has the error it aims at, and what it costs beside plain instants (--count: by\n"
+    "valgrind; --light, --scenes, --models FOLDER). `make bench` adds what frames cost on Cortex-M.\n"
     "\n"
     "  --strict              exit status 1 when a bar is missed\n",
     NULL

@@ -839,30 +839,22 @@ int present_places(const struct present_options *options, int width, int height)
     return places;
 }
 
-bool presenter_exact(struct presenter *presenter, double time,
-                     const struct present_options *options, int width, int height, int instants,
-                     struct image *out, struct failure *f)
+bool presenter_mean(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
+                    int instants, double *sum, struct failure *f)
 {
     struct present_options sharp = *options;
     struct room room = { 0 };
-    struct mean mean = { .width = width, .places = present_places(options, width, height) };
+    struct mean mean = { .width = width, .places = present_places(options, width, height), .sum = sum };
+    const size_t values = (size_t)width * (size_t)height * 3;
+    const bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
     double open, close;
     bool ok = true;
     sharp.instant_only = true;
     sharp.method = SMEAR_NONE;
-    if (instants < 1 || width < 1 || height < 1)
-        return fail(f, "no instants or no pixels");
-    if (!image_alloc(out, width, height, f))
-        return false;
-    size_t values = (size_t)width * (size_t)height * 3;
-    mean.sum = calloc(values, sizeof *mean.sum);
-    if (mean.sum == NULL) {
-        image_free(out);
-        return out_of_memory(f);
-    }
-    bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
     for (int code = 0; code < 256; code++)
         mean.value_of[code] = is_linear ? present_srgb_decode((uint8_t)code) : code / 255.0;
+    for (size_t i = 0; i < values; i++)
+        sum[i] = 0.0;
     present_exposure(time, options, &open, &close);
     for (int i = 0; i < instants && ok; i++) {
         const struct presented *frame =
@@ -876,12 +868,26 @@ bool presenter_exact(struct presenter *presenter, double time,
         if (result != SMEAR_OK)
             ok = fail(f, "the library refused the frame: %s", smear_error_text(result));
     }
-    for (size_t i = 0; i < values && ok; i++) {
-        double value = mean.sum[i] / instants / (mean.places * mean.places);
-        out->rgba[i / 3 * 4 + i % 3] = is_linear ? present_srgb_encode(value) : present_byte(value);
-    }
-    free(mean.sum);
+    for (size_t i = 0; i < values; i++)
+        sum[i] = sum[i] / instants / (mean.places * mean.places);
     free(room.memory);
+    return ok;
+}
+
+bool presenter_exact(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
+                     int instants, struct image *out, struct failure *f)
+{
+    if (instants < 1 || width < 1 || height < 1)
+        return fail(f, "no instants or no pixels");
+    if (!image_alloc(out, width, height, f))
+        return false;
+    const size_t values = (size_t)width * (size_t)height * 3;
+    double *mean = malloc(values * sizeof *mean);
+    bool ok = mean != NULL ? presenter_mean(presenter, time, options, width, height, instants, mean, f) : out_of_memory(f);
+    for (size_t i = 0; i < values && ok; i++)
+        out->rgba[i / 3 * 4 + i % 3] =
+            options->light == SMEAR_LIGHT_LINEAR ? present_srgb_encode(mean[i]) : present_byte(mean[i]);
+    free(mean);
     if (!ok)
         image_free(out);
     return ok;

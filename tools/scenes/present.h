@@ -134,6 +134,10 @@ bool presenter_exact(struct presenter *presenter, double time,
                      const struct present_options *options, int width, int height, int instants,
                      struct image *out, struct failure *f);
 
+/* The same, not rounded: `mean` has red, green and blue of each pixel, linear light or codes / 255. */
+bool presenter_mean(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
+                    int instants, double *mean, struct failure *f);
+
 /* sRGB (IEC 61966-2-1): linear 0..1 to 0..255, rounded to nearest, and back. */
 uint8_t present_srgb_encode(double linear);
 double present_srgb_decode(uint8_t code);
