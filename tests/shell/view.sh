@@ -248,48 +248,6 @@ shoots() {
 }
 claim "screenshots are what render writes" shoots
 
-records() {
-    rm -f ./*.gif
-    printf '3 key (\n6 key )\n7 key g\n' >"$base/in/keys"
-    view $race $small --frames 8 --play "$base/in/keys" && exists demo-race-0000.gif || return 1
-    "$smear" render $race $small --frames 2-5 -o want.gif && cmp want.gif demo-race-0000.gif
-}
-claim "a recording from one frame to another" records
-
-records_loop() { # the demo repeats after 60 frames
-    rm -f ./*.apng
-    printf '1 key a\n' >"$base/in/keys"
-    view builtin:demo/drone --size 32x32 --frames 2 --play "$base/in/keys" || return 1
-    exists demo-drone-0000.apng || return 1
-    "$smear" render builtin:demo/drone --size 32x32 --frames 0-59 -o want.apng &&
-        cmp want.apng demo-drone-0000.apng
-}
-claim "a whole loop of the demo" records_loop
-
-records_turn() { # two seconds at 15 frames per second, once around the square
-    rm -f ./*.apng
-    printf '1 key j\n2 key a\n' >"$base/in/keys"
-    printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >square.obj
-    view square.obj --size 24x24 --fps 15 --frames 3 --play "$base/in/keys" && exists square-0000.apng || return 1
-    equals "$(grep -ao fcTL square-0000.apng | wc -l)" 30
-}
-claim "a turn of the turntable" records_turn
-
-records_found() { # nothing moves: any two frames are a loop
-    rm -f ./*.apng
-    printf '1 key a\n' >"$base/in/keys"
-    view builtin:suite/still --size 24x24 --frames 2 --play "$base/in/keys" && exists suite-still-0000.apng
-}
-claim "a loop that is found by its pictures" records_found
-
-records_clip() { # one second at 30 frames
-    rm -f ./*.gif
-    printf '5 key g\n' >"$base/in/keys"
-    view "$plate" --size 32x24 --loop --frames 6 --play "$base/in/keys" || return 1
-    "$smear" render "$plate" --size 32x24 --loop --frames 0-29 -o want.gif && cmp want.gif plate-0000.gif
-}
-claim "a clip that loops is recorded once" records_clip
-
 checks() {
     rm -f gold*
     view $race $small --frames 3 --check gold --update && exists gold && exists gold.0002.png &&

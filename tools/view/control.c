@@ -443,18 +443,6 @@ static void do_screenshot(struct view *v, int way)
     film_screenshot(v);
 }
 
-static void do_mark(struct view *v, int way)
-{
-    int which = way > 0;
-    v->mark[which] = v->at / VIEW_UNITS;
-    view_say(v, "%s frame of the recording: %ld", which ? "last" : "first", (long)v->mark[which]);
-}
-
-static void do_record(struct view *v, int way)
-{
-    film_record(v, way > 0 ? FILM_GIF : FILM_APNG);
-}
-
 static void do_quit(struct view *v, int way)
 {
     (void)way;
@@ -512,8 +500,6 @@ const struct control control_list[] = {
     { "L", { 'L', 0 }, do_loop, "clips loop, or end" },
     { "i", { 'i', 0 }, do_reload, "load the file again" },
     { "s", { 's', 0 }, do_screenshot, "screenshot (PNG)" },
-    { "( )", { ')', '(' }, do_mark, "first, last frame to be recorded" },
-    { "g a", { 'g', 'a' }, do_record, "record them, or a whole loop: GIF, APNG" },
     { NULL, { 0, 0 }, NULL, NULL },
 };
 

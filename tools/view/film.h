@@ -1,21 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* film.h - what leaves the viewer as files, and the comparison with the truth. The user is told
+/* film.h - what leaves the viewer as a file, and the comparison with the truth. The user is told
  * what was written, or why it was not. */
 #ifndef SMEAR_TOOLS_VIEW_FILM_H
 #define SMEAR_TOOLS_VIEW_FILM_H
 
 #include "tools/view/view.h"
 
-enum film_kind { FILM_GIF, FILM_APNG };
-
 /* The main lane's frame, as `render` writes it, in SCENE-0000.png: the first number that is
  * free. */
 void film_screenshot(struct view *view);
-
-/* Draws every frame from the first to the last mark again and writes it; a last picture that is
- * the first one again is left out. Without marks: one whole loop, from the start of a file's
- * clip or from the frame shown until the pictures repeat. */
-void film_record(struct view *view, enum film_kind kind);
 
 /* Distance of the main lane's frame from the mean of many exact instants. */
 void film_measure(struct view *view);

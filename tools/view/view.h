@@ -5,7 +5,7 @@
  *     control.c   what keys and the pointer do
  *     overlay.c   what is written over the picture
  *     debug.c     what else can be seen of a frame than its picture
- *     film.c      screenshots and loops in files
+ *     film.c      screenshots, and the comparison with the truth
  *     script.c    input in files
  *     golden.c    CRCs, printed or checked
  *     lane.c      a scene drawn with one set of options, as `render` does it
@@ -82,7 +82,6 @@ struct view {
     int64_t at;                     /* 64ths of frames */
     int frames_apart;               /* frames from the picture before */
     int speed;                      /* 64ths of frames per frame of the clock */
-    int64_t mark[2];                /* of a loop to be recorded; -1: none */
     bool is_paused, is_dirty, quits;
     long tick;                      /* pictures shown so far */
     double next_us;                 /* when the next one is due */
@@ -106,7 +105,7 @@ struct view {
     double board_us, wire_us;       /* estimates for the frame shown */
     double shown_fps, last_shown_us;
     char message[TEXT_COLUMNS + 1];
-    double message_until_us, busy_until_us;
+    double message_until_us;
 
     struct golden golden;
     struct script script;
@@ -129,18 +128,11 @@ void view_say(struct view *view, const char *format, ...);
 /* Says why nothing is seen on the picture that has been drawn, or most of it is turned away, if that is so. */
 void view_notice(struct view *view);
 
-/* Of long work: every now and then, shows how far it is. False when the user wants it to end. */
-bool view_busy(struct view *view, const char *what, long done, long all);
+/* Of long work: shows what stands, and a line that says what is done. */
+void view_busy(struct view *view, const char *what);
 
 /* The instant of a position in time. */
 struct instant view_instant(const struct view *view, int64_t at);
 double view_fps(const struct view *view);
-
-/* Frames after which the scene begins again; 0: it does not, or nobody knows. */
-long view_period(const struct view *view);
-
-/* Draws the main lane at an instant. On failure the user is told, and the settings go back to what
- * last worked. */
-bool view_draw_main(struct view *view, int64_t at);
 
 #endif

@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 enum { MAX_LATE_FRAMES = 8, MAX_BOARD_FRAMES = 120, MAX_EVENTS = 1000, MEDIAN_PICTURES = 10000 };
-enum { MESSAGE_US = 3000000, BUSY_US = 200000, IDLE_MS = 200, MAX_WAIT_MS = 60000 };
+enum { MESSAGE_US = 3000000, IDLE_MS = 200, MAX_WAIT_MS = 60000 };
 enum { WISHED_WIDTH = 640, WISHED_HEIGHT = 480, MAX_ZOOM = 8 };
 
 void view_say(struct view *v, const char *format, ...)
@@ -60,15 +60,10 @@ struct instant view_instant(const struct view *v, int64_t at)
                              .frames_apart = at == v->at ? v->frames_apart : 1 };
 }
 
-long view_period(const struct view *v)
-{
-    return source_period(v->source, &v->main.options.view, view_fps(v));
-}
-
 /* Without --loop and --frames, a clip that has ended is shown again. */
 static void wrap(struct view *v)
 {
-    long period = view_period(v);
+    long period = source_period(v->source, &v->main.options.view, view_fps(v));
     if (v->source->is_file && v->wish.frames == 0 && !v->main.options.view.loop && !v->main.options.has_time
         && period > 0 && v->at >= (int64_t)period * VIEW_UNITS)
         v->at = 0;
@@ -180,10 +175,10 @@ bool view_load(struct view *v, const struct source_view *seen)
 /* ------------------------------------------------------------------ a frame */
 
 /* Draws one lane; when that fails, its last good settings come back. */
-static bool draw_lane(struct view *v, struct lane *lane, struct render_options *good, int64_t at)
+static bool draw_lane(struct view *v, struct lane *lane, struct render_options *good)
 {
     struct failure f = { "" };
-    struct instant instant = view_instant(v, at);
+    struct instant instant = view_instant(v, v->at);
     if (lane_draw(lane, v->presenter, &instant, &f)) {
         *good = lane->options;
         return true;
@@ -197,11 +192,6 @@ static bool draw_lane(struct view *v, struct lane *lane, struct render_options *
         return true;
     v->why = f;
     return false;
-}
-
-bool view_draw_main(struct view *v, int64_t at)
-{
-    return draw_lane(v, &v->main, &v->good, at);
 }
 
 /* Room for pictures of the main lane's size. */
@@ -237,7 +227,7 @@ static bool draw_left(struct view *v, const struct instant *instant, struct fail
     int edge = (int)((int64_t)v->width * v->divider / 1000);
     if (!v->is_split || !v->left.is_open)
         return true;
-    if (!draw_lane(v, &v->left, &v->good_left, v->at))
+    if (!draw_lane(v, &v->left, &v->good_left))
         return fail(f, "%s", v->why.text);
     if (!debug_draw(&v->debug, v->debug_kind, &v->left, v->presenter, instant, v->left.picture, f))
         return false;
@@ -281,7 +271,7 @@ static bool draw_frame(struct view *v)
     struct failure f = { "" };
     double start = clock_us();
     struct instant instant = view_instant(v, v->at);
-    if (!view_draw_main(v, v->at))
+    if (!draw_lane(v, &v->main, &v->good))
         return give_up(v, v->source->name, &v->why);
     if (v->main.stats.triangles_dropped > 0 && !v->told_dropped)
         view_say(v, "triangles with vertices that the mesh does not have are left out");
@@ -396,22 +386,12 @@ static void take_event(struct view *v, struct event *e)
     }
 }
 
-/* Shows what stands, with a line for the user; false when he wants it to end. */
-bool view_busy(struct view *v, const char *what, long done, long all)
+void view_busy(struct view *v, const char *what)
 {
-    struct event e;
-    bool goes_on = !guard_is_asked();
-    if (v->screen->kind == &screen_null || v->tick == 0 || clock_us() < v->busy_until_us)
-        return goes_on;
-    view_say(v, "%s: %ld of %ld (escape ends it)", what, done, all);
-    while (goes_on && v->screen->kind->event(v->screen, 0, &e)) {
-        if (e.kind == EVENT_CLOSE || e.kind == EVENT_LOST)
-            take_event(v, &e);
-        goes_on = !v->quits && (e.kind != EVENT_KEY || e.key != SCREEN_ESCAPE);
-    }
-    goes_on = goes_on && show(v);
-    v->busy_until_us = clock_us() + BUSY_US;
-    return goes_on;
+    if (v->screen->kind == &screen_null || v->tick == 0)
+        return;
+    view_say(v, "%s", what);
+    show(v);
 }
 
 static bool is_due(const struct view *v, double now)
@@ -646,7 +626,6 @@ int view_run(struct view *v, const struct render_options *options)
     v->divider = 500;
     v->speed = VIEW_UNITS;
     v->frames_apart = 1;
-    v->mark[0] = v->mark[1] = -1;
     v->at = (int64_t)v->wish.first * VIEW_UNITS;
     v->is_paused = v->wish.paused;
     v->debug_kind = v->wish.debug;
