@@ -2,83 +2,25 @@
 /* take.c - sets up scenes and contexts, draws, collects what is flushed. */
 #include "tools/bench/take.h"
 
+#include "tools/player/crew.h"
 #include "tools/player/picture.h"
 
-#include <pthread.h>
-#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { SHUTTER_DEGREES = TAKE_SHUTTER_DEGREES, MOST_DRAWS = 512 };
+enum { MOST_DRAWS = 512 };
 
-int bench_frame(const struct presented *frame, smear_context *ctx);
-void bench_worker(smear_context *ctx, int worker);
-void bench_idle(void *user);
+int bench_frame(const struct presented *frame, struct crew *crew, smear_context *ctx);
 
-/* ------------------------------------------------------------------ what is measured */
-
+/* What is measured. */
 #if defined(__GNUC__)
-#define OUT_OF_LINE __attribute__((noinline))
-#else
-#define OUT_OF_LINE
+__attribute__((noinline))
 #endif
-
-OUT_OF_LINE int bench_frame(const struct presented *frame, smear_context *ctx)
+int bench_frame(const struct presented *frame, struct crew *crew, smear_context *ctx)
 {
     int result = presented_submit(frame, ctx);
-    return result == SMEAR_OK ? smear_render(ctx) : result;
-}
-
-OUT_OF_LINE void bench_worker(smear_context *ctx, int worker)
-{
-    smear_work(ctx, worker);
-}
-
-/* Waiting is told apart from working. */
-OUT_OF_LINE void bench_idle(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
-/* ------------------------------------------------------------------ workers */
-
-struct worker {
-    smear_context *ctx;
-    int index;
-    pthread_t thread;
-};
-
-static void *work(void *argument)
-{
-    struct worker *worker = argument;
-    bench_worker(worker->ctx, worker->index);
-    return NULL;
-}
-
-/* Threads are started for each frame: that is not counted, and short beside a frame. */
-static bool draw_with_workers(struct rig *rig, int *result, struct failure *f)
-{
-    struct worker worker[8];
-    int count = rig->take.workers - 1, started = 0;
-    if (count > (int)(sizeof worker / sizeof *worker))
-        return fail(f, "too many workers (%d)", rig->take.workers);
-    for (; started < count; started++) {
-        worker[started].ctx = rig->ctx;
-        worker[started].index = started + 1;
-        if (pthread_create(&worker[started].thread, NULL, work, &worker[started]) != 0)
-            break;
-    }
-    /* smear_render waits for every worker of the desc, so without one it would wait for ever. */
-    if (started < count) {
-        fprintf(stderr, "bench: a thread could not be started\n");
-        _exit(1);
-    }
-    *result = bench_frame(rig->frame, rig->ctx);
-    for (int i = 0; i < started; i++)
-        pthread_join(worker[i].thread, NULL);
-    return true;
+    return result == SMEAR_OK ? crew_render(crew, ctx) : result;
 }
 
 /* ------------------------------------------------------------------ rigs */
@@ -117,7 +59,7 @@ static bool start_library(struct rig *rig, struct failure *f)
         desc.max_draws = MOST_DRAWS;
     desc.vertex_cache = t->plain_context ? 0 : 4096;
     desc.flush = take_band;
-    desc.idle = t->workers > 1 ? bench_idle : NULL;
+    desc.idle = t->workers > 1 ? crew_idle : NULL;
     desc.user = rig;
     size_t bytes = smear_memory_size(&desc);
     rig->memory = bytes > 0 ? calloc(1, bytes) : NULL;
@@ -132,7 +74,7 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
     static const smear_layer plain = { .mask = 255, .two_camera = 1 };
     const struct take *t = &rig->take;
     struct present_options options = {
-        .fps = rig->scene.fps, .shutter_degrees = SHUTTER_DEGREES, .method = t->method,
+        .fps = rig->scene.fps, .shutter_degrees = TAKE_SHUTTER_DEGREES, .method = t->method,
         .samples = t->samples, .reconstruct = t->reconstruct, .target = t->target,
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
@@ -203,6 +145,8 @@ bool rig_open(struct rig *rig, const struct take *take, struct failure *f)
         rig->take.height = rig->scene.height;
     if (ok)
         rig->presenter = presenter_new(&rig->scene, f);
+    if (ok && take->workers > 1)
+        ok = (rig->crew = crew_start(take->workers, f)) != NULL;
     ok = ok && rig->presenter != NULL && rig_seek(rig, take->frame, f) && start_library(rig, f);
     if (!ok)
         rig_close(rig);
@@ -211,6 +155,7 @@ bool rig_open(struct rig *rig, const struct take *take, struct failure *f)
 
 void rig_close(struct rig *rig)
 {
+    crew_stop(rig->crew);
     presenter_free(rig->presenter);
     scene_free(&rig->scene);
     if (rig->is_file)
@@ -221,13 +166,7 @@ void rig_close(struct rig *rig)
 
 bool rig_draw(struct rig *rig, struct failure *f)
 {
-    int result = SMEAR_OK;
-    if (rig->take.workers > 1) {
-        if (!draw_with_workers(rig, &result, f))
-            return false;
-    } else {
-        result = bench_frame(rig->frame, rig->ctx);
-    }
+    int result = bench_frame(rig->frame, rig->crew, rig->ctx);
     if (result != SMEAR_OK)
         return fail(f, "the library refused a frame: %s", smear_error_text(result));
     smear_get_stats(rig->ctx, &rig->stats);

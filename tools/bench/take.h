@@ -53,6 +53,7 @@ struct rig {
     bool is_file;
     struct presenter *presenter;
     const struct presented *frame;
+    struct crew *crew;          /* of more workers than one */
     smear_context *ctx;
     void *memory;
     smear_stats stats;          /* of the last time it was drawn */
@@ -78,8 +79,7 @@ void rig_close(struct rig *rig);
 bool rig_seek(struct rig *rig, int frame, struct failure *f);
 bool rig_seek_time(struct rig *rig, double seconds, struct failure *f);
 
-/* Draws. The work that is measured is in bench_frame, and in bench_worker on other threads, and
- * nowhere else: both names are looked for by the counter. */
+/* Draws. The work that is measured is in bench_frame and nowhere else: the counter looks for its name. */
 bool rig_draw(struct rig *rig, struct failure *f);
 
 /* Draws into a picture of 8-bit codes, on a colour 0xRRGGBB or CLEAR_OF_SCENE. *out is allocated here, and empty on failure. */
