@@ -2,10 +2,13 @@
 /* blob.c - a conversion as a .smr file: src/model/blob.h has the layout. Written byte by byte, low byte first, so
  * that the host's byte order does not matter. */
 #include "tools/convert/build.h"
+#include "tools/convert/records.h"
 
 #include "model/blob.h"
 #include "tools/image/buffer.h"
 #include "tools/image/image.h"
+
+#include <string.h>
 
 static void put_u16(struct buffer *b, unsigned value)
 {
@@ -100,12 +103,6 @@ static void begin_table(struct blob_writer *w, int table, int count)
     w->table[table] = (struct smear_blob_table){ (uint32_t)w->b.size, (uint32_t)count };
 }
 
-static void put_table(struct blob_writer *w, int table, const void *data, int count, int size)
-{
-    begin_table(w, table, count);
-    put_array(&w->b, data, (size_t)count, size);
-}
-
 static void put_surfaces(struct blob_writer *w)
 {
     const struct conversion *c = w->c;
@@ -156,94 +153,20 @@ static void put_surfaces(struct blob_writer *w)
     }
 }
 
-static void put_draws(struct blob_writer *w)
+/* Low bytes first, whatever the host's order is. */
+static void put_records(struct blob_writer *w, const struct record_table *t)
 {
-    const struct conversion *c = w->c;
-    struct buffer *b = &w->b;
-    begin_table(w, BLOB_DRAW, c->model.draw_count);
-    for (int i = 0; i < c->model.draw_count; i++) {
-        const smear_model_draw *d = &c->model.draw[i];
-        const uint16_t halves[10] = { d->mesh, d->material, d->node, d->skin, d->target_first,
-                                      d->target_count, d->weight_first, d->transform, d->deformed,
-                                      d->influences };
-        put_array(b, halves, 10, 2);
-        put_u32(b, d->influence_first);
-        put_u32(b, d->vertex_first);
-    }
-    begin_table(w, BLOB_NODE, c->model.node_count);
-    for (int i = 0; i < c->model.node_count; i++) {
-        put_u16(b, c->model.node[i].parent);
-        put_u16(b, c->model.node[i].moves);
-        put_i32s(b, c->model.node[i].rest, 12);
-    }
-    begin_table(w, BLOB_JOINT, c->joint_count);
-    for (int i = 0; i < c->joint_count; i++) {
-        put_u16(b, c->model.joint[i].node);
-        put_u16(b, 0);
-        put_i32s(b, c->model.joint[i].basis, 9);
-        put_i32s(b, c->model.joint[i].origin, 3);
-    }
-    begin_table(w, BLOB_SKIN, c->skin_count);
-    for (int i = 0; i < c->skin_count; i++) {
-        const smear_model_skin *s = &c->model.skin[i];
-        put_u16(b, s->joint_first);
-        put_u16(b, s->joint_count);
-        put_u32(b, (uint32_t)s->steps);
-        put_i32s(b, s->offset, 3);
-        put_u32(b, (uint32_t)s->shift);
-    }
-    put_table(w, BLOB_INFLUENCE, c->model.influence, c->influence_count, 1);
-}
-
-static void put_morphs(struct blob_writer *w)
-{
-    const struct conversion *c = w->c;
-    begin_table(w, BLOB_TARGET, c->target_count);
-    for (int i = 0; i < c->target_count; i++) {
-        const smear_model_target *t = &c->model.target[i];
-        const uint32_t words[4] = { t->delta_first, t->delta_count, t->normal_first, t->shift };
-        put_array(&w->b, words, 4, 4);
-    }
-    begin_table(w, BLOB_DELTA, c->delta_count);
-    for (int i = 0; i < c->delta_count; i++) {
-        put_u16(&w->b, c->model.delta[i].vertex);
-        for (int k = 0; k < 3; k++)
-            put_u16(&w->b, (uint16_t)c->model.delta[i].step[k]);
-    }
-    put_table(w, BLOB_DELTA_NORMAL, c->model.delta_normal, c->delta_normals, 1);
-    put_table(w, BLOB_WEIGHT, c->model.weight, c->model.weight_count, 2);
-}
-
-static void put_clips(struct blob_writer *w)
-{
-    const struct conversion *c = w->c;
-    struct buffer *b = &w->b;
-    begin_table(w, BLOB_CLIP, c->model.clip_count);
-    for (int i = 0; i < c->model.clip_count; i++) {
-        const smear_model_clip *clip = &c->model.clip[i];
-        put_u32(b, clip->name);
-        put_u32(b, clip->duration);
-        put_u16(b, clip->channel_first);
-        put_u16(b, clip->channel_count);
-        put_u32(b, clip->tick_shift);
-    }
-    begin_table(w, BLOB_CHANNEL, c->channel_count);
-    for (int i = 0; i < c->channel_count; i++) {
-        const smear_model_channel *channel = &c->model.channel[i];
-        put_u16(b, channel->target);
-        buffer_byte(b, channel->path);
-        buffer_byte(b, channel->step);
-        put_u16(b, channel->key_count);
-        put_u16(b, channel->width);
-        put_u32(b, channel->time_first);
-        put_u32(b, channel->value_first);
-        put_i32s(b, channel->offset, 3);
-        put_u32(b, (uint32_t)channel->factor);
-        put_u32(b, (uint32_t)channel->shift);
-    }
-    put_table(w, BLOB_KEY_TIME, c->model.key_time, c->key_times, 2);
-    put_table(w, BLOB_KEY_VALUE, c->model.key_value, c->key_values, 2);
-    put_table(w, BLOB_TEXT, c->model.text, c->text_size, 1);
+    const uint8_t *data = t->data;
+    begin_table(w, t->blob, t->count);
+    for (int i = 0; i < t->count; i++)
+        for (const char *field = t->fields; *field != '\0'; field++) {
+            if (strchr("{}", *field) != NULL)
+                continue;
+            const uint64_t number = (uint64_t)record_number(*field, &data);
+            for (int byte = 0; byte < record_size(*field); byte++)
+                buffer_byte(&w->b, number >> 8 * byte & 255);
+        }
+    align(&w->b);
 }
 
 static void set_u32(struct buffer *b, size_t at, uint32_t value)
@@ -271,6 +194,7 @@ static void put_head(struct buffer *b, const smear_model *m)
 bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, struct failure *f)
 {
     struct blob_writer w = { .c = c };
+    struct record_table tables[RECORD_TABLES];
     w.mesh = calloc((size_t)c->model.mesh_count + 1, sizeof *w.mesh);
     w.texels = calloc((size_t)c->texture_count + 1, sizeof *w.texels);
     w.palette = calloc((size_t)c->texture_count + 1, sizeof *w.palette);
@@ -279,9 +203,9 @@ bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, 
         put_head(&w.b, &c->model);
         put_arrays(&w);
         put_surfaces(&w);
-        put_draws(&w);
-        put_morphs(&w);
-        put_clips(&w);
+        record_tables(c, tables);
+        for (int i = 0; i < RECORD_TABLES; i++)
+            put_records(&w, &tables[i]);
         ok = !w.b.failed;
     }
     free(w.mesh);

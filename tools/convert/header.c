@@ -2,6 +2,7 @@
 /* header.c - a conversion as a C header: typed constant arrays and the
  * smear_model that points to them. C99 and C++. */
 #include "tools/convert/build.h"
+#include "tools/convert/records.h"
 
 #include "tools/image/buffer.h"
 
@@ -35,28 +36,19 @@ static void put(struct header_writer *w, const char *format, ...)
 
 /* ------------------------------------------------------------------ numbers */
 
-enum kind { U8, I8, U16, I16, U32 };
-
-static const char *const type_of[] = { "uint8_t", "int8_t", "uint16_t", "int16_t", "uint32_t" };
-
-static void put_number(struct header_writer *w, const void *data, enum kind kind, size_t i)
+static const char *type_of(char letter)
 {
-    switch (kind) {
-    case U8: put(w, "%u", ((const uint8_t *)data)[i]); break;
-    case I8: put(w, "%d", ((const int8_t *)data)[i]); break;
-    case U16: put(w, "%u", ((const uint16_t *)data)[i]); break;
-    case I16: put(w, "%d", ((const int16_t *)data)[i]); break;
-    case U32: put(w, "0x%08" PRIx32 "u", ((const uint32_t *)data)[i]); break;
-    }
+    return letter == 'B' ? "uint8_t" : letter == 'b' ? "int8_t" : letter == 'H' ? "uint16_t" : letter == 'h' ? "int16_t" : "uint32_t";
 }
 
 /* `static const TYPE NAME_what[count] = {...};`, nothing for no numbers. `index` -1: there is only one. */
 static void put_numbers(struct header_writer *w, const char *what, int index, const void *data, size_t count,
-                        enum kind kind)
+                        char letter)
 {
+    const uint8_t *at = data;
     if (data == NULL || count == 0)
         return;
-    put(w, "static const %s %s_%s", type_of[kind], w->name, what);
+    put(w, "static const %s %s_%s", type_of(letter), w->name, what);
     if (index >= 0)
         put(w, "_%d", index);
     put(w, "[%zu] = {", count);
@@ -68,7 +60,8 @@ static void put_numbers(struct header_writer *w, const char *what, int index, co
         } else {
             put(w, ", ");
         }
-        put_number(w, data, kind, i);
+        const int64_t number = record_number(letter, &at);
+        put(w, letter == 'I' ? "0x%08" PRIx64 "u" : "%" PRId64, number);
     }
     put(w, "\n};\n\n");
 }
@@ -115,14 +108,13 @@ static void put_textures(struct header_writer *w)
 {
     static const char *const format[] = { "SMEAR_TEXEL_8888", "SMEAR_TEXEL_565", "SMEAR_TEXEL_PALETTE8" };
     static const char *const wrap[] = { "SMEAR_REPEAT", "SMEAR_CLAMP", "SMEAR_MIRROR" };
-    static const enum kind kind[] = { U32, U16, U8 };
     const struct conversion *c = w->c;
     for (int i = 0; i < c->texture_count; i++) {
         const smear_texture *t = &c->texture[i];
         if (c->same_texels[i] != i)
             continue;
-        put_numbers(w, "texels", i, t->texels, convert_texel_count(t), kind[t->format]);
-        put_numbers(w, "palette", i, t->palette, (size_t)c->palette_count[i], U32);
+        put_numbers(w, "texels", i, t->texels, convert_texel_count(t), "IHB"[t->format]);
+        put_numbers(w, "palette", i, t->palette, (size_t)c->palette_count[i], 'I');
     }
     if (c->texture_count == 0)
         return;
@@ -165,12 +157,12 @@ static void put_meshes(struct header_writer *w)
         size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
         if (mesh_with_arrays(m, i) != i)
             continue;
-        put_numbers(w, "position", i, mesh->position, 3 * vertices, I16);
-        put_numbers(w, "normal", i, mesh->normal, 3 * vertices, I8);
-        put_numbers(w, "uv", i, mesh->uv, 2 * vertices, I16);
-        put_numbers(w, "color", i, mesh->color, 4 * vertices, U8);
-        put_numbers(w, "face_color", i, mesh->face_color, 4 * triangles, U8);
-        put_numbers(w, "index", i, mesh->index, 3 * triangles, U16);
+        put_numbers(w, "position", i, mesh->position, 3 * vertices, 'h');
+        put_numbers(w, "normal", i, mesh->normal, 3 * vertices, 'b');
+        put_numbers(w, "uv", i, mesh->uv, 2 * vertices, 'h');
+        put_numbers(w, "color", i, mesh->color, 4 * vertices, 'B');
+        put_numbers(w, "face_color", i, mesh->face_color, 4 * triangles, 'B');
+        put_numbers(w, "index", i, mesh->index, 3 * triangles, 'H');
     }
     if (m->mesh_count == 0)
         return;
@@ -196,77 +188,6 @@ static void put_meshes(struct header_writer *w)
     close_table(w);
 }
 
-static void put_draws(struct header_writer *w)
-{
-    const struct conversion *c = w->c;
-    if (c->model.draw_count > 0) {
-        open_table(w, "smear_model_draw", "draw", c->model.draw_count);
-        for (int i = 0; i < c->model.draw_count; i++) {
-            const smear_model_draw *d = &c->model.draw[i];
-            put(w, "    { %u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRIu32 " },\n", d->mesh,
-                d->material, d->node, d->skin, d->target_first, d->target_count, d->weight_first,
-                d->transform, d->deformed, d->influences, d->influence_first, d->vertex_first);
-        }
-        close_table(w);
-    }
-    if (c->model.node_count > 0) {
-        open_table(w, "smear_model_node", "node", c->model.node_count);
-        for (int i = 0; i < c->model.node_count; i++) {
-            put(w, "    { %u, %u, { ", c->model.node[i].parent, c->model.node[i].moves);
-            put_words(w, c->model.node[i].rest, 12);
-            put(w, " } },\n");
-        }
-        close_table(w);
-    }
-    if (c->joint_count > 0) {
-        open_table(w, "smear_model_joint", "joint", c->joint_count);
-        for (int i = 0; i < c->joint_count; i++) {
-            put(w, "    { %u, 0, { ", c->model.joint[i].node);
-            put_words(w, c->model.joint[i].basis, 9);
-            put(w, " }, { ");
-            put_words(w, c->model.joint[i].origin, 3);
-            put(w, " } },\n");
-        }
-        close_table(w);
-    }
-    if (c->skin_count > 0) {
-        open_table(w, "smear_model_skin", "skin", c->skin_count);
-        for (int i = 0; i < c->skin_count; i++) {
-            const smear_model_skin *s = &c->model.skin[i];
-            put(w, "    { %u, %u, %" PRId32 ", { ", s->joint_first, s->joint_count, s->steps);
-            put_words(w, s->offset, 3);
-            put(w, " }, %" PRId32 " },\n", s->shift);
-        }
-        close_table(w);
-    }
-    put_numbers(w, "influence", -1, c->model.influence, (size_t)c->influence_count, U8);
-}
-
-static void put_morphs(struct header_writer *w)
-{
-    const struct conversion *c = w->c;
-    if (c->target_count > 0) {
-        open_table(w, "smear_model_target", "target", c->target_count);
-        for (int i = 0; i < c->target_count; i++) {
-            const smear_model_target *t = &c->model.target[i];
-            put(w, "    { %" PRIu32 ", %" PRIu32 ", 0x%" PRIx32 ", %" PRIu32 " },\n", t->delta_first,
-                t->delta_count, t->normal_first, t->shift);
-        }
-        close_table(w);
-    }
-    if (c->delta_count > 0) {
-        open_table(w, "smear_model_delta", "delta", c->delta_count);
-        for (int i = 0; i < c->delta_count; i++) {
-            const smear_model_delta *d = &c->model.delta[i];
-            put(w, "%s{ %u, { %d, %d, %d } },%s", i % 3 == 0 ? "    " : " ", d->vertex, d->step[0],
-                d->step[1], d->step[2], i % 3 == 2 || i + 1 == c->delta_count ? "\n" : "");
-        }
-        close_table(w);
-    }
-    put_numbers(w, "delta_normal", -1, c->model.delta_normal, (size_t)c->delta_normals, I8);
-    put_numbers(w, "weight", -1, c->model.weight, c->model.weight_count, I16);
-}
-
 /* Names as a string of C; each with its 0, the last one has the string's own. */
 static void put_text(struct header_writer *w)
 {
@@ -284,35 +205,66 @@ static void put_text(struct header_writer *w)
     put(w, "\";\n\n");
 }
 
-static void put_clips(struct header_writer *w)
+/* One number of a record. */
+static void put_field(struct header_writer *w, char letter, const uint8_t **data)
 {
-    const struct conversion *c = w->c;
-    if (c->model.clip_count > 0) {
-        open_table(w, "smear_model_clip", "clip", c->model.clip_count);
-        for (int i = 0; i < c->model.clip_count; i++) {
-            const smear_model_clip *clip = &c->model.clip[i];
-            put(w, "    { %" PRIu32 ", %" PRIu32 ", %u, %u, %" PRIu32 " },\n", clip->name, clip->duration,
-                clip->channel_first, clip->channel_count, clip->tick_shift);
+    static const char *const path[] = { "SMEAR_PATH_TRANSLATION", "SMEAR_PATH_ROTATION", "SMEAR_PATH_SCALE", "SMEAR_PATH_WEIGHTS" };
+    const int64_t number = record_number(letter, data);
+    const int32_t word = (int32_t)number;
+    if (letter == 'p')
+        put(w, "%s", path[number]);
+    else if (letter == 'i')
+        put_words(w, &word, 1);
+    else
+        put(w, letter == 'x' ? "0x%" PRIx64 : "%" PRId64, number);
+}
+
+static void put_record(struct header_writer *w, const char *fields, const uint8_t **data)
+{
+    bool is_first = true;
+    put(w, "{ ");
+    for (; *fields != '\0'; fields++) {
+        if (*fields == '}') {
+            put(w, " }");
+            continue;
         }
-        close_table(w);
+        put(w, is_first ? "" : ", ");
+        is_first = *fields == '{';
+        if (is_first)
+            put(w, "{ ");
+        else
+            put_field(w, *fields, data);
     }
-    if (c->channel_count > 0) {
-        static const char *const path[] = { "SMEAR_PATH_TRANSLATION", "SMEAR_PATH_ROTATION",
-                                            "SMEAR_PATH_SCALE", "SMEAR_PATH_WEIGHTS" };
-        open_table(w, "smear_model_channel", "channel", c->channel_count);
-        for (int i = 0; i < c->channel_count; i++) {
-            const smear_model_channel *channel = &c->model.channel[i];
-            put(w, "    { %u, %s, %u, %u, %u, %" PRIu32 ", %" PRIu32 ", { ", channel->target,
-                path[channel->path], channel->step, channel->key_count, channel->width, channel->time_first,
-                channel->value_first);
-            put_words(w, channel->offset, 3);
-            put(w, " }, %" PRId32 ", %" PRId32 " },\n", channel->factor, channel->shift);
-        }
-        close_table(w);
+    put(w, " },");
+}
+
+static void put_records(struct header_writer *w, const struct record_table *t)
+{
+    const uint8_t *data = t->data;
+    if (t->count == 0)
+        return;
+    open_table(w, t->type, t->name, t->count);
+    for (int i = 0; i < t->count; i++) {
+        put(w, i % t->per_line == 0 ? "    " : " ");
+        put_record(w, t->fields, &data);
+        put(w, (i + 1) % t->per_line == 0 || i + 1 == t->count ? "\n" : "");
     }
-    put_numbers(w, "key_time", -1, c->model.key_time, (size_t)c->key_times, U16);
-    put_numbers(w, "key_value", -1, c->model.key_value, (size_t)c->key_values, I16);
-    put_text(w);
+    close_table(w);
+}
+
+static void put_tables(struct header_writer *w)
+{
+    struct record_table tables[RECORD_TABLES];
+    record_tables(w->c, tables);
+    for (int i = 0; i < RECORD_TABLES; i++) {
+        const struct record_table *t = &tables[i];
+        if (t->fields[0] == 'c')
+            put_text(w);
+        else if (t->fields[1] == '\0')
+            put_numbers(w, t->name, -1, t->data, (size_t)t->count, t->fields[0]);
+        else
+            put_records(w, t);
+    }
 }
 
 static void put_model(struct header_writer *w)
@@ -442,9 +394,7 @@ bool convert_to_header(const struct conversion *c, const char *name, const char 
     put_textures(&w);
     put_materials(&w);
     put_meshes(&w);
-    put_draws(&w);
-    put_morphs(&w);
-    put_clips(&w);
+    put_tables(&w);
     put_model(&w);
     put(&w, "#endif\n");
     if (w.b.failed || !ok) {
