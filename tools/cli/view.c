@@ -131,23 +131,7 @@ static const struct option table[] = {
     { NULL },
 };
 
-/* ------------------------------------------------------------------ two kinds of options */
-
-/* The arguments, the board's first, so that what the user says goes before it; parted into those of
- * the table above and those of `render`. */
-struct parted {
-    char **all, **own, **other;
-    int all_count, own_count, other_count;
-};
-
-static const struct option *find_own(const char *text)
-{
-    size_t length = strcspn(text, "=");
-    for (const struct option *o = table; o->name != NULL; o++)
-        if (strlen(o->name) == length && strncmp(o->name, text, length) == 0)
-            return o;
-    return NULL;
-}
+/* ------------------------------------------------------------------ options of a board */
 
 static const char *find_board(int count, char **text)
 {
@@ -193,39 +177,23 @@ static bool goes_with(const char *option, int count, char **text)
     return true;
 }
 
-static bool part(int count, char **text, struct parted *p)
+/* The arguments, the board's before them, so that what the user says goes before it; malloc'ed. */
+static char **with_board(int count, char **text, int *all_count)
 {
     const char *name = find_board(count, text);
     const struct board *board = name != NULL ? board_find(name) : NULL;
-    size_t room = (size_t)count + BOARD_MAX_OPTIONS;
-    bool ended = false;
-    p->all = calloc(3 * room, sizeof *p->all);
-    if (p->all == NULL)
-        return false;
-    p->own = p->all + room;
-    p->other = p->own + room;
+    char **all = calloc((size_t)count + BOARD_MAX_OPTIONS, sizeof *all);
     bool goes = true;
-    for (int i = 0; board != NULL && board->option[i] != NULL; i++) {
+    *all_count = 0;
+    for (int i = 0; all != NULL && board != NULL && board->option[i] != NULL; i++) {
         if (strncmp(board->option[i], "--", 2) == 0)        /* else the value of the one before */
             goes = goes_with(board->option[i], count, text);
         if (goes)
-            p->all[p->all_count++] = (char *)board->option[i];
+            all[(*all_count)++] = (char *)board->option[i];
     }
-    for (int i = 0; i < count; i++)
-        p->all[p->all_count++] = text[i];
-    for (int i = 0; i < p->all_count; i++) {
-        char *t = p->all[i];
-        const struct option *own = ended ? NULL : find_own(t);
-        ended = ended || strcmp(t, "--") == 0;
-        if (own == NULL) {
-            p->other[p->other_count++] = t;
-            continue;
-        }
-        p->own[p->own_count++] = t;
-        if (option_has_value(own) && strchr(t, '=') == NULL && i + 1 < p->all_count)
-            p->own[p->own_count++] = p->all[++i];
-    }
-    return true;
+    for (int i = 0; all != NULL && i < count; i++)
+        all[(*all_count)++] = text[i];
+    return all;
 }
 
 /* ------------------------------------------------------------------ help */
@@ -351,15 +319,20 @@ static int check_files(struct view_options *w)
     return apart_check(w->output, VIEW_OUTPUTS);
 }
 
-static int view(struct parted *p)
+int command_view(int count, char **text)
 {
     static struct view view;            /* large, and one is enough */
     static struct render_options options;
+    struct failure f = { "" };
     bool wants_help;
-    arguments_guess_also(table);
-    int status = arguments_read(p->own_count, p->own, table, &view.wish, NULL, 0, &wants_help);
-    if (status == STATUS_OK)
-        status = options_read_seen(&options, p->other_count, p->other, &wants_help);
+    char **all = with_board(count, text, &count);
+    if (all == NULL) {
+        fail(&f, "out of memory");
+        return say_bad_input("view", &f);
+    }
+    arguments_also(table, &view.wish);
+    int status = options_read_seen(&options, count, all, &wants_help);
+    free(all);
     if (status == STATUS_OK && wants_help)
         return view_help_print();
     if (status == STATUS_OK)
@@ -371,17 +344,4 @@ static int view(struct parted *p)
     if (options.scene == NULL)
         options.scene = default_scene;
     return view_run(&view, &options);
-}
-
-int command_view(int count, char **text)
-{
-    struct parted parted = { 0 };
-    struct failure f = { "" };
-    if (!part(count, text, &parted)) {
-        fail(&f, "out of memory");
-        return say_bad_input("view", &f);
-    }
-    int status = view(&parted);
-    free(parted.all);
-    return status;
 }

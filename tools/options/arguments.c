@@ -23,12 +23,14 @@ static const struct option *find_option(const struct option *table, const char *
     return NULL;
 }
 
-/* Of a command whose options are in two tables: the other one, in which misspelt ones are looked for, too. */
+/* Of a command whose options are in two tables: the one whose names go first. */
 static const struct option *other_table;
+static void *other_options;
 
-void arguments_guess_also(const struct option *table)
+void arguments_also(const struct option *table, void *options)
 {
     other_table = table;
+    other_options = options;
 }
 
 static int say_no_option(const char *text, const struct option *table)
@@ -155,7 +157,10 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
             *wants_help = true;
             return STATUS_OK;
         }
-        const struct option *option = find_option(table, text[i], &value);
+        const struct option *option = other_table != NULL ? find_option(other_table, text[i], &value) : NULL;
+        void *const to = option != NULL ? other_options : options;
+        if (option == NULL)
+            option = find_option(table, text[i], &value);
         if (option == NULL)
             return say_no_option(text[i], table);
         if (!option_has_value(option) && value != NULL)
@@ -165,7 +170,7 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
         if (option_has_value(option) && value == NULL)
             value = text[i];
         near = (struct guess){ NULL };
-        wrong = take_value(option, options, value);
+        wrong = take_value(option, to, value);
         if (wrong != NULL)
             return say_wrong(option->name, wrong, value);
     }

@@ -48,8 +48,8 @@ static inline bool option_has_value(const struct option *option)
 int arguments_read(int count, char **text, const struct option *table, void *options,
                    const char **operand, int operand_limit, bool *wants_help);
 
-/* Options of this table, too, are what a misspelt one may have meant. */
-void arguments_guess_also(const struct option *table);
+/* From now on command lines may have options of this table, too, which go into what `options` points to. */
+void arguments_also(const struct option *table, void *options);
 
 /* The whole text must be one decimal number within low..high (inclusive): no sign but '-', no
  * blanks, no "inf", "nan" or hexadecimal. Integers are digits only. */
