@@ -372,7 +372,7 @@ static const struct spec bench[] = {
 
 static void complete_bench(struct spec *spec)
 {
-    spec->present.texels_565 = spec->present.fit_grid = spec->present.method == SMEAR_NONE;     /* as tools/bench/peers.c */
+    spec->present.texels_565 = spec->present.method == SMEAR_NONE;     /* as tools/bench/peers.c */
     spec->desc.width = 320;
     spec->desc.height = 240;
     spec->desc.format = SMEAR_RGB565;

@@ -156,7 +156,7 @@ static bool same_rig(const struct take *a, const struct take *b)
         && a->target == b->target && a->reach == b->reach && a->filter == b->filter
         && a->camera_step == b->camera_step && a->weights == b->weights
         && memcmp(&a->pingpong, &b->pingpong, sizeof a->pingpong) == 0 && a->shutter_poses == b->shutter_poses
-        && a->workers == b->workers && a->texels_565 == b->texels_565 && a->fit_grid == b->fit_grid
+        && a->workers == b->workers && a->texels_565 == b->texels_565
         && a->linear == b->linear && a->instant_only == b->instant_only && a->later == b->later;
 }
 

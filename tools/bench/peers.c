@@ -3,8 +3,8 @@
  * time per frame, whole and in bands of 16 rows.
  *
  * Same conditions as theirs: frames 0, 2, 4, 6 of 8, RGB565, depth and clears included, set-up
- * excluded. Ours: undithered, textures of the display's format as theirs, meshes on grids that fit
- * them, encoded light (codes in, codes out, as theirs), one worker, 4096
+ * excluded. Ours: undithered, textures of the display's format as theirs,
+ * encoded light (codes in, codes out, as theirs), one worker, 4096
  * vertices in the cache (peers keep all), room for every triangle so that no frame is drawn in
  * parts. "Whole" is one band of the frame's height. The figure beside ours is the best peer that
  * tests depth and, in B and C, corrects perspective. */
@@ -51,7 +51,7 @@ bool peers_take(int index, struct take *out)
     *out = (struct take){
         .scene = name[scene], .frame = frame * FRAME_STEP, .width = size[at][0],
         .height = size[at][1], .band_rows = layout == 0 ? take_whole(size[at][1]) : 16,
-        .format = SMEAR_RGB565, .texels_565 = true, .fit_grid = true, .method = SMEAR_NONE
+        .format = SMEAR_RGB565, .texels_565 = true, .method = SMEAR_NONE
     };
     return true;
 }

@@ -79,7 +79,7 @@ bool rig_seek_time(struct rig *rig, double seconds, struct failure *f)
         .light = t->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED,
         .shutter_poses = t->shutter_poses, .instant_only = t->instant_only,
         .filter = t->filter, .camera_step = t->camera_step, .pingpong = t->pingpong, .weights = t->weights,
-        .texels_565 = t->texels_565, .fit_grid = t->fit_grid, .clear = rig->scene.clear,
+        .texels_565 = t->texels_565, .clear = rig->scene.clear,
         .layer = t->plain ? &plain : NULL, .layer_count = t->plain
     };
     rig->frame = presenter_frame(rig->presenter, seconds, &options, f);

@@ -41,7 +41,6 @@ struct take {
     bool linear;                /* light; else encoded */
     bool instant_only;          /* no other poses: nothing moves */
     bool texels_565;            /* textures as RGB565 */
-    bool fit_grid;              /* meshes on grids that fit them */
     int workers;                /* 0: one */
 };
 

@@ -51,7 +51,6 @@ struct presenter {
     int converted_count, converted_room;
     struct converted *converted;
     struct texture_store texture;
-    bool fits_grids;
     int plan_room;
     struct plan *plan;
     int *converted_of_draw;         /* remembered from the frame before; -1 */
@@ -84,28 +83,6 @@ static int find_converted(const struct presenter *p, const struct scene_surface 
     return -1;
 }
 
-/* The grid that surfaces from `first` on share. */
-static bool choose_grid(const struct presenter *p, int first, const struct bounds *bounds, struct grid *grid,
-                        struct failure *f)
-{
-    size_t count = 0;
-    *grid = bounds->min[0] <= bounds->max[0] ? grid_over(bounds) : (struct grid){ .step = 1.0 };
-    for (int i = first; i < p->converted_count; i++)
-        count += (size_t)p->converted[i].surface->vertex_count * 3;
-    if (!p->fits_grids || count == 0 || count > 1 << 20)
-        return true;
-    double *x = malloc(count * sizeof *x);
-    if (x == NULL)
-        return out_of_memory(f);
-    count = 0;
-    for (int i = first; i < p->converted_count; i++)
-        for (int k = 0; k < p->converted[i].surface->vertex_count * 3; k++)
-            x[count++] = p->converted[i].surface->position[k];
-    *grid = grid_fit(bounds, x, (int)count);
-    free(x);
-    return true;
-}
-
 /* Converts surfaces not seen before. Those of neighbouring draws of one node get one grid. */
 static bool convert_new(struct presenter *p, const struct scene_instant *now, struct failure *f)
 {
@@ -132,9 +109,7 @@ static bool convert_new(struct presenter *p, const struct scene_instant *now, st
                 return fail(f, "a vertex position is not a number (draw %d)", end);
             add_bounds(&bounds, &c->bounds);
         }
-        struct grid grid;
-        if (!choose_grid(p, first_new, &bounds, &grid, f))
-            return false;
+        const struct grid grid = bounds.min[0] <= bounds.max[0] ? grid_over(&bounds) : (struct grid){ .step = 1.0 };
         for (int j = first_new; j < p->converted_count; j++) {
             struct converted *c = &p->converted[j];
             if (c->bounds.min[0] <= c->bounds.max[0])
@@ -713,7 +688,6 @@ const struct presented *presenter_frame(struct presenter *presenter, double time
                                         const struct present_options *options, struct failure *f)
 {
     presenter->texture.narrow = options->texels_565;
-    presenter->fits_grids = options->fit_grid;
     return present(presenter, time, options, f) ? &presenter->out : NULL;
 }
 

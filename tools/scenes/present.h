@@ -49,8 +49,6 @@ struct present_options {
     smear_path path;                /* how poses of frames ago are joined */
     bool instant_only;              /* give no other pose: nothing moves */
     bool cut;                       /* no motion in this frame */
-    bool fit_grid;                  /* positions get the grid that fits them best, which takes a
-                                     * moment; of surfaces that are new in this frame */
     bool texels_565;                /* textures without alpha are handed over as RGB565; of surfaces
                                      * that are new in this frame */
     smear_method method;

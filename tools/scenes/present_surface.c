@@ -103,8 +103,7 @@ void split_step(double step, int32_t *scale, int *shift)
     *shift = 30 - exponent;
 }
 
-/* Steps `coarser` than the finest. */
-static struct grid grid_of(const struct bounds *b, double coarser)
+struct grid grid_over(const struct bounds *b)
 {
     struct grid grid = { .step = 1.0 };
     double half = 0.0, centre[3];
@@ -116,7 +115,7 @@ static struct grid grid_of(const struct bounds *b, double coarser)
     if (half > 0.0) {
         int32_t scale;
         int shift;
-        split_step(half * coarser / POSITION_STEPS, &scale, &shift);
+        split_step(half / POSITION_STEPS, &scale, &shift);
         grid.step = ldexp(scale, -shift);
     }
     for (int axis = 0; axis < 3; axis++)
@@ -128,53 +127,6 @@ static struct grid grid_of(const struct bounds *b, double coarser)
             grid.fold[axis] = centre[axis];
     }
     return grid;
-}
-
-struct grid grid_over(const struct bounds *b)
-{
-    return grid_of(b, 1.0);
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Sum of squares of what rounding to multiples of `step` changes; more than `enough` is not added up. */
-static double rounding_error(const double *x, int count, double step, double enough)
-{
-    double sum = 0.0;
-    for (int i = 0; i < count && sum < enough; i++) {
-        double off = x[i] - step * floor(x[i] / step + 0.5);
-        sum += off * off;
-    }
-    return sum;
-}
-
-/* What people and programs build lies on grids of its own: steps a little coarser may fit it better. */
-struct grid grid_fit(const struct bounds *b, double *x, int count)
-{
-    enum { TRIES = 12000, MOST = 2048 };
-    const double widest = 1.06;
-    double step = grid_over(b).step, best = 1.0;
-    int distinct = 0;
-    qsort(x, (size_t)count, sizeof *x, compare_doubles);
-    for (int i = 0; i < count; i++)
-        if (i == 0 || x[i] > x[distinct - 1])
-            x[distinct++] = x[i];
-    if (distinct > MOST)
-        return grid_over(b);
-    double least = rounding_error(x, distinct, step, INFINITY);
-    for (int i = 1; i <= TRIES; i++) {
-        double coarser = 1.0 + (widest - 1.0) * i / TRIES;
-        double error = rounding_error(x, distinct, step * coarser, least);
-        if (error < least) {
-            least = error;
-            best = coarser;
-        }
-    }
-    return grid_of(b, best);
 }
 
 void quantise_positions(int16_t *out, const float *position, const struct part *part,

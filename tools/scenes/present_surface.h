@@ -61,9 +61,6 @@ void add_bounds(struct bounds *b, const struct bounds *other);
 bool add_positions(struct bounds *b, const float *position, int count);
 
 struct grid grid_over(const struct bounds *b);
-/* The same by the coordinates themselves (finite ones, which are sorted): of steps up to 6 % coarser the one whose multiples
- * they are closest to. */
-struct grid grid_fit(const struct bounds *b, double *coordinates, int count);
 
 /* The mesh's scale for a step: mantissa in [2^29, 2^30] and shift, step = scale / 2^shift. The
  * mantissa is rounded up, so that bounds never grow beyond the range. */
