@@ -224,9 +224,8 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
                       struct chart_verdict *verdict);
 bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 
-/* chart.svg: four planes of means as users get it, which object.svg, camera.svg, field.svg and peer.svg show
- * larger; scenes.svg: each scene for itself. The same with "study-" before it for the study's conditions.
- * Those for which nothing is known are left out. */
+/* chart.svg: four planes of means as users get it; scenes.svg: each scene for itself. The same with "study-" before it for
+ * the study's conditions. Those for which nothing is known are left out. */
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
 
 /* The command `chart`, arguments behind its name. */

@@ -28,7 +28,6 @@ struct panel {
     double mark;                /* size of marks */
     double tick_size;           /* of fonts */
     double name_size;           /* 0: neither names nor labels */
-    bool short_names;
 };
 
 /* Gives some panels one scale, which shows all of their points. */

@@ -37,12 +37,12 @@ enum { PLOTS = sizeof plots / sizeof *plots };
 
 static const struct part {
     enum chart_set set;
-    const char *file, *title;
+    const char *title;
 } parts[] = {
-    { SET_OBJECT, "object", "12 scenes with moving objects" },
-    { SET_CAMERA, "camera", "7 scenes with a moving camera" },
-    { SET_FIELD, "field", "4 frames of the demo, 3 models" },
-    { SET_PEER, "peer", "6 frames that a peer draws, too" },
+    { SET_OBJECT, "12 scenes with moving objects" },
+    { SET_CAMERA, "7 scenes with a moving camera" },
+    { SET_FIELD, "4 frames of the demo, 3 models" },
+    { SET_PEER, "6 frames that a peer draws, too" },
 };
 enum { PARTS = sizeof parts / sizeof *parts };
 
@@ -51,7 +51,7 @@ static struct part shown_part(const struct chart *chart, const struct plot *plot
 {
     struct part part = parts[i];
     if (part.set == SET_FIELD && !chart_mean_of(chart, plot->condition, SET_FIELD, chart_none).known)
-        part = (struct part){ SET_DEMO, part.file, "4 frames of the demo" };
+        part = (struct part){ SET_DEMO, "4 frames of the demo" };
     return part;
 }
 
@@ -78,28 +78,6 @@ static void fill_panel(struct panel *p, const struct chart *chart, const struct 
     }
 }
 
-static bool draw_part(const struct chart *chart, const struct plot *plot, int i, const char *path, struct failure *f)
-{
-    enum { WIDTH = 800, HEIGHT = 660, LEFT = 66, TOP = 84, RIGHT = 18, BOTTOM = 120 };
-    const struct part part = shown_part(chart, plot, i);
-    struct panel p = { .box = { LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM },
-                       .mark = 5.0, .tick_size = 13.0, .name_size = 13.5 };
-    struct svg svg;
-    fill_panel(&p, chart, plot, part.set);
-    if (p.points == 0)
-        return true;
-    chart_panel_fit(&p, 1);
-    if (!svg_begin(&svg, WIDTH, HEIGHT, part.title, f))
-        return false;
-    svg_text(&svg, LEFT, 26, ANCHOR_START, title_font, part.title);
-    svg_text(&svg, LEFT, 48, ANCHOR_START, what_font, plot->what);
-    bool ok = chart_panel_draw(&svg, &p, f);
-    svg_text(&svg, LEFT + p.box.width / 2.0, HEIGHT - BOTTOM + 38, ANCHOR_MIDDLE, axis_font, cost_axis);
-    svg_text_up(&svg, 20, TOP + p.box.height / 2.0, axis_font, error_axis);
-    draw_notes(&svg, LEFT, HEIGHT - 56);
-    return svg_end(&svg, path, f) && ok;
-}
-
 /* All parts on planes of one scale. */
 static bool draw_all_parts(const struct chart *chart, const struct plot *plot, const char *path, struct failure *f)
 {
@@ -114,7 +92,7 @@ static bool draw_all_parts(const struct chart *chart, const struct plot *plot, c
         struct panel *p = &panel[n];
         part[n] = shown_part(chart, plot, i);
         *p = (struct panel){ .box = { LEFT + n % COLUMNS * (PLOT_W + GAP), TOP + n / COLUMNS * STEP, PLOT_W, PLOT_H },
-                             .mark = 4.2, .tick_size = 12.5, .name_size = 13.0, .short_names = true };
+                             .mark = 4.2, .tick_size = 12.5, .name_size = 13.0 };
         fill_panel(p, chart, plot, part[n].set);
         n += p->points > 0;
     }
@@ -208,12 +186,8 @@ bool chart_write_pictures(const struct chart *chart, const char *folder, struct 
     char path[512];
     bool ok = true;
     for (int k = 0; k < PLOTS && ok; k++) {
-        for (int i = 0; i < PARTS && ok; i++) {
-            snprintf(path, sizeof path, "%s/%s%s.svg", folder, plots[k].prefix, parts[i].file);
-            ok = draw_part(chart, &plots[k], i, path, f);
-        }
         snprintf(path, sizeof path, "%s/%schart.svg", folder, plots[k].prefix);
-        ok = ok && draw_all_parts(chart, &plots[k], path, f);
+        ok = draw_all_parts(chart, &plots[k], path, f);
         snprintf(path, sizeof path, "%s/%sscenes.svg", folder, plots[k].prefix);
         ok = ok && draw_scenes(chart, &plots[k], path, f);
     }

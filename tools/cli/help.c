@@ -258,7 +258,7 @@ static const char *const chart_help[] = {
     "models, as it comes (linear light, poses of frames ago, dithered RGB565) and as in studies\n"
     "(encoded light, exact poses): error (RMSE, FLIP, SSIM, flicker against 1024 exact instants),\n"
     "instructions (counted by valgrind) and time, beside a peer's. Writes chart.csv, tables.md and\n"
-    "pictures (chart, object, camera, field, peer and scenes.svg; study-chart.svg, ...) into\n"
+    "pictures (chart.svg, scenes.svg, study-chart.svg, study-scenes.svg) into\n"
     "build/chart and prints means and bars. What is measured is kept until the program changes.\n"
     "Models lie in the folder that SMEAR_ASSETS names; without it they are left out.\n"
     "\n"
