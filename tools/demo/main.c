@@ -7,20 +7,19 @@
  *
  * --readme writes the pictures of the README instead, --enlarge a picture whose pixels are squares of ZOOM x ZOOM. */
 #include "tools/demo/film.h"
-#include "tools/demo/gallery.h"
 #include "tools/demo/layout.h"
 #include "tools/demo/night.h"
 
-#include "tools/options/say.h"
 #include "tools/image/file.h"
+#include "tools/options/say.h"
+#include "tools/options/sink.h"
 #include "tools/scenes/builtin.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 /* ------------------------------------------------------------------ exhibits */
 
@@ -43,7 +42,7 @@ struct exhibit {
     double fps;                 /* of frames; 0: the scene's */
 };
 
-/* A scene and what is shown of it: what one process does at a time. */
+/* A scene and what is shown of it. */
 struct room {
     const char *builtin;        /* demo/..., or */
     bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo */
@@ -95,7 +94,6 @@ static const struct exhibit night[] = {
       .what = "the same as a loop" },
 };
 
-/* The longest first, so that all cores end about together. */
 static const struct room demo_rooms[] = {
     { .builtin = "demo/race", .exhibit = race_film, .count = COUNT_OF(race_film) },
     { .builtin = "demo/race", .exhibit = race, .count = COUNT_OF(race) },
@@ -113,7 +111,7 @@ static const struct room readme_rooms[] = {
 
 /* ------------------------------------------------------------------ making pictures */
 
-enum { SEAM = 2 };              /* pixels between pictures side by side */
+enum { SEAM = 2, MAX_PATH = 4096 };     /* pixels between pictures side by side */
 
 /* The first `count` looks of the same instant. */
 static bool take_looks(struct film *film, double time, int count, struct image *picture,
@@ -176,39 +174,42 @@ static bool make_picture(struct film *film, const struct exhibit *e, double time
     return false;
 }
 
-struct reel {
-    struct film *film;
-    const struct exhibit *exhibit;
-};
-
-static bool make_frame(void *user, int index, struct image *out, struct failure *f)
+static bool write_exhibit(const char *folder, struct film *film, const struct exhibit *e, struct failure *f)
 {
-    const struct reel *reel = user;
-    return make_picture(reel->film, reel->exhibit, index / reel->film->scene->fps, out, f);
+    char path[MAX_PATH];
+    struct sink sink;
+    const double fps = film->scene->fps, time = e->time > 0 ? e->time : film->scene->time;
+    if (snprintf(path, sizeof path, "%s/%s", folder, e->name) >= (int)sizeof path)
+        return fail(f, "the path is too long");
+    if (sink_open(&sink, "demo", path, e->frames, false) != STATUS_OK)
+        return false;
+    sink.fps = fps;
+    bool ok = true;
+    for (int i = 0; ok && i < (e->frames > 0 ? e->frames : 1); i++) {
+        struct image picture;
+        ok = make_picture(film, e, e->frames > 0 ? i / fps : time, &picture, f) && sink_add(&sink, &picture, NULL, i, f);
+        image_free(&picture);
+    }
+    ok = ok && sink_end(&sink, f);
+    sink_cancel(&sink);
+    if (ok)
+        printf("%-34s %s\n", path, e->what);
+    fflush(stdout);
+    return ok;
 }
 
-static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
-                         const struct exhibit *e, struct failure *f)
+static bool make_exhibit(const char *folder, struct scene *scene, const struct exhibit *e, struct failure *f)
 {
     int width = e->width > 0 ? e->width : scene->width;
     int height = e->height > 0 ? e->height : scene->height;
     smear_format format = e->kind == SCREEN ? SMEAR_RGB565
                         : e->kind == OLED   ? SMEAR_L4
                                             : SMEAR_XRGB8888;
-    struct image picture = { .rgba = NULL };
     struct film film;
     const double fps = scene->fps;
     if (e->fps > 0)
         scene->fps = e->fps;
-    bool ok = film_open(&film, scene, width, height, format, f);
-    if (ok && e->frames > 0) {
-        struct reel reel = { .film = &film, .exhibit = e };
-        ok = gallery_show(gallery, e->name, e->what, scene->fps, e->frames, make_frame, &reel, f);
-    } else if (ok) {
-        ok = make_picture(&film, e, e->time > 0 ? e->time : scene->time, &picture, f) &&
-             gallery_hang(gallery, e->name, e->what, &picture, f);
-    }
-    image_free(&picture);
+    bool ok = film_open(&film, scene, width, height, format, f) && write_exhibit(folder, &film, e, f);
     film_close(&film);
     scene->fps = fps;
     return ok;
@@ -217,7 +218,7 @@ static bool make_exhibit(const struct gallery *gallery, struct scene *scene,
 /* ------------------------------------------------------------------ all of them */
 
 /* A status. */
-static int show_room(const struct room *room, const struct gallery *gallery)
+static int show_room(const struct room *room, const char *folder)
 {
     struct scene scene = { .data = NULL };
     struct failure f = { "" };
@@ -226,80 +227,29 @@ static int show_room(const struct room *room, const struct gallery *gallery)
         return say_bad_input("built-in scene", &f);
     for (int i = 0; i < room->count; i++) {
         f = (struct failure){ "" };
-        if (!make_exhibit(gallery, &scene, &room->exhibit[i], &f))
+        if (!make_exhibit(folder, &scene, &room->exhibit[i], &f))
             status = say_bad_input(room->exhibit[i].name, &f);
     }
     scene_free(&scene);
     return status;
 }
 
-/* ------------------------------------------------------------------ on every core */
-
-struct tour {
-    const struct room *room;
-    int count;
-    const struct gallery *gallery;
-};
-
-/* Rooms whose numbers come out of the queue, until it is empty. */
-static int show_from(const struct tour *tour, int queue)
+/* Makes the folder and those above it. */
+static bool make_folders(const char *folder, struct failure *f)
 {
-    unsigned char number;
-    int status = STATUS_OK;
-    for (;;) {
-        ssize_t got = read(queue, &number, 1);
-        if (got < 0 && errno == EINTR)
+    char path[MAX_PATH];
+    struct stat info;
+    const size_t length = strlen(folder);
+    if (length == 0 || length >= sizeof path)
+        return fail(f, "is no name for a folder");
+    for (size_t i = 1; i <= length; i++) {
+        if (folder[i] != '/' && folder[i] != '\0')
             continue;
-        if (got != 1)
-            return status;
-        int result = show_room(&tour->room[number], tour->gallery);
-        if (result != STATUS_OK)
-            status = result;
+        snprintf(path, sizeof path, "%.*s", (int)i, folder);
+        if (mkdir(path, 0777) != 0 && (errno != EEXIST || stat(path, &info) != 0 || !S_ISDIR(info.st_mode)))
+            return fail(f, "cannot be made (%s)", strerror(errno));
     }
-}
-
-static int core_count(void)
-{
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    return cores < 1 ? 1 : cores > 64 ? 64 : (int)cores;
-}
-
-/* A process per core. They take the rooms' numbers from a pipe. */
-static int show_all(const struct tour *tour)
-{
-    int queue[2], helpers = 0, status;
-    if (pipe(queue) != 0) {
-        struct failure f = { "" };
-        fail(&f, "no pipe (%s)", strerror(errno));
-        return say_bad_input("demo", &f);
-    }
-    for (int i = 0; i < tour->count; i++) {
-        unsigned char number = (unsigned char)i;
-        while (write(queue[1], &number, 1) < 0 && errno == EINTR)
-            continue;
-    }
-    close(queue[1]);
-    fflush(stdout);
-    while (helpers < core_count() - 1 && helpers < tour->count - 1) {
-        pid_t process = fork();
-        if (process == 0)
-            _exit(show_from(tour, queue[0]));
-        if (process < 0)
-            break;                      /* the rest have more to do */
-        helpers++;
-    }
-    status = show_from(tour, queue[0]);
-    for (; helpers > 0; helpers--) {
-        int result;
-        while (wait(&result) < 0 && errno == EINTR)
-            continue;
-        if (!WIFEXITED(result))
-            status = STATUS_BAD_INPUT;
-        else if (WEXITSTATUS(result) != STATUS_OK)
-            status = WEXITSTATUS(result);
-    }
-    close(queue[0]);
-    return status;
+    return true;
 }
 
 /* A status. */
@@ -321,7 +271,6 @@ static int enlarge(const char *zoom, const char *from, const char *to)
 
 int main(int argc, char **argv)
 {
-    struct gallery gallery;
     struct failure f = { "" };
     if (argc == 5 && strcmp(argv[1], "--enlarge") == 0)
         return enlarge(argv[2], argv[3], argv[4]);
@@ -330,12 +279,14 @@ int main(int argc, char **argv)
         return say_bad_usage("usage", "smear-demo [--readme] FOLDER");
     const char *folder = argv[argc - 1];
     output_catch_signals();
-    if (!gallery_open(&gallery, folder, &f))
+    if (!make_folders(folder, &f))
         return say_bad_input(folder, &f);
-    const struct tour tour = { .room = is_readme ? readme_rooms : demo_rooms,
-                               .count = is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms),
-                               .gallery = &gallery };
-    int status = show_all(&tour);
+    const struct room *room = is_readme ? readme_rooms : demo_rooms;
+    int status = STATUS_OK;
+    for (int i = 0; i < (is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms)); i++) {
+        const int result = show_room(&room[i], folder);
+        status = result != STATUS_OK ? result : status;
+    }
     printf("pictures in %s\n", folder);
     return status;
 }
