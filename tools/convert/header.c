@@ -7,8 +7,6 @@
 #include "tools/image/buffer.h"
 
 #include <inttypes.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 struct header_writer {
@@ -17,22 +15,6 @@ struct header_writer {
     const char *name;
     char upper[64];
 };
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void put(struct header_writer *w, const char *format, ...)
-{
-    char text[400];
-    va_list args;
-    va_start(args, format);
-    int size = vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    if (size < 0 || (size_t)size >= sizeof text)
-        w->b.failed = true;
-    else
-        buffer_append(&w->b, text, (size_t)size);
-}
 
 /* ------------------------------------------------------------------ numbers */
 
@@ -48,28 +30,28 @@ static void put_numbers(struct header_writer *w, const char *what, int index, co
     const uint8_t *at = data;
     if (data == NULL || count == 0)
         return;
-    put(w, "static const %s %s_%s", type_of(letter), w->name, what);
+    buffer_print(&w->b, "static const %s %s_%s", type_of(letter), w->name, what);
     if (index >= 0)
-        put(w, "_%d", index);
-    put(w, "[%zu] = {", count);
+        buffer_print(&w->b, "_%d", index);
+    buffer_print(&w->b, "[%zu] = {", count);
     size_t line = 0;
     for (size_t i = 0; i < count; i++) {
         if (i == 0 || w->b.size - line > 92) {
-            put(w, i > 0 ? ",\n    " : "\n    ");
+            buffer_print(&w->b, i > 0 ? ",\n    " : "\n    ");
             line = w->b.size - 4;
         } else {
-            put(w, ", ");
+            buffer_print(&w->b, ", ");
         }
         const int64_t number = record_number(letter, &at);
-        put(w, letter == 'I' ? "0x%08" PRIx64 "u" : "%" PRId64, number);
+        buffer_print(&w->b, letter == 'I' ? "0x%08" PRIx64 "u" : "%" PRId64, number);
     }
-    put(w, "\n};\n\n");
+    buffer_print(&w->b, "\n};\n\n");
 }
 
 static void put_words(struct header_writer *w, const int32_t *value, int count)
 {
     for (int i = 0; i < count; i++)
-        put(w, value[i] == INT32_MIN ? "%s(-2147483647 - 1)" : "%s%" PRId32, i > 0 ? ", " : "", value[i]);
+        buffer_print(&w->b, value[i] == INT32_MIN ? "%s(-2147483647 - 1)" : "%s%" PRId32, i > 0 ? ", " : "", value[i]);
 }
 
 /* A pointer member: `NAME_what_index`, or 0 where there is nothing; then `after`. */
@@ -77,21 +59,21 @@ static void put_pointer(struct header_writer *w, const char *what, int index, bo
                         const char *after)
 {
     if (!is_there)
-        put(w, "0%s", after);
+        buffer_print(&w->b, "0%s", after);
     else if (index >= 0)
-        put(w, "%s_%s_%d%s", w->name, what, index, after);
+        buffer_print(&w->b, "%s_%s_%d%s", w->name, what, index, after);
     else
-        put(w, "%s_%s%s", w->name, what, after);
+        buffer_print(&w->b, "%s_%s%s", w->name, what, after);
 }
 
 static void open_table(struct header_writer *w, const char *type, const char *what, int count)
 {
-    put(w, "static const %s %s_%s[%d] = {\n", type, w->name, what, count);
+    buffer_print(&w->b, "static const %s %s_%s[%d] = {\n", type, w->name, what, count);
 }
 
 static void close_table(struct header_writer *w)
 {
-    put(w, "};\n\n");
+    buffer_print(&w->b, "};\n\n");
 }
 
 /* ------------------------------------------------------------------ tables */
@@ -121,11 +103,11 @@ static void put_textures(struct header_writer *w)
     open_table(w, "smear_texture", "texture", c->texture_count);
     for (int i = 0; i < c->texture_count; i++) {
         const smear_texture *t = &c->texture[i];
-        put(w, "    { ");
+        buffer_print(&w->b, "    { ");
         put_pointer(w, "texels", c->same_texels[i], true, ", ");
         put_pointer(w, "palette", c->same_texels[i], t->palette != NULL, ", ");
-        put(w, "%u, %u, %s, %s, %s, %u },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v],
-            t->levels);
+        buffer_print(&w->b, "%u, %u, %s, %s, %s, %u },\n", t->width, t->height, format[t->format], wrap[t->wrap_u], wrap[t->wrap_v],
+                     t->levels);
     }
     close_table(w);
 }
@@ -140,11 +122,11 @@ static void put_materials(struct header_writer *w)
     for (int i = 0; i < c->model.material_count; i++) {
         const smear_material *m = &c->model.material[i];
         if (m->texture != NULL)
-            put(w, "    { &%s_texture[%d], ", w->name, (int)(m->texture - c->texture));
+            buffer_print(&w->b, "    { &%s_texture[%d], ", w->name, (int)(m->texture - c->texture));
         else
-            put(w, "    { 0, ");
-        put(w, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2],
-            m->color[3], alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
+            buffer_print(&w->b, "    { 0, ");
+        buffer_print(&w->b, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2],
+                     m->color[3], alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
     }
     close_table(w);
 }
@@ -170,20 +152,20 @@ static void put_meshes(struct header_writer *w)
     for (int i = 0; i < m->mesh_count; i++) {
         const smear_mesh *mesh = &m->mesh[i];
         int arrays = mesh_with_arrays(m, i);
-        put(w, "    { ");
+        buffer_print(&w->b, "    { ");
         put_pointer(w, "position", arrays, true, ", ");
         put_pointer(w, "normal", arrays, mesh->normal != NULL, ", ");
         put_pointer(w, "uv", arrays, mesh->uv != NULL, ", ");
         put_pointer(w, "color", arrays, mesh->color != NULL, ", ");
         put_pointer(w, "face_color", arrays, mesh->face_color != NULL, ", ");
         put_pointer(w, "index", arrays, true, ",\n      ");
-        put(w, "%" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
-            mesh->shift, mesh->uv_shift, mesh->scale);
+        buffer_print(&w->b, "%" PRIu32 ", %u, %d, %u, %" PRId32 ", { ", mesh->triangle_count, mesh->vertex_count,
+                     mesh->shift, mesh->uv_shift, mesh->scale);
         put_words(w, mesh->offset, 3);
         smear_mesh bounded = *mesh;
         smear_mesh_find_bounds(&bounded);
         const int16_t *b = bounded.bounds;
-        put(w, " }, { %d, %d, %d, %d, %d, %d } },\n", b[0], b[1], b[2], b[3], b[4], b[5]);
+        buffer_print(&w->b, " }, { %d, %d, %d, %d, %d, %d } },\n", b[0], b[1], b[2], b[3], b[4], b[5]);
     }
     close_table(w);
 }
@@ -194,15 +176,15 @@ static void put_text(struct header_writer *w)
     const struct conversion *c = w->c;
     if (c->text_size == 0)
         return;
-    put(w, "static const char %s_text[] =\n    \"", w->name);
+    buffer_print(&w->b, "static const char %s_text[] =\n    \"", w->name);
     for (int i = 0; i + 1 < c->text_size; i++) {
         unsigned letter = (unsigned char)c->model.text[i];
         bool plain = letter >= 32 && letter < 127 && strchr("\\\"?", (int)letter) == NULL;
-        put(w, plain ? "%c" : "\\%03o", letter);
+        buffer_print(&w->b, plain ? "%c" : "\\%03o", letter);
         if (letter == 0)
-            put(w, "\"\n    \"");
+            buffer_print(&w->b, "\"\n    \"");
     }
-    put(w, "\";\n\n");
+    buffer_print(&w->b, "\";\n\n");
 }
 
 /* One number of a record. */
@@ -212,30 +194,30 @@ static void put_field(struct header_writer *w, char letter, const uint8_t **data
     const int64_t number = record_number(letter, data);
     const int32_t word = (int32_t)number;
     if (letter == 'p')
-        put(w, "%s", path[number]);
+        buffer_print(&w->b, "%s", path[number]);
     else if (letter == 'i')
         put_words(w, &word, 1);
     else
-        put(w, letter == 'x' ? "0x%" PRIx64 : "%" PRId64, number);
+        buffer_print(&w->b, letter == 'x' ? "0x%" PRIx64 : "%" PRId64, number);
 }
 
 static void put_record(struct header_writer *w, const char *fields, const uint8_t **data)
 {
     bool is_first = true;
-    put(w, "{ ");
+    buffer_print(&w->b, "{ ");
     for (; *fields != '\0'; fields++) {
         if (*fields == '}') {
-            put(w, " }");
+            buffer_print(&w->b, " }");
             continue;
         }
-        put(w, is_first ? "" : ", ");
+        buffer_print(&w->b, is_first ? "" : ", ");
         is_first = *fields == '{';
         if (is_first)
-            put(w, "{ ");
+            buffer_print(&w->b, "{ ");
         else
             put_field(w, *fields, data);
     }
-    put(w, " },");
+    buffer_print(&w->b, " },");
 }
 
 static void put_records(struct header_writer *w, const struct record_table *t)
@@ -245,9 +227,9 @@ static void put_records(struct header_writer *w, const struct record_table *t)
         return;
     open_table(w, t->type, t->name, t->count);
     for (int i = 0; i < t->count; i++) {
-        put(w, i % t->per_line == 0 ? "    " : " ");
+        buffer_print(&w->b, i % t->per_line == 0 ? "    " : " ");
         put_record(w, t->fields, &data);
-        put(w, (i + 1) % t->per_line == 0 || i + 1 == t->count ? "\n" : "");
+        buffer_print(&w->b, (i + 1) % t->per_line == 0 || i + 1 == t->count ? "\n" : "");
     }
     close_table(w);
 }
@@ -271,7 +253,7 @@ static void put_model(struct header_writer *w)
 {
     const struct conversion *c = w->c;
     const smear_model *m = &c->model;
-    put(w, "static const smear_model %s_model = {\n    ", w->name);
+    buffer_print(&w->b, "static const smear_model %s_model = {\n    ", w->name);
     put_pointer(w, "mesh", -1, m->mesh_count > 0, ", ");
     put_pointer(w, "material", -1, m->material_count > 0, ", ");
     put_pointer(w, "draw", -1, m->draw_count > 0, ", ");
@@ -288,11 +270,11 @@ static void put_model(struct header_writer *w)
     put_pointer(w, "key_time", -1, c->key_times > 0, ", ");
     put_pointer(w, "key_value", -1, c->key_values > 0, ", ");
     put_pointer(w, "text", -1, c->text_size > 0, ",\n    ");
-    put(w, "%u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRId32 ",\n    { ", m->mesh_count,
-        m->material_count, m->draw_count, m->node_count, m->clip_count, m->weight_count, m->transform_count,
-        m->deformed_count, m->joint_count, m->normals, m->deformed_vertices, m->unit_shift);
+    buffer_print(&w->b, "%u, %u, %u, %u, %u, %u, %u, %u, %u, %u, %" PRIu32 ", %" PRId32 ",\n    { ", m->mesh_count,
+                 m->material_count, m->draw_count, m->node_count, m->clip_count, m->weight_count, m->transform_count,
+                 m->deformed_count, m->joint_count, m->normals, m->deformed_vertices, m->unit_shift);
     put_words(w, m->center, 3);
-    put(w, " }, %" PRId32 "\n};\n\n", m->radius);
+    buffer_print(&w->b, " }, %" PRId32 "\n};\n\n", m->radius);
 }
 
 /* ------------------------------------------------------------------ names */
@@ -332,11 +314,11 @@ static void put_constants(struct header_writer *w, const char *kind, const char 
             repeats = same_capitals(text[i], text[k]);
         if (text[i][0] == '\0' && strcmp(kind, "NODE") == 0)
             continue;
-        put(w, "#define %s_%s_", w->upper, kind);
+        buffer_print(&w->b, "#define %s_%s_", w->upper, kind);
         put_capitals(w, text[i]);
         if (repeats)
-            put(w, text[i][0] == '\0' ? "%d" : "_%d", i);
-        put(w, " %d\n", i);
+            buffer_print(&w->b, text[i][0] == '\0' ? "%d" : "_%d", i);
+        buffer_print(&w->b, " %d\n", i);
     }
 }
 
@@ -356,26 +338,26 @@ static bool put_clip_constants(struct header_writer *w)
 static void put_top(struct header_writer *w, const char *from)
 {
     const smear_model *m = &w->c->model;
-    put(w, "/* %s.h - ", w->name);
+    buffer_print(&w->b, "/* %s.h - ", w->name);
     for (; *from != '\0'; from++)           /* nothing that ends the comment */
         buffer_byte(&w->b, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
-    put(w, " for smear, written by smear convert.\n *\n"
+    buffer_print(&w->b, " for smear, written by smear convert.\n *\n"
            " * %d triangles, %d vertices, %u draws, %d textures, %u nodes, %u clips: "
            "%zu bytes of constant data.\n"
            " * Include it in one source file. */\n", w->c->triangles, w->c->vertices, m->draw_count,
-        w->c->texture_count, m->node_count, m->clip_count,
-        w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
-    put(w, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
+                 w->c->texture_count, m->node_count, m->clip_count,
+                 w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
+    buffer_print(&w->b, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
            "#if SMEAR_MODEL_FORMAT != %d\n"
            "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
-        w->upper, w->upper, SMEAR_MODEL_FORMAT);
-    put(w, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper,
-        m->draw_count);
-    put(w,
+                 w->upper, w->upper, SMEAR_MODEL_FORMAT);
+    buffer_print(&w->b, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper,
+                 m->draw_count);
+    buffer_print(&w->b,
         "#define %s_ACTOR_BYTES(poses) \\\n    SMEAR_ACTOR_MEMORY(%u, %u, %u, %u, %u, %" PRIu32
         ", %u, (poses))\n\n",
-        w->upper, m->node_count, m->joint_count, m->weight_count, m->transform_count, m->deformed_count,
-        m->deformed_vertices, m->normals);
+                 w->upper, m->node_count, m->joint_count, m->weight_count, m->transform_count, m->deformed_count,
+                 m->deformed_vertices, m->normals);
 }
 
 bool convert_to_header(const struct conversion *c, const char *name, const char *from, uint8_t **bytes,
@@ -390,13 +372,13 @@ bool convert_to_header(const struct conversion *c, const char *name, const char 
     put_top(&w, from);
     bool ok = put_clip_constants(&w);
     put_constants(&w, "NODE", c->node_name, c->model.node_count);
-    put(&w, "\n");
+    buffer_print(&w.b, "\n");
     put_textures(&w);
     put_materials(&w);
     put_meshes(&w);
     put_tables(&w);
     put_model(&w);
-    put(&w, "#endif\n");
+    buffer_print(&w.b, "#endif\n");
     if (w.b.failed || !ok) {
         buffer_free(&w.b);
         return fail(f, "out of memory");

@@ -19,19 +19,6 @@ struct sprite {
     struct buffer pixels, text;
 };
 
-static void put(struct buffer *out, const char *format, ...)
-{
-    char text[300];
-    va_list args;
-    va_start(args, format);
-    const int size = vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    if (size < 0 || (size_t)size >= sizeof text)
-        out->failed = true;
-    else
-        buffer_append(out, text, (size_t)size);
-}
-
 /* ------------------------------------------------------------------ pixels */
 
 static const uint8_t *pixel_at(const struct sprite *s, int cell, int x, int y)
@@ -126,38 +113,38 @@ static void pack(struct sprite *s, bool by_alpha)
 
 static void put_pixels(struct sprite *s, const char *name)
 {
-    put(&s->text, "static const uint8_t %s_pixels[%zu] = {", name, s->pixels.size);
+    buffer_print(&s->text, "static const uint8_t %s_pixels[%zu] = {", name, s->pixels.size);
     for (size_t i = 0; i < s->pixels.size; i++)
-        put(&s->text, "%s0x%02x%s", i % 16 == 0 ? "\n    " : " ", s->pixels.data[i], i + 1 < s->pixels.size ? "," : "\n};\n\n");
+        buffer_print(&s->text, "%s0x%02x%s", i % 16 == 0 ? "\n    " : " ", s->pixels.data[i], i + 1 < s->pixels.size ? "," : "\n};\n\n");
     if (s->color_count == 0)
         return;
     const int size = s->format == SMEAR_IMAGE_PALETTE4 ? 16 : COLORS;
-    put(&s->text, "static const uint32_t %s_palette[%d] = {", name, size);
+    buffer_print(&s->text, "static const uint32_t %s_palette[%d] = {", name, size);
     for (int i = 0; i < s->color_count; i++)
-        put(&s->text, "%s0x%08" PRIx32 "u%s", i % 8 == 0 ? "\n    " : " ", s->color[i], i + 1 < s->color_count ? "," : "\n};\n\n");
+        buffer_print(&s->text, "%s0x%08" PRIx32 "u%s", i % 8 == 0 ? "\n    " : " ", s->color[i], i + 1 < s->color_count ? "," : "\n};\n\n");
 }
 
 static void put_header(struct sprite *s, const char *name, const char *from, const struct sprite_report *r)
 {
     static const char *const formats[] = { "MASK1", "MASK4", "PALETTE4", "PALETTE8" };
     struct buffer *out = &s->text;
-    put(out, "/* %s.h - ", name);
+    buffer_print(out, "/* %s.h - ", name);
     for (; *from != '\0'; from++)           /* nothing that ends the comment */
         buffer_byte(out, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
-    put(out, " for smear, written by smear convert: %d of %dx%d pixels, %zu bytes.\n * Include it in one source file. */\n",
-        r->cells, r->width, r->height, r->bytes);
-    put(out, "#include <smear_overlay.h>\n\n");
+    buffer_print(out, " for smear, written by smear convert: %d of %dx%d pixels, %zu bytes.\n * Include it in one source file. */\n",
+                 r->cells, r->width, r->height, r->bytes);
+    buffer_print(out, "#include <smear_overlay.h>\n\n");
     put_pixels(s, name);
-    put(out, "static const %s %s = {\n    ", s->options->font ? "smear_font" : "smear_image", name);
-    put(out, "%s%s_pixels, ", s->options->font ? "{ " : "", name);
+    buffer_print(out, "static const %s %s = {\n    ", s->options->font ? "smear_font" : "smear_image", name);
+    buffer_print(out, "%s%s_pixels, ", s->options->font ? "{ " : "", name);
     if (s->color_count != 0)
-        put(out, "%s_palette", name);
+        buffer_print(out, "%s_palette", name);
     else
-        put(out, "(const uint32_t *)0");
-    put(out, ", %d, %d, %d, SMEAR_IMAGE_%s", s->width, s->height, s->cells, formats[s->format]);
+        buffer_print(out, "(const uint32_t *)0");
+    buffer_print(out, ", %d, %d, %d, SMEAR_IMAGE_%s", s->width, s->height, s->cells, formats[s->format]);
     if (s->options->font)
-        put(out, " }, %d, 0", s->options->first);
-    put(out, "\n};\n");
+        buffer_print(out, " }, %d, 0", s->options->first);
+    buffer_print(out, "\n};\n");
 }
 
 bool sprite_to_header(const struct image *image, const struct sprite_options *options, const char *name, const char *from,

@@ -6,9 +6,11 @@
 #ifndef SMEAR_TOOLS_IMAGE_BUFFER_H
 #define SMEAR_TOOLS_IMAGE_BUFFER_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,6 +73,23 @@ static inline void buffer_be32(struct buffer *b, uint32_t value)
 {
     for (int shift = 24; shift >= 0; shift -= 8)
         buffer_byte(b, value >> shift & 255);
+}
+
+/* Text in printf style, of 400 bytes at most. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static inline void buffer_print(struct buffer *b, const char *format, ...)
+{
+    char text[400];
+    va_list args;
+    va_start(args, format);
+    const int size = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (size < 0 || (size_t)size >= sizeof text)
+        b->failed = true;
+    else
+        buffer_append(b, text, (size_t)size);
 }
 
 #endif

@@ -6,17 +6,13 @@
  * its cameras, a draw's text its mesh, a mesh's text its arrays. */
 #include "tools/scenes/tape.h"
 
+#include "tools/image/buffer.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LINE_WIDTH = 96 };
-
-struct text {
-    char *at;
-    size_t length, room;
-    bool failed;
-};
 
 /* One object: `static const TYPE oN = VALUE;` */
 struct object {
@@ -35,64 +31,26 @@ struct tape_writer {
     bool is_open;
     char name[64];
     int desc, frame_count, crc_count;
-    struct text frames, crcs;
+    struct buffer frames, crcs;
     /* the tapes written */
     int tape_count;
-    struct text list;
+    struct buffer list;
 };
 
 /* ------------------------------------------------------------------ text */
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void add(struct text *text, const char *format, ...)
-{
-    char piece[256];
-    va_list args;
-    va_start(args, format);
-    int length = vsnprintf(piece, sizeof piece, format, args);
-    va_end(args);
-    if (length < 0 || (size_t)length >= sizeof piece || text->failed) {
-        text->failed = true;
-        return;
-    }
-    size_t want = text->length + (size_t)length + 1;
-    if (want > text->room) {
-        size_t room = text->room < 256 ? 256 : text->room;
-        while (room < want)
-            room *= 2;
-        char *grown = realloc(text->at, room);
-        if (grown == NULL) {
-            text->failed = true;
-            return;
-        }
-        text->at = grown;
-        text->room = room;
-    }
-    memcpy(text->at + text->length, piece, (size_t)length + 1);
-    text->length += (size_t)length;
-}
-
-static void append(struct text *to, const char *line)
-{
-    size_t length = strlen(line);
-    for (size_t done = 0; done < length; done += 200)
-        add(to, "%.200s", line + done);
-}
-
 /* Adds an element of an array, breaking lines at LINE_WIDTH. */
-static void add_element(struct text *text, const char *element)
+static void add_element(struct buffer *text, const char *element)
 {
     size_t line = 0;
-    while (line < text->length && text->at[text->length - 1 - line] != '\n')
+    while (line < text->size && text->data[text->size - 1 - line] != '\n')
         line++;
     if (line + strlen(element) > LINE_WIDTH)
-        add(text, "\n    ");
-    add(text, "%s", element);
+        buffer_print(text, "\n    ");
+    buffer_print(text, "%s", element);
 }
 
-static void add_number(struct text *text, int64_t value)
+static void add_number(struct buffer *text, int64_t value)
 {
     char element[32];
     /* INT32_MIN has no literal of its own type */
@@ -138,35 +96,36 @@ static bool more_buckets(struct tape_writer *w)
 }
 
 /* The object with this text, new or known; takes the text. -1 when out of memory. */
-static int object(struct tape_writer *w, const char *type, bool is_array, struct text *value)
+static int object(struct tape_writer *w, const char *type, bool is_array, struct buffer *value)
 {
     int found = -1;
-    if (value->failed || value->at == NULL ||
-        (w->object_count * 2 >= w->bucket_count && !more_buckets(w))) {
-        free(value->at);
+    buffer_byte(value, '\0');
+    char *const text = (char *)value->data;
+    if (value->failed || (w->object_count * 2 >= w->bucket_count && !more_buckets(w))) {
+        free(text);
         return -1;
     }
-    uint32_t hash = hash_of(type, value->at), mask = (uint32_t)w->bucket_count - 1;
+    uint32_t hash = hash_of(type, text), mask = (uint32_t)w->bucket_count - 1;
     for (uint32_t at = hash & mask; w->bucket[at] >= 0 && found < 0; at = (at + 1) & mask) {
         const struct object *o = &w->object[w->bucket[at]];
-        if (o->hash == hash && strcmp(o->type, type) == 0 && strcmp(o->value, value->at) == 0)
+        if (o->hash == hash && strcmp(o->type, type) == 0 && strcmp(o->value, text) == 0)
             found = w->bucket[at];
     }
     if (found >= 0) {
-        free(value->at);
+        free(text);
         return found;
     }
     if (w->object_count == w->object_room) {
         int room = w->object_room == 0 ? 256 : w->object_room * 2;
         struct object *grown = realloc(w->object, (size_t)room * sizeof *grown);
         if (grown == NULL) {
-            free(value->at);
+            free(text);
             return -1;
         }
         w->object = grown;
         w->object_room = room;
     }
-    w->object[w->object_count] = (struct object){ type, is_array, hash, value->at };
+    w->object[w->object_count] = (struct object){ type, is_array, hash, text };
     put_bucket(w, w->object_count);
     return w->object_count++;
 }
@@ -174,20 +133,20 @@ static int object(struct tape_writer *w, const char *type, bool is_array, struct
 /* `.name = &oN, ` (`oN` for arrays); nothing for a null pointer. -1 stands for out of memory. */
 enum { NO_OBJECT = -2 };
 
-static void add_reference(struct text *text, const struct tape_writer *w, const char *name,
+static void add_reference(struct buffer *text, const struct tape_writer *w, const char *name,
                           int object_index)
 {
     if (object_index == -1)
         text->failed = true;
     if (object_index < 0)
         return;
-    add(text, ".%s = %so%d, ", name, w->object[object_index].is_array ? "" : "&", object_index);
+    buffer_print(text, ".%s = %so%d, ", name, w->object[object_index].is_array ? "" : "&", object_index);
 }
 
-static void add_field(struct text *text, const char *name, int64_t value)
+static void add_field(struct buffer *text, const char *name, int64_t value)
 {
     if (value != 0)
-        add(text, ".%s = %" PRId64 ", ", name, value);
+        buffer_print(text, ".%s = %" PRId64 ", ", name, value);
 }
 
 enum element { INT8, UINT8, INT16, UINT16, UINT32 };
@@ -195,10 +154,10 @@ enum element { INT8, UINT8, INT16, UINT16, UINT32 };
 static int array(struct tape_writer *w, enum element kind, const void *data, size_t count)
 {
     static const char *const type[] = { "int8_t", "uint8_t", "int16_t", "uint16_t", "uint32_t" };
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (data == NULL)
         return NO_OBJECT;
-    add(&text, "{\n    ");
+    buffer_print(&text, "{\n    ");
     for (size_t i = 0; i < count; i++) {
         char element[16];
         switch (kind) {
@@ -212,50 +171,50 @@ static int array(struct tape_writer *w, enum element kind, const void *data, siz
             break;
         }
     }
-    add(&text, "\n}");
+    buffer_print(&text, "\n}");
     return object(w, type[kind], true, &text);
 }
 
-static void add_int32s(struct text *text, const char *name, const int32_t *value, int count)
+static void add_int32s(struct buffer *text, const char *name, const int32_t *value, int count)
 {
-    add(text, ".%s = { ", name);
+    buffer_print(text, ".%s = { ", name);
     for (int i = 0; i < count; i++)
         add_number(text, value[i]);
-    add(text, " }, ");
+    buffer_print(text, " }, ");
 }
 
 static int transform(struct tape_writer *w, const smear_transform *t)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (t == NULL)
         return NO_OBJECT;
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_int32s(&text, "basis", t->basis, 9);
     add_int32s(&text, "origin", t->origin, 3);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_transform", false, &text);
 }
 
 static int camera(struct tape_writer *w, const smear_camera *c)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (c == NULL)
         return NO_OBJECT;
-    add(&text, "{ .pose = { ");
+    buffer_print(&text, "{ .pose = { ");
     add_int32s(&text, "basis", c->pose.basis, 9);
     add_int32s(&text, "origin", c->pose.origin, 3);
-    add(&text, "},\n    ");
+    buffer_print(&text, "},\n    ");
     add_field(&text, "focal", c->focal);
     add_field(&text, "half_height", c->half_height);
     add_field(&text, "near_plane", c->near_plane);
     add_field(&text, "far_plane", c->far_plane);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_camera", false, &text);
 }
 
 static int texture(struct tape_writer *w, const smear_texture *t)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (t == NULL)
         return NO_OBJECT;
     size_t count = (size_t)t->width * t->height;
@@ -264,7 +223,7 @@ static int texture(struct tape_writer *w, const smear_texture *t)
                                                       : UINT8;
     int texels = array(w, kind, t->texels, count);
     int palette = t->format == SMEAR_TEXEL_PALETTE8 ? array(w, UINT32, t->palette, 256) : NO_OBJECT;
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_reference(&text, w, "texels", texels);
     add_reference(&text, w, "palette", palette);
     add_field(&text, "width", t->width);
@@ -272,31 +231,31 @@ static int texture(struct tape_writer *w, const smear_texture *t)
     add_field(&text, "format", t->format);
     add_field(&text, "wrap_u", t->wrap_u);
     add_field(&text, "wrap_v", t->wrap_v);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_texture", false, &text);
 }
 
 static int material(struct tape_writer *w, const smear_material *m)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (m == NULL)
         return NO_OBJECT;
     int image = texture(w, m->texture);
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_reference(&text, w, "texture", image);
-    add(&text, ".color = { %d, %d, %d, %d }, ", m->color[0], m->color[1], m->color[2], m->color[3]);
+    buffer_print(&text, ".color = { %d, %d, %d, %d }, ", m->color[0], m->color[1], m->color[2], m->color[3]);
     add_field(&text, "alpha", m->alpha);
     add_field(&text, "cutoff", m->cutoff);
     add_field(&text, "unlit", m->unlit);
     add_field(&text, "double_sided", m->double_sided);
     add_field(&text, "bilinear", m->bilinear);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_material", false, &text);
 }
 
 static int mesh(struct tape_writer *w, const smear_mesh *m)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     size_t vertices = m->vertex_count, triangles = m->triangle_count;
     int position = array(w, INT16, m->position, vertices * 3);
     int normal = array(w, INT8, m->normal, vertices * 3);
@@ -304,14 +263,14 @@ static int mesh(struct tape_writer *w, const smear_mesh *m)
     int color = array(w, UINT8, m->color, vertices * 4);
     int face_color = array(w, UINT8, m->face_color, triangles * 4);
     int index = array(w, UINT16, m->index, triangles * 3);
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_reference(&text, w, "position", position);
     add_reference(&text, w, "normal", normal);
     add_reference(&text, w, "uv", uv);
     add_reference(&text, w, "color", color);
     add_reference(&text, w, "face_color", face_color);
     add_reference(&text, w, "index", index);
-    add(&text, "\n    ");
+    buffer_print(&text, "\n    ");
     add_field(&text, "triangle_count", m->triangle_count);
     add_field(&text, "vertex_count", m->vertex_count);
     add_field(&text, "shift", m->shift);
@@ -325,19 +284,19 @@ static int mesh(struct tape_writer *w, const smear_mesh *m)
     for (int i = 0; i < 6; i++)
         bounds[i] = bounded.bounds[i];
     add_int32s(&text, "bounds", bounds, 6);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_mesh", false, &text);
 }
 
 /* An element of the array of draws. */
-static void add_draw(struct text *text, struct tape_writer *w, const smear_draw *d)
+static void add_draw(struct buffer *text, struct tape_writer *w, const smear_draw *d)
 {
     size_t coordinates = (size_t)d->mesh->vertex_count * 3;
     int mesh_object = mesh(w, d->mesh), material_object = material(w, d->material);
     int now = transform(w, d->now), open = transform(w, d->open), close = transform(w, d->close);
     int open_position = array(w, INT16, d->open_position, coordinates);
     int close_position = array(w, INT16, d->close_position, coordinates);
-    add(text, "    { ");
+    buffer_print(text, "    { ");
     add_field(text, "id", d->id);
     add_reference(text, w, "mesh", mesh_object);
     add_reference(text, w, "material", material_object);
@@ -353,37 +312,37 @@ static void add_draw(struct text *text, struct tape_writer *w, const smear_draw 
     add_field(text, "open_count", d->open_count);
     add_field(text, "close_count", d->close_count);
     add_field(text, "layers", d->layers);
-    add(text, "},\n");
+    buffer_print(text, "},\n");
 }
 
 /* Of layers without cameras. */
 static int layers(struct tape_writer *w, const smear_layer *layer, int count)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     if (layer == NULL)
         return NO_OBJECT;
-    add(&text, "{");
+    buffer_print(&text, "{");
     for (int i = 0; i < count; i++) {
-        add(&text, "{ ");
+        buffer_print(&text, "{ ");
         add_field(&text, "mask", layer[i].mask);
         add_field(&text, "method", layer[i].method);
         add_field(&text, "over", layer[i].over);
         add_field(&text, "two_camera", layer[i].two_camera);
         add_field(&text, "shutter_degrees", layer[i].shutter_degrees);
-        add(&text, "}, ");
+        buffer_print(&text, "}, ");
     }
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_layer", true, &text);
 }
 
 static int frame_object(struct tape_writer *w, const smear_frame *frame)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     int now = camera(w, frame->camera), open = camera(w, frame->open);
     int close = camera(w, frame->close);
     int curve = array(w, UINT8, frame->shutter.curve, SMEAR_SHUTTER_POINTS);
     int layer = layers(w, frame->layer, frame->layer_count);
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_reference(&text, w, "camera", now);
     add_reference(&text, w, "open", open);
     add_reference(&text, w, "close", close);
@@ -417,16 +376,16 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_field(&text, "scale.object", frame->scale.object);
     add_reference(&text, w, "layer", layer);
     add_field(&text, "layer_count", frame->layer_count);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_frame", false, &text);
 }
 
 static int desc_object(struct tape_writer *w, const smear_desc *given)
 {
-    struct text text = { 0 };
+    struct buffer text = { 0 };
     smear_desc d = *given;
     present_tiles(&d);
-    add(&text, "{ ");
+    buffer_print(&text, "{ ");
     add_field(&text, "width", d.width);
     add_field(&text, "height", d.height);
     add_field(&text, "max_triangles", d.max_triangles);
@@ -444,7 +403,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *given)
     add_field(&text, "filter.scatter", d.filter.scatter);
     add_field(&text, "display.dither", d.display.dither);
     add_field(&text, "debug.crc", d.debug.crc);
-    add(&text, "}");
+    buffer_print(&text, "}");
     return object(w, "smear_desc", false, &text);
 }
 
@@ -458,30 +417,30 @@ static bool out_of_room(struct failure *f)
 /* Turns what was collected since tape_begin into one struct tape of the list. */
 static bool close_tape(struct tape_writer *w, struct failure *f)
 {
-    struct text value = { 0 };
+    struct buffer value = { 0 };
     if (!w->is_open)
         return true;
     w->is_open = false;
-    add(&w->frames, "}");
-    add(&w->crcs, "\n}");
+    buffer_print(&w->frames, "}");
+    buffer_print(&w->crcs, "\n}");
     bool all_crcs = w->crc_count == w->frame_count && w->frame_count > 0;
     int frames = object(w, "struct tape_frame", true, &w->frames);
     int crcs = NO_OBJECT;
     if (all_crcs)
         crcs = object(w, "uint32_t", true, &w->crcs);
     else
-        free(w->crcs.at);
-    w->frames = w->crcs = (struct text){ 0 };
-    add(&value, "{ .name = \"%s\", ", w->name);
+        buffer_free(&w->crcs);
+    w->frames = w->crcs = (struct buffer){ 0 };
+    buffer_print(&value, "{ .name = \"%s\", ", w->name);
     add_reference(&value, w, "desc", w->desc);
     add_reference(&value, w, "frame", frames);
     add_field(&value, "frame_count", w->frame_count);
     add_reference(&value, w, "crc", crcs);
-    add(&value, "}");
+    buffer_print(&value, "}");
     int tape = object(w, "struct tape", false, &value);
     if (tape < 0)
         return out_of_room(f);
-    add(&w->list, "    &o%d,\n", tape);
+    buffer_print(&w->list, "    &o%d,\n", tape);
     w->tape_count++;
     return !w->list.failed || out_of_room(f);
 }
@@ -496,31 +455,31 @@ bool tape_begin(struct tape_writer *w, const char *name, const smear_desc *desc,
     w->desc = desc_object(w, desc);
     w->is_open = true;
     w->frame_count = w->crc_count = 0;
-    add(&w->frames, "{\n");
-    add(&w->crcs, "{\n    ");
+    buffer_print(&w->frames, "{\n");
+    buffer_print(&w->crcs, "{\n    ");
     return w->desc >= 0 || out_of_room(f);
 }
 
 bool tape_add(struct tape_writer *w, const struct presented *frame, const uint32_t *crc,
               struct failure *f)
 {
-    struct text draws = { 0 };
+    struct buffer draws = { 0 };
     int draw_object = NO_OBJECT;
     if (!w->is_open)
         return fail(f, "no tape was begun");
     int frame_index = frame_object(w, &frame->frame);
     if (frame->draw_count > 0) {
-        add(&draws, "{\n");
+        buffer_print(&draws, "{\n");
         for (int i = 0; i < frame->draw_count; i++)
             add_draw(&draws, w, &frame->draw[i]);
-        add(&draws, "}");
+        buffer_print(&draws, "}");
         draw_object = object(w, "smear_draw", true, &draws);
     }
-    add(&w->frames, "    { ");
+    buffer_print(&w->frames, "    { ");
     add_reference(&w->frames, w, "frame", frame_index);
     add_reference(&w->frames, w, "draw", draw_object);
     add_field(&w->frames, "draw_count", frame->draw_count);
-    add(&w->frames, "},\n");
+    buffer_print(&w->frames, "},\n");
     w->frame_count++;
     if (crc != NULL) {
         char element[16];
@@ -533,24 +492,24 @@ bool tape_add(struct tape_writer *w, const struct presented *frame, const uint32
 
 bool tape_write(struct tape_writer *w, const char *path, const char *command, struct failure *f)
 {
-    struct text out = { 0 };
+    struct buffer out = { 0 };
     if (!close_tape(w, f))
         return false;
     if (w->tape_count == 0)
         return fail(f, "no tape was begun");
-    add(&out, "/* Written by %s; do not edit. */\n#include \"platform/play.h\"\n\n", command);
+    buffer_print(&out, "/* Written by %s; do not edit. */\n#include \"platform/play.h\"\n\n", command);
     for (int i = 0; i < w->object_count; i++) {
         const struct object *o = &w->object[i];
-        add(&out, "static const %s o%d%s = ", o->type, i, o->is_array ? "[]" : "");
-        append(&out, o->value);
-        add(&out, ";\n");
+        buffer_print(&out, "static const %s o%d%s = ", o->type, i, o->is_array ? "[]" : "");
+        buffer_append(&out, o->value, strlen(o->value));
+        buffer_print(&out, ";\n");
     }
-    add(&out, "\nconst struct tape *const tape_list[] = {\n");
-    append(&out, w->list.at);
-    add(&out, "};\nconst int tape_count = %d;\n", w->tape_count);
-    bool ok = !out.failed ? file_write(path, (const uint8_t *)out.at, out.length, f)
+    buffer_print(&out, "\nconst struct tape *const tape_list[] = {\n");
+    buffer_append(&out, w->list.data, w->list.size);
+    buffer_print(&out, "};\nconst int tape_count = %d;\n", w->tape_count);
+    bool ok = !out.failed ? file_write(path, out.data, out.size, f)
                           : out_of_room(f);
-    free(out.at);
+    buffer_free(&out);
     return ok;
 }
 
@@ -570,8 +529,8 @@ void tape_writer_free(struct tape_writer *w)
         free(w->object[i].value);
     free(w->object);
     free(w->bucket);
-    free(w->frames.at);
-    free(w->crcs.at);
-    free(w->list.at);
+    buffer_free(&w->frames);
+    buffer_free(&w->crcs);
+    buffer_free(&w->list);
     free(w);
 }
