@@ -1,35 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* cover.c - how many times over a scene's triangles cover the picture, seen or hidden: what a frame costs at most,
  * known before it is drawn. */
-#include "tools/scenes/scene.h"
-
-#include "tools/scenes/xform.h"
-
-#include <math.h>
-#include <string.h>
-
-/* The picture is the square from -1 to 1 on the plane at distance 1, or at any for parallel light. */
-struct view {
-    struct xform to_camera;             /* of the draw at hand */
-    bool orthographic;
-    double x_scale, y_scale, znear;
-};
-
-static struct view view_of(const struct scene_camera *c, double aspect)
-{
-    double half = c->orthographic ? c->half_height : tan(c->yfov / 2);
-    return (struct view){ .orthographic = c->orthographic, .x_scale = 1 / (half * aspect), .y_scale = 1 / half,
-                          .znear = c->znear };
-}
-
-static struct xform inverse_of_camera(const double m[16])
-{
-    struct vec3 x = vec3(m[0], m[4], m[8]), y = vec3(m[1], m[5], m[9]), z = vec3(m[2], m[6], m[10]);
-    struct vec3 o = vec3(m[12], m[13], m[14]);
-    struct vec3 back = vec3(-(m[0] * o.x + m[1] * o.y + m[2] * o.z), -(m[4] * o.x + m[5] * o.y + m[6] * o.z),
-                            -(m[8] * o.x + m[9] * o.y + m[10] * o.z));
-    return xform_axes(x, y, z, back);
-}
+#include "tools/scenes/eye.h"
 
 /* What of the triangle lies before the near plane: 0, 3 or 4 corners. */
 static int clip(const struct vec3 in[3], double znear, struct vec3 out[4])
@@ -47,7 +19,7 @@ static int clip(const struct vec3 in[3], double znear, struct vec3 out[4])
 }
 
 /* Its area, or that of its box within the picture where that is less; 4 is the whole picture. */
-static double area(const struct view *v, const struct vec3 corner[3])
+static double area(const struct eye *v, const struct vec3 corner[3])
 {
     struct vec3 clipped[4];
     double x[4], y[4], low[2] = { 1, 1 }, high[2] = { -1, -1 }, twice = 0;
@@ -68,16 +40,13 @@ static double area(const struct view *v, const struct vec3 corner[3])
     return n == 0 || wide <= 0 || tall <= 0 ? 0 : fmin(fabs(twice) / 2, wide * tall);
 }
 
-static double draw_cover(const struct view *v, const struct scene_draw *draw, double enough)
+static double draw_cover(const struct eye *v, const struct scene_draw *draw, double enough)
 {
     const struct scene_surface *s = draw->surface;
     double sum = 0;
     for (size_t t = 0; t < (size_t)s->triangle_count && sum <= enough; t++) {
         struct vec3 corner[3];
-        for (size_t k = 0; k < 3; k++) {
-            const float *p = draw->position + 3 * (size_t)s->index[3 * t + k];
-            corner[k] = xform_point(v->to_camera, vec3((double)p[0], (double)p[1], (double)p[2]));
-        }
+        eye_corners(v, draw, t, corner);
         sum += area(v, corner) / 4;
     }
     return sum;
@@ -85,15 +54,12 @@ static double draw_cover(const struct view *v, const struct scene_draw *draw, do
 
 double scene_cover(const struct scene_instant *instant, double aspect, double enough)
 {
-    struct view v = view_of(&instant->camera, aspect);
-    struct xform view = inverse_of_camera(instant->camera.pose);
+    struct eye e = eye_of(&instant->camera, aspect);
     double sum = 0;
     for (int i = 0; i < instant->draw_count && sum <= enough; i++) {
-        struct xform world;
-        memcpy(world.m, instant->draw[i].world, sizeof world.m);
-        v.to_camera = xform_mul(view, world);
+        eye_look_at(&e, &instant->draw[i]);
         if (!instant->draw[i].hidden)
-            sum += draw_cover(&v, &instant->draw[i], enough - sum);
+            sum += draw_cover(&e, &instant->draw[i], enough - sum);
     }
     return sum;
 }

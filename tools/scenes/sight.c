@@ -3,44 +3,18 @@
  * and what the near plane cuts is left out. */
 #include "tools/scenes/sight.h"
 
-#include "tools/scenes/xform.h"
+#include "tools/scenes/eye.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 96, HEIGHT = 72 };
 
-struct eye {
-    struct xform to_camera;             /* of the draw at hand */
-    bool orthographic, is_mirrored;
-    double x_scale, y_scale, znear, zfar;
-    float *depth;                       /* of the small picture, growing; null: no memory */
+/* The small picture, growing; `depth` null: no memory. */
+struct look {
+    struct eye eye;
+    float *depth;
     bool *is_back;
 };
-
-static struct eye eye_of(const struct scene_camera *c, double aspect)
-{
-    double half = c->orthographic ? c->half_height : tan(c->yfov / 2);
-    return (struct eye){ .orthographic = c->orthographic, .x_scale = 1 / (half * aspect), .y_scale = 1 / half,
-                         .znear = c->znear, .zfar = c->zfar > 0 ? c->zfar : INFINITY };
-}
-
-/* The camera's pose is a rotation and a place. */
-static struct xform to_camera(const double m[16])
-{
-    struct xform turned = xform_axes(vec3(m[0], m[4], m[8]), vec3(m[1], m[5], m[9]), vec3(m[2], m[6], m[10]), vec3(0, 0, 0));
-    struct vec3 back = xform_direction(turned, vec3(-m[12], -m[13], -m[14]));
-    turned.m[12] = back.x;
-    turned.m[13] = back.y;
-    turned.m[14] = back.z;
-    return turned;
-}
-
-static double determinant(const double m[16])
-{
-    return vec3_dot(vec3(m[0], m[1], m[2]), vec3_cross(vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10])));
-}
 
 /* Corners in the camera's space, which looks along -z; on the picture, -1 to 1, after the division by w. */
 struct corner {
@@ -88,11 +62,12 @@ static int within(double at, int most)
 }
 
 /* Covers the middles of pixels; nearest wins. */
-static void cover(const struct eye *e, const struct corner c[3], bool is_back)
+static void cover(const struct look *l, const struct corner c[3], bool is_back)
 {
+    const struct eye *e = &l->eye;
     double x[3], y[3];
     for (int i = 0; i < 3; i++) {
-        if (e->depth == NULL || c[i].away < e->znear)
+        if (l->depth == NULL || c[i].away < e->znear)
             return;
         x[i] = (c[i].x / c[i].w + 1) * WIDTH / 2;
         y[i] = (1 - c[i].y / c[i].w) * HEIGHT / 2;
@@ -110,10 +85,10 @@ static void cover(const struct eye *e, const struct corner c[3], bool is_back)
             }
             if (part[0] < 0 || part[1] < 0 || part[2] < 0)
                 continue;
-            float *depth = &e->depth[row * WIDTH + column], at = (float)(e->orthographic ? away : 1 / away);
+            float *depth = &l->depth[row * WIDTH + column], at = (float)(e->orthographic ? away : 1 / away);
             if (at < *depth) {
                 *depth = at;
-                e->is_back[row * WIDTH + column] = is_back;
+                l->is_back[row * WIDTH + column] = is_back;
             }
         }
 }
@@ -123,8 +98,9 @@ static bool is_transparent(const struct scene_material *m)
     return (m->alpha == MODEL_ALPHA_BLEND && !(m->base[3] > 0)) || (m->alpha == MODEL_ALPHA_MASK && m->base[3] < m->alpha_cutoff);
 }
 
-static void look_at_draw(const struct eye *e, const struct scene_draw *draw, struct sight *s)
+static void look_at_draw(const struct look *l, const struct scene_draw *draw, struct sight *s)
 {
+    const struct eye *e = &l->eye;
     const struct scene_surface *surface = draw->surface;
     s->triangles += surface->triangle_count;
     if (is_transparent(&surface->material)) {
@@ -134,15 +110,13 @@ static void look_at_draw(const struct eye *e, const struct scene_draw *draw, str
     for (size_t t = 0; t < (size_t)surface->triangle_count; t++) {
         struct vec3 p[3];
         struct corner c[3];
-        for (size_t k = 0; k < 3; k++) {
-            const float *v = draw->position + 3 * (size_t)surface->index[3 * t + k];
-            p[k] = xform_point(e->to_camera, vec3((double)v[0], (double)v[1], (double)v[2]));
+        eye_corners(e, draw, t, p);
+        for (size_t k = 0; k < 3; k++)
             c[k] = corner_of(e, p[k]);
-        }
         int *counter = beyond(e, c, s);
         bool is_back = !surface->material.double_sided && is_turned_away(e, p);
         if (counter == NULL) {
-            cover(e, c, is_back);
+            cover(l, c, is_back);
             counter = is_back ? &s->backs : &s->facing;
         }
         ++*counter;
@@ -151,29 +125,24 @@ static void look_at_draw(const struct eye *e, const struct scene_draw *draw, str
 
 void sight_find(const struct scene_instant *instant, double aspect, struct sight *out)
 {
-    struct eye e = eye_of(&instant->camera, aspect);
-    struct xform view = to_camera(instant->camera.pose);
-    e.depth = malloc(WIDTH * HEIGHT * sizeof *e.depth);
-    e.is_back = calloc(WIDTH * HEIGHT, sizeof *e.is_back);
-    if (e.is_back == NULL) {
-        free(e.depth);
-        e.depth = NULL;
+    struct look l = { .eye = eye_of(&instant->camera, aspect), .depth = malloc(WIDTH * HEIGHT * sizeof *l.depth),
+                      .is_back = calloc(WIDTH * HEIGHT, sizeof *l.is_back) };
+    if (l.is_back == NULL) {
+        free(l.depth);
+        l.depth = NULL;
     }
-    for (int i = 0; i < WIDTH * HEIGHT && e.depth != NULL; i++)
-        e.depth[i] = INFINITY;
+    for (int i = 0; i < WIDTH * HEIGHT && l.depth != NULL; i++)
+        l.depth[i] = INFINITY;
     *out = (struct sight){ .triangles = 0 };
     for (int i = 0; i < instant->draw_count; i++) {
-        struct xform world;
-        memcpy(world.m, instant->draw[i].world, sizeof world.m);
-        e.to_camera = xform_mul(view, world);
-        e.is_mirrored = determinant(world.m) < 0;
+        eye_look_at(&l.eye, &instant->draw[i]);
         if (!instant->draw[i].hidden)
-            look_at_draw(&e, &instant->draw[i], out);
+            look_at_draw(&l, &instant->draw[i], out);
     }
-    for (int i = 0; i < WIDTH * HEIGHT && e.depth != NULL; i++) {
-        out->pixels += e.depth[i] < INFINITY;
-        out->back_pixels += e.depth[i] < INFINITY && e.is_back[i];
+    for (int i = 0; i < WIDTH * HEIGHT && l.depth != NULL; i++) {
+        out->pixels += l.depth[i] < INFINITY;
+        out->back_pixels += l.depth[i] < INFINITY && l.is_back[i];
     }
-    free(e.depth);
-    free(e.is_back);
+    free(l.depth);
+    free(l.is_back);
 }
