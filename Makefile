@@ -338,7 +338,7 @@ TESTS    := $(BUILD)/run
 KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
 TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c wire.c \
+VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c \
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
 

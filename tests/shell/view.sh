@@ -338,7 +338,7 @@ claim "but not what the user contradicts" fails 2 --target view --board rp2040 -
 # the picture on the glass is not the frame: what the device draws stays the same
 for look in '--zoom 3' '--rotate 90' '--rotate 180' '--rotate 270' '--round' '--tint 102030,ffffff' \
     '--bus 1000000 --panel-hz 60' '--bus 1000000 --sync' '--cpu cortex-m3:72e6' '--see velocity' \
-    '--see depth' '--see tiles' '--see bands' '--see wire' '--split none' '--figures'; do
+    '--see depth' '--see tiles' '--see bands' '--split none' '--figures'; do
     # shellcheck disable=SC2086
     claim "the frame is the same with $look" eval 'view $race $small --frames 2 --crc '"$look"' &&
         equals "$(crcs | tr "\n" " ")" "$(nth 1 "$plain") $(nth 2 "$plain") "'
@@ -405,7 +405,7 @@ claim "the same help" eval 'works help view && has "$base/out" "rp2040"'
 
 sees_all() { # METHOD: every debug view of two halves of a screen; frames stay what they are
     want=$(render_crcs $race 0-1 $small --method "$1") || return 1
-    for see in picture velocity depth tiles methods samples bands wire; do
+    for see in picture velocity depth tiles methods samples bands; do
         view $race $small --method "$1" --split "$1" --see $see --figures --frames 2 --crc || return 1
         equals "$(crcs)" "$want" || return 1
     done

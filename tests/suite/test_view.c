@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_view.c - the parts of `smear view` that need no screen: layouts of pixels, the panel's
- * place, what a bus makes of a frame, bytes of terminals, recorded input, the turned camera,
- * wires. */
+ * place, what a bus makes of a frame, bytes of terminals, recorded input, the turned camera. */
 #include "tests/host.h"
 
 #include "tools/player/picture.h"
@@ -18,7 +17,6 @@
 #include "tools/view/surface.h"
 #include "tools/view/tiles.h"
 #include "tools/view/tty.h"
-#include "tools/view/wire.h"
 #include "tools/view/x11_auth.h"
 
 #include <unistd.h>
@@ -536,44 +534,6 @@ static void test_a_turned_camera_looks_at_the_same_point(void)
     scene_instant_free(&orbit.scene, &turned);
 }
 
-/* ------------------------------------------------------------------ wires */
-
-/* Wires lie over what the library draws: nearly every edge pixel is inside or beside the drawn. */
-static void test_wires_lie_on_what_is_drawn(void)
-{
-    enum { WIDTH = 160, HEIGHT = 120 };
-    static uint32_t picture[WIDTH * HEIGHT];
-    struct failure f = { "" };
-    struct scene scene OWNED(scene_free) = { 0 };
-    struct image sharp;
-    REQUIRE(scene_builtin("peer/E", &scene, &f));
-    struct presenter *p = presenter_new(&scene, &f);
-    struct present_options o = { .fps = 30, .instant_only = true, .method = SMEAR_NONE,
-                                 .clear = 0xff00ff };
-    const struct presented *frame = presenter_frame(p, 0.3, &o, &f);
-    memset(picture, 0, sizeof picture);
-    if (CHECK(frame != NULL))
-        wire_draw(frame, picture, WIDTH, HEIGHT);
-    int wires = 0, off = 0;
-    if (CHECK(presenter_exact(p, 0.3, &o, WIDTH, HEIGHT, 1, &sharp, &f))) {
-        for (int y = 1; y < HEIGHT - 1; y++)
-            for (int x = 1; x < WIDTH - 1; x++) {
-                bool near_drawn = false;
-                for (int k = 0; k < 9; k++) {
-                    const uint8_t *c =
-                        sharp.rgba + 4 * ((size_t)(y + k / 3 - 1) * WIDTH + (size_t)(x + k % 3 - 1));
-                    near_drawn = near_drawn || !(c[0] == 255 && c[1] == 0 && c[2] == 255);
-                }
-                wires += picture[y * WIDTH + x] != 0;
-                off += picture[y * WIDTH + x] != 0 && !near_drawn;
-            }
-        image_free(&sharp);
-    }
-    CHECK(wires > 1000);
-    CHECK_EQ(off, 0);
-    presenter_free(p);
-}
-
 /* ------------------------------------------------------------------ tiles */
 
 struct noted {
@@ -750,4 +710,3 @@ static void test_boards_have_names_of_their_own(void)
     CHECK(board_find("nothing") == NULL);
 }
 
-#include "build/suites/view.h"

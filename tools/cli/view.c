@@ -235,7 +235,7 @@ static const char *const help[] = {
     "\n"
     "What is seen at first\n"
     "  --split METHOD        left half by this method, right half by --method\n"
-    "  --see picture|velocity|depth|tiles|methods|samples|bands|wire\n"
+    "  --see picture|velocity|depth|tiles|methods|samples|bands\n"
     "  --figures             written over the picture\n"
     "\n"
     "Without a user\n"

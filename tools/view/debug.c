@@ -3,15 +3,13 @@
 #include "tools/view/debug.h"
 
 #include "tools/scenes/methods.h"
-#include "tools/view/wire.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define PI 3.14159265358979323846
 
-const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "methods", "samples", "bands",
-                                    "wire", NULL };
+const char *const debug_names[] = { "picture", "velocity", "depth", "tiles", "methods", "samples", "bands", NULL };
 const char *const debug_legends[] = {
     [DEBUG_PICTURE] = NULL,
     [DEBUG_VELOCITY] = "colour: direction; bright: fast",
@@ -20,7 +18,6 @@ const char *const debug_legends[] = {
     [DEBUG_METHODS] = "grey none, warm filters, blue subframes, violet timemask, pinks layers",
     [DEBUG_SAMPLES] = "black 1 a pixel, blue to yellow to white 64",
     [DEBUG_BANDS] = "a stripe: rows that are sent at once; its first row is brighter",
-    [DEBUG_WIRE] = "edges of triangles: grey still, orange moving",
 };
 
 /* ------------------------------------------------------------------ colours */
@@ -188,7 +185,7 @@ static bool show_kinds(const struct debug *d, const struct lane *lane, uint32_t 
     return true;
 }
 
-/* ------------------------------------------------------------------ bands, wires */
+/* ------------------------------------------------------------------ bands */
 
 static void show_bands(const struct lane *lane, uint32_t *picture)
 {
@@ -199,18 +196,6 @@ static void show_bands(const struct lane *lane, uint32_t *picture)
             for (int x = 0; x < b->width; x++)
                 p[x] = blend(p[x], i & 1 ? 0x3060ff : 0xff9020, y == 0 ? 200 : 70);
     }
-}
-
-static bool show_wire(const struct lane *lane, struct presenter *presenter,
-                      const struct instant *instant, uint32_t *picture, struct failure *f)
-{
-    const struct presented *presented = lane_present(lane, presenter, instant, f);
-    if (presented == NULL)
-        return false;
-    for (size_t i = 0; i < pixels_of(lane); i++)
-        picture[i] = blend(grey_of(picture[i]), 0, 170);
-    wire_draw(presented, picture, lane->setup.width, lane->setup.height);
-    return true;
 }
 
 bool debug_draw(struct debug *d, enum debug_kind kind, const struct lane *lane,
@@ -227,7 +212,6 @@ bool debug_draw(struct debug *d, enum debug_kind kind, const struct lane *lane,
     case DEBUG_METHODS: show_notes(lane, method_color, picture); return true;
     case DEBUG_SAMPLES: show_notes(lane, samples_color, picture); return true;
     case DEBUG_BANDS: show_bands(lane, picture); return true;
-    case DEBUG_WIRE: return show_wire(lane, presenter, instant, picture, f);
     default: return true;
     }
 }

@@ -16,7 +16,6 @@ enum debug_kind {
     DEBUG_METHODS,              /* what each tile got */
     DEBUG_SAMPLES,              /* and how many samples per pixel: brightness, by powers of two */
     DEBUG_BANDS,                /* what is handed to the display at once */
-    DEBUG_WIRE,                 /* the triangles' edges */
     DEBUG_KINDS
 };
 
