@@ -148,18 +148,16 @@ bool chart_read_csv(struct chart *chart, const uint32_t *program, const char *pa
 /* ------------------------------------------------------------------ means and frontiers */
 
 /* Scenes over which means are taken: of the suite those with moving objects, those with a moving
- * camera, and both; of the demo; of the demo and of models; those that a peer has drawn, too. Geometric,
- * but for SSIM; errors below 0.01 count as 0.01. */
+ * camera, and both; of the demo; of the demo and of models; those that a peer has drawn, too. Geometric;
+ * errors below 0.01 count as 0.01. */
 enum chart_set { SET_OBJECT, SET_CAMERA, SET_MOVING, SET_DEMO, SET_FIELD, SET_PEER, SET_STILL, CHART_SETS };
 
 struct chart_mean {
     bool known;                 /* on every scene of the set */
     int scenes;
-    double cost, rmse, rmse_mean, flip, ssim, flicker;
+    double cost, rmse, rmse_mean, flicker;
     double instructions;        /* millions */
-    double time, cpu;           /* relative to `none`; 0: not measured */
-    double worst;               /* rmse */
-    int worst_kind;
+    double cpu;                 /* relative to `none`; 0: not measured */
 };
 
 bool chart_set_has(enum chart_set set, int kind);

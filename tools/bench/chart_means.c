@@ -49,8 +49,7 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
                                 int setting)
 {
     struct chart_mean mean = { .known = true };
-    double cost[ALL_KINDS], rmse[ALL_KINDS], rmse_mean[ALL_KINDS], flip[ALL_KINDS], flicker[ALL_KINDS];
-    double instructions[ALL_KINDS], time[ALL_KINDS], cpu[ALL_KINDS];
+    double cost[ALL_KINDS], rmse[ALL_KINDS], rmse_mean[ALL_KINDS], flicker[ALL_KINDS], instructions[ALL_KINDS], cpu[ALL_KINDS];
     bool timed = true;
     int n = 0;
     for (int k = 0; k < ALL_KINDS; k++) {
@@ -63,16 +62,9 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
         instructions[n] = v->instructions / 1e6;
         rmse[n] = least(v->rmse);
         rmse_mean[n] = least(v->rmse_mean);
-        flip[n] = least(100.0 * v->flip) / 100.0;
         flicker[n] = least(v->flicker);
-        time[n] = chart_time(chart, condition, k, setting);
         cpu[n] = chart_cpu(chart, condition, k, setting);
-        timed = timed && time[n] > 0.0 && cpu[n] > 0.0;
-        mean.ssim += v->ssim;
-        if (v->rmse >= mean.worst) {
-            mean.worst = v->rmse;
-            mean.worst_kind = k;
-        }
+        timed = timed && cpu[n] > 0.0;
         n++;
     }
     mean.scenes = n;
@@ -80,11 +72,8 @@ struct chart_mean chart_mean_of(const struct chart *chart, int condition, enum c
     mean.instructions = geometric_mean(instructions, n);
     mean.rmse = geometric_mean(rmse, n);
     mean.rmse_mean = geometric_mean(rmse_mean, n);
-    mean.flip = geometric_mean(flip, n);
     mean.flicker = geometric_mean(flicker, n);
-    mean.time = timed ? geometric_mean(time, n) : 0.0;
     mean.cpu = timed ? geometric_mean(cpu, n) : 0.0;
-    mean.ssim /= n;
     return mean;
 }
 

@@ -111,12 +111,12 @@ void chart_print_scene(FILE *out, const struct chart *chart, int condition, int 
     fprintf(out, "%s, %s (none: %.2f M instructions, %.1f per pixel)\n", kinds[kind].name,
             chart_conditions[condition].what, none->instructions / 1e6,
             none->instructions / none->pixels);
-    fprintf(out, "%-24s %8s %8s %6s %7s %7s %7s %6s %6s\n", "setting", "M", "cost", "RMSE", "FLIP", "SSIM",
-            "flicker", "wall", "cpu");
+    fprintf(out, "%-24s %8s %8s %6s %6s %7s %7s %7s %6s %6s %6s\n", "setting", "M", "cost", "RMSE", "exact", "FLIP", "SSIM",
+            "flicker", "kB", "wall", "cpu");
     for (int i = 0; i < count; i++) {
         const struct chart_value *v = &chart->value[condition][kind][point[i].setting];
-        fprintf(out, "%-24s %8.2f %8.2f %6.2f %7.4f %7.4f %7.2f", chart_settings[point[i].setting].name,
-                v->instructions / 1e6, point[i].cost, v->rmse, v->flip, v->ssim, v->flicker);
+        fprintf(out, "%-24s %8.2f %8.2f %6.2f %6.2f %7.4f %7.4f %7.2f %6.0f", chart_settings[point[i].setting].name,
+                v->instructions / 1e6, point[i].cost, v->rmse, v->rmse_mean, v->flip, v->ssim, v->flicker, v->arena / 1024.0);
         if (v->ms > 0.0)
             fprintf(out, " %6.2f %6.2f", chart_time(chart, condition, kind, point[i].setting),
                     chart_cpu(chart, condition, kind, point[i].setting));
@@ -129,87 +129,24 @@ void chart_print_scene(FILE *out, const struct chart *chart, int condition, int 
 
 /* ------------------------------------------------------------------ Markdown */
 
-static void write_means(FILE *out, const struct chart *chart, int condition, enum chart_set set,
-                        const char *title)
-{
-    struct chart_point point[CHART_MAX_SETTINGS];
-    int count = chart_points_of_set(chart, condition, set, point);
-    if (count == 0)
-        return;
-    fprintf(out, "\n### %s\n\n", title);
-    fprintf(out, "| setting | M | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | cpu "
-                 "| worst RMSE | |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (int i = 0; i < count; i++) {
-        int s = point[i].setting;
-        struct chart_mean m = chart_mean_of(chart, condition, set, s);
-        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
-                m.instructions, m.cost, m.rmse, m.rmse_mean, m.flip, m.ssim, m.flicker);
-        if (m.time > 0.0)
-            fprintf(out, "%.2f | %.2f", m.time, m.cpu);
-        else
-            fprintf(out, "|");
-        fprintf(out, " | %.1f %s | %s |\n", m.worst, kinds[m.worst_kind].name,
-                point[i].on_frontier ? "frontier" : "");
-    }
-}
-
-static void write_scene(FILE *out, const struct chart *chart, int condition, int kind)
-{
-    struct chart_point point[CHART_MAX_SETTINGS];
-    int count = chart_points_of_kind(chart, condition, kind, point);
-    const struct chart_value *none = &chart->value[condition][kind][chart_none];
-    if (count == 0)
-        return;
-    fprintf(out, "\n### %s\n\n", kinds[kind].name);
-    fprintf(out, "`none`: %.2f million instructions, %.1f per pixel",
-            none->instructions / 1e6, none->instructions / none->pixels);
-    if (none->ms > 0.0)
-        fprintf(out, ", %.2f ms of the processor", none->cpu_ms);
-    fprintf(out, "\n\n| setting | M | cost | RMSE | before rounding | FLIP | SSIM | flicker | wall | "
-                 "cpu | kB | |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (int i = 0; i < count; i++) {
-        int s = point[i].setting;
-        const struct chart_value *v = &chart->value[condition][kind][s];
-        fprintf(out, "| %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.4f | %.2f | ", chart_settings[s].name,
-                v->instructions / 1e6, point[i].cost, v->rmse, v->rmse_mean, v->flip, v->ssim, v->flicker);
-        if (v->ms > 0.0)
-            fprintf(out, "%.2f | %.2f", chart_time(chart, condition, kind, s),
-                    chart_cpu(chart, condition, kind, s));
-        else
-            fprintf(out, "|");
-        fprintf(out, " | %.0f | %s |\n", v->arena / 1024.0,
-                point[i].on_frontier ? "frontier" : "");
-    }
-}
-
 static void write_tables(FILE *out, const struct chart *chart)
 {
     struct chart_verdict verdict;
     fprintf(out, "# Speed against accuracy\n\n"
-            "Written by `make chart`. M: millions of instructions of one thread (callgrind). Cost and "
-            "time are relative to the sharp frame (`none`) of "
-            "the same scene:\ncost in instructions; wall and cpu in time "
-            "(medians; what else the machine does\nshows in wall). RMSE and flicker are in codes "
-            "of 1/255, against the mean of %d exact instants of a "
-            "centred shutter of 180 degrees. Means are geometric, but for SSIM.\n"
-            "FLIP at 67 pixels per degree. \"frontier\": no other setting is as cheap and as "
-            "right.\n\n```\n", (int)TRUTH_INSTANTS);
+            "Written by `make chart`. M: millions of instructions of one thread (callgrind). Cost, wall and cpu are relative to\n"
+            "the sharp frame (`none`) of the same scene: in instructions and in time (medians; what else the machine does shows\n"
+            "in wall). RMSE and flicker are in codes of 1/255, against the mean of %d exact instants of a centred shutter of 180\n"
+            "degrees, rounded to 8 bits; exact: before rounding. Means are geometric. FLIP at 67 pixels per degree. \"frontier\":\n"
+            "no other setting is as cheap and as right.\n\n```\n", (int)TRUTH_INSTANTS);
     chart_print_bars(out, chart, true, ALL_KINDS * CHART_MAX_SETTINGS, &verdict);
     fprintf(out, "```\n");
     for (int c = 0; c < CHART_CONDITIONS; c++) {
-        fprintf(out, "\n## Means: %s\n", chart_conditions[c].what);
-        write_means(out, chart, c, SET_OBJECT, "12 scenes with moving objects, still camera");
-        write_means(out, chart, c, SET_CAMERA, "7 scenes with a moving camera or background");
-        write_means(out, chart, c, SET_MOVING, "these 19 scenes");
-        write_means(out, chart, c, SET_DEMO, "4 frames of the demo");
-        write_means(out, chart, c, SET_FIELD, "4 frames of the demo and 3 models");
-        write_means(out, chart, c, SET_PEER, "6 frames that a peer has drawn, too");
-        write_means(out, chart, c, SET_STILL, "1 still scene");
-    }
-    for (int c = 0; c < CHART_CONDITIONS; c++) {
-        fprintf(out, "\n## Scenes: %s\n", chart_conditions[c].what);
+        fprintf(out, "\n## %s\n\n```\n", chart_conditions[c].what);
+        chart_print_means(out, chart, c);
+        fprintf(out, "\n");
         for (int k = 0; k < ALL_KINDS; k++)
-            write_scene(out, chart, c, k);
+            chart_print_scene(out, chart, c, k);
+        fprintf(out, "```\n");
     }
 }
 
