@@ -166,7 +166,7 @@ chart-picture: $(BIN)/smear-bench
 	cp build/chart/study-chart.svg tools/bench/pictures/study.svg
 	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 
-$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) tools/options/say.c $(TOOL_SRC)) $(LIB)
+$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) $(addprefix tools/options/,arguments.c say.c) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 

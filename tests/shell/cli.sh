@@ -771,10 +771,10 @@ claim "info says what a desc has that says nothing" eval \
     'run info "$plate" && [ "$(grep -c "what a smear_desc has that says no methods$" "$base/out")" -eq 2 ]'
 usage frobnicate frobnicate
 usage --frob chart --frob
-usage nosuch chart --scenes nosuch
-usage nosuch chart --methods nosuch
+usage --scenes chart --scenes nosuch
+usage --methods chart --methods nosuch
 usage --jobs chart --jobs
-usage 0 chart --jobs 0
+usage --jobs chart --jobs 0
 input nosuch.csv chart --from nosuch.csv
 : >"$base/in/empty.csv"
 input "$base/in/empty.csv" chart --from "$base/in/empty.csv"

@@ -61,8 +61,8 @@ claim "of promise" means --models --modls bench promise --modls x
 claim "an option without its value" says "--scenes: needs a value" bench promise --scenes
 claim "a report" means peers pers bench pers
 claim "a report with options" means promise promis bench promis
-claim "a scene of the chart" means arena aren chart --scenes roll,aren
-claim "a setting of the chart" means "auto fine" auto-fien chart --methods auto-fien
+claim "a scene of the chart" means arena --scenes chart --scenes roll,aren
+claim "a setting of the chart" means "auto fine" --methods chart --methods auto-fien
 claim "a board" means rp2040 --board view --board rp240
 claim "a board of info" means rp2040 --board info --board rp240 "$arm"
 claim "names all boards" has "$base/err" "there is oled, .* fb320"

@@ -8,6 +8,7 @@
 
 #include "tools/bench/sheet.h"
 #include "tools/image/image.h"
+#include "tools/options/arguments.h"
 #include "tools/options/say.h"
 
 #include <errno.h>
@@ -23,8 +24,6 @@ struct options {
     bool is_part, few_scenes, quick, strict;
 };
 
-static const char help[] = "smear help chart";
-
 /* ------------------------------------------------------------------ options */
 
 /* The next word of a list with commas; false at the end. */
@@ -37,101 +36,77 @@ static bool next_word(const char **list, char word[64])
     return length > 0;
 }
 
-static int choose_scenes(struct options *o, const char *list)
+/* Empty lists, as from a Makefile, choose everything. */
+static const char *read_scenes(void *to, const char *list)
 {
-    char word[64];
-    memset(o->choice.kind, 0, sizeof o->choice.kind);
+    static char word[64];
+    struct options *o = to;
+    if (list[0] != '\0')
+        memset(o->choice.kind, 0, sizeof o->choice.kind);
     while (next_word(&list, word)) {
-        struct guess guess = { .word = word };
         bool found = false;
-        for (int k = 0; k < ALL_KINDS; k++) {
-            guess_try(&guess, kinds[k].name);
+        o->is_part = o->few_scenes = true;
+        for (int k = 0; k < ALL_KINDS; k++)
             if (strcmp(kinds[k].name, word) == 0)
                 found = o->choice.kind[k] = true;
-        }
+        for (int k = 0; k < ALL_KINDS && !found; k++)
+            read_near(word, kinds[k].name);
         if (!found)
-            return say_unknown(word, "no scene of the suite", &guess, help);
+            return "has what is no scene of the suite (smear help chart)";
     }
-    return 0;
+    return NULL;
 }
 
-static int choose_methods(struct options *o, const char *list)
+static const char *read_methods(void *to, const char *list)
 {
-    char word[64];
-    memset(o->choice.setting, 0, sizeof o->choice.setting);
+    static char word[64];
+    struct options *o = to;
+    if (list[0] != '\0')
+        memset(o->choice.setting, 0, sizeof o->choice.setting);
     o->choice.setting[chart_none] = true;
     while (next_word(&list, word)) {
-        struct guess guess = { .word = word };
         bool found = false;
-        for (int s = 0; s < chart_setting_count; s++) {
-            guess_try(&guess, chart_settings[s].name);
+        o->is_part = true;
+        for (int s = 0; s < chart_setting_count; s++)
             if (strncmp(chart_settings[s].name, word, strlen(word)) == 0)
                 found = o->choice.setting[s] = true;
-        }
+        for (int s = 0; s < chart_setting_count && !found; s++)
+            read_near(word, chart_settings[s].name);
         if (!found)
-            return say_unknown(word, "no setting begins so", &guess, help);
+            return "has what no setting begins with (smear help chart)";
     }
-    return 0;
+    return NULL;
 }
 
-static int say_no_option(const char *name)
-{
-    static const char *const names[] = { "--scenes", "--methods", "--from", "--out", "--jobs", "--quick", "--strict" };
-    struct guess guess = { .word = name };
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        guess_try(&guess, names[i]);
-    return say_unknown(name, "unknown option", &guess, help);
-}
+#define AT(member) OPTION_AT(struct options, member)
 
-/* 0, or an exit status. Empty lists, as from a Makefile, choose everything. */
+static const struct option table[] = {
+    { "--scenes", OPTION_READ, .read = read_scenes },
+    { "--methods", OPTION_READ, .read = read_methods },
+    { "--from", OPTION_TEXT, AT(from) },
+    { "--out", OPTION_TEXT, AT(out), .needs = "a folder" },
+    { "--jobs", OPTION_INTEGER, AT(jobs), .low = 1, .high = 8 },
+    { "--quick", OPTION_FLAG, AT(quick) },
+    { "--strict", OPTION_FLAG, AT(strict) },
+    { NULL },
+};
+
 static int read_options(struct options *o, int count, char **text)
 {
-    int status;
+    bool wants_help;
     *o = (struct options){ .jobs = 2 };
     memset(&o->choice, 1, sizeof o->choice);
-    for (int i = 0; i < count; i++) {
-        const char *name = text[i], *value = i + 1 < count ? text[i + 1] : NULL;
-        if (strcmp(name, "--quick") == 0) {
-            o->quick = o->is_part = true;
-            memset(o->choice.condition, 0, sizeof o->choice.condition);
-            o->choice.condition[CHART_DEFAULT] = true;
-            continue;
-        }
-        if (strcmp(name, "--strict") == 0) {
-            o->strict = true;
-            continue;
-        }
-        bool known = strcmp(name, "--scenes") == 0 || strcmp(name, "--methods") == 0
-                  || strcmp(name, "--from") == 0 || strcmp(name, "--out") == 0
-                  || strcmp(name, "--jobs") == 0;
-        if (!known)
-            return say_no_option(name);
-        if (value == NULL)
-            return say_bad_usage(name, "wants a value (%s)", help);
-        i++;
-        if (strcmp(name, "--scenes") == 0 && value[0] != '\0') {
-            o->is_part = o->few_scenes = true;
-            if ((status = choose_scenes(o, value)) != 0)
-                return status;
-        } else if (strcmp(name, "--methods") == 0 && value[0] != '\0') {
-            o->is_part = true;
-            if ((status = choose_methods(o, value)) != 0)
-                return status;
-        } else if (strcmp(name, "--from") == 0) {
-            o->from = value;
-        } else if (strcmp(name, "--out") == 0) {
-            o->out = value;
-        } else if (strcmp(name, "--jobs") == 0) {
-            char *end;
-            long jobs = strtol(value, &end, 10);
-            if (*end != '\0' || jobs < 1 || jobs > 8)
-                return say_bad_usage(value, "not 1 to 8 (%s)", help);
-            o->jobs = (int)jobs;
-        }
+    int status = arguments_read(count, text, table, o, NULL, 0, &wants_help);
+    if (status == STATUS_OK && wants_help)
+        return say_bad_usage("chart", "smear help chart lists its options");
+    if (o->quick) {
+        o->is_part = true;
+        memset(o->choice.condition, 0, sizeof o->choice.condition);
+        o->choice.condition[CHART_DEFAULT] = true;
     }
     if (o->out == NULL)
         o->out = o->is_part ? "build/chart/part" : "build/chart";
-    return 0;
+    return status;
 }
 
 /* ------------------------------------------------------------------ progress */

@@ -12,6 +12,7 @@
 #include "tools/bench/count.h"
 #include "tools/bench/sheet.h"
 #include "tools/bench/truth.h"
+#include "tools/options/arguments.h"
 #include "tools/options/say.h"
 
 #include <errno.h>
@@ -30,9 +31,12 @@ struct measured {
     double error[SETTINGS], cost[SETTINGS];
 };
 
+enum light { BOTH_LIGHTS, ENCODED, LINEAR };
+
 struct options {
     const char *scenes;
-    bool light[2], count;
+    enum light only_light;
+    bool count;
 };
 
 /* ------------------------------------------------------------------ takes */
@@ -221,44 +225,29 @@ static bool has_scenes(const struct options *o)
     return false;
 }
 
-static void say_no_option(const char *name)
+static const char *read_models(void *to, const char *value)
 {
-    static const char *const names[] = { "--scenes", "--models", "--light", "--count" };
-    struct guess guess = { .word = name };
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        guess_try(&guess, names[i]);
-        if (strcmp(name, names[i]) == 0) {
-            say_bad_usage(name, "needs a value");
-            return;
-        }
-    }
-    say_unknown(name, "no option of promise", &guess, "smear help bench");
+    (void)to;
+    setenv("SMEAR_ASSETS", value, 1);
+    return NULL;
 }
+
+static const struct option table[] = {
+    { "--scenes", OPTION_TEXT, OPTION_AT(struct options, scenes), .needs = "scenes, with commas" },
+    { "--models", OPTION_READ, .read = read_models },
+    { "--light", OPTION_NAME, OPTION_AT(struct options, only_light), OPTION_NAMES("encoded", "linear"), .low = ENCODED },
+    { "--count", OPTION_FLAG, OPTION_AT(struct options, count) },
+    { NULL },
+};
 
 static bool read_options(struct options *o, int count, char **text)
 {
-    *o = (struct options){ .light = { true, true } };
-    for (int i = 0; i < count; i++) {
-        const bool has_value = i + 1 < count;
-        if (strcmp(text[i], "--count") == 0) {
-            o->count = true;
-        } else if (strcmp(text[i], "--scenes") == 0 && has_value) {
-            o->scenes = text[++i];
-        } else if (strcmp(text[i], "--models") == 0 && has_value) {
-            setenv("SMEAR_ASSETS", text[++i], 1);
-        } else if (strcmp(text[i], "--light") == 0 && has_value) {
-            const bool linear = strcmp(text[++i], "linear") == 0;
-            if (!linear && strcmp(text[i], "encoded") != 0) {
-                fprintf(stderr, "smear: --light: needs linear or encoded (\"%s\")\n", text[i]);
-                return false;
-            }
-            o->light[!linear] = false;
-        } else {
-            say_no_option(text[i]);
-            return false;
-        }
-    }
-    return true;
+    bool wants_help;
+    *o = (struct options){ .count = false };
+    const int status = arguments_read(count, text, table, o, NULL, 0, &wants_help);
+    if (status == STATUS_OK && wants_help)
+        say_bad_usage("promise", "smear help bench lists its options");
+    return status == STATUS_OK && !wants_help;
 }
 
 int promise_command(const char *program, int count, char **text)
@@ -276,7 +265,8 @@ int promise_command(const char *program, int count, char **text)
     for (int i = 0; i < promise_scene_count; i++)
         for (int linear = 0; linear < 2; linear++) {
             struct measured m;
-            if (!o.light[linear] || !is_chosen(&o, &promise_scenes[i]) || !take_is_there(promise_scenes[i].scene))
+            if (o.only_light == (linear ? ENCODED : LINEAR) || !is_chosen(&o, &promise_scenes[i])
+                || !take_is_there(promise_scenes[i].scene))
                 continue;
             if (!measure(i, linear != 0, &o, &counter, &m, &f)) {
                 fprintf(stderr, "smear: %s: %s\n", promise_scenes[i].scene, f.text);
