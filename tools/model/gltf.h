@@ -140,6 +140,8 @@ bool gltf_default_material(struct gltf *g, int *out);
 bool gltf_read_pictures(struct gltf *g);
 
 bool gltf_read_meshes(struct gltf *g);
+/* The first `count` items of an array as weights of morph targets; zeros where there are fewer. */
+bool gltf_weights(struct gltf *g, int array, int count, float **out);
 
 bool gltf_read_nodes(struct gltf *g);
 bool gltf_read_skins(struct gltf *g);

@@ -314,6 +314,23 @@ static bool read_primitive(struct gltf *g, int object, struct model_primitive *o
     return ok;
 }
 
+bool gltf_weights(struct gltf *g, int array, int count, float **out)
+{
+    int k = 0;
+    *out = gltf_alloc(g, (size_t)count, sizeof **out);
+    if (*out == NULL)
+        return false;
+    for (int i = json_first(&g->json, array); i >= 0 && k < count; i = json_after(&g->json, i)) {
+        double weight;
+        if (!json_to_number(&g->json, i, &weight, g->f))
+            return false;
+        if (fabs(weight) > FLT_MAX)
+            return json_fail(&g->json, i, NULL, g->f, "%g is no weight", weight);
+        (*out)[k++] = (float)weight;
+    }
+    return true;
+}
+
 /* The default weights; as many as there are morph targets, whose number all primitives share. */
 static bool read_mesh_weights(struct gltf *g, int object, struct model_mesh *mesh)
 {
@@ -329,20 +346,8 @@ static bool read_mesh_weights(struct gltf *g, int object, struct model_mesh *mes
     if (array >= 0 && g->json.value[array].count != count && mesh->primitive_count > 0)
         return json_fail(&g->json, array, NULL, g->f, "%d weights for %d morph targets",
                          g->json.value[array].count, count);
-    mesh->weight = gltf_alloc(g, (size_t)count, sizeof *mesh->weight);
-    if (mesh->weight == NULL)
-        return false;
     mesh->weight_count = count;
-    int k = 0;
-    for (int i = json_first(&g->json, array); i >= 0 && k < count; i = json_after(&g->json, i)) {
-        double weight;
-        if (!json_to_number(&g->json, i, &weight, g->f))
-            return false;
-        if (fabs(weight) > FLT_MAX)
-            return json_fail(&g->json, i, NULL, g->f, "%g is no weight", weight);
-        mesh->weight[k++] = (float)weight;
-    }
-    return true;
+    return gltf_weights(g, array, count, &mesh->weight);
 }
 
 static bool read_mesh(struct gltf *g, int object, struct model_mesh *mesh, int *max_joint)

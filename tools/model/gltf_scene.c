@@ -35,20 +35,8 @@ static bool read_node_weights(struct gltf *g, int object, struct model_node *nod
     if (g->json.value[array].count != count)
         return json_fail(&g->json, array, NULL, g->f, "%d weights for %d morph targets",
                          g->json.value[array].count, count);
-    node->weight = gltf_alloc(g, (size_t)count, sizeof *node->weight);
-    if (node->weight == NULL)
-        return false;
     node->weight_count = count;
-    int k = 0;
-    for (int i = json_first(&g->json, array); i >= 0; i = json_after(&g->json, i)) {
-        double weight;
-        if (!json_to_number(&g->json, i, &weight, g->f))
-            return false;
-        if (fabs(weight) > FLT_MAX)
-            return json_fail(&g->json, i, NULL, g->f, "%g is no weight", weight);
-        node->weight[k++] = (float)weight;
-    }
-    return true;
+    return gltf_weights(g, array, count, &node->weight);
 }
 
 static bool read_node(struct gltf *g, int object, int skin_count, int camera_count,
@@ -77,14 +65,12 @@ static bool read_children(struct gltf *g, int nodes)
         if (!json_get_array(&g->json, i, "children", &children, g->f))
             return false;
         for (int c = json_first(&g->json, children); c >= 0; c = json_after(&g->json, c)) {
-            int64_t child;
-            if (!json_to_integer(&g->json, c, 0, INT32_MAX, &child, g->f))
+            int child;
+            if (!json_to_index(&g->json, c, model->node_count, "node", &child, g->f))
                 return false;
-            if (child >= model->node_count)
-                return json_fail(&g->json, c, NULL, g->f, "there is no node %d", (int)child);
             if (model->node[child].parent >= 0)
                 return json_fail(&g->json, c, NULL, g->f, "node %d has two parents, %d and %d",
-                                 (int)child, model->node[child].parent, index);
+                                 child, model->node[child].parent, index);
             model->node[child].parent = index;
         }
     }
@@ -170,12 +156,8 @@ static bool read_skin(struct gltf *g, int object, struct model_skin *skin)
     if (skin->joint == NULL || skin->inverse_bind == NULL)
         return false;
     for (int i = json_first(&g->json, array); i >= 0; i = json_after(&g->json, i)) {
-        int64_t node;
-        if (!json_to_integer(&g->json, i, 0, INT32_MAX, &node, g->f))
+        if (!json_to_index(&g->json, i, g->model->node_count, "node", &skin->joint[skin->joint_count++], g->f))
             return false;
-        if (node >= g->model->node_count)
-            return json_fail(&g->json, i, NULL, g->f, "there is no node %d", (int)node);
-        skin->joint[skin->joint_count++] = (int)node;
     }
     for (int i = 0; i < count; i++)
         matrix_identity(skin->inverse_bind + 16 * (size_t)i);
@@ -248,11 +230,9 @@ bool gltf_read_scene(struct gltf *g)
     if (!json_get_array(&g->json, scene, "nodes", &nodes, g->f))
         return false;
     for (int i = json_first(&g->json, nodes); i >= 0; i = json_after(&g->json, i)) {
-        int64_t node;
-        if (!json_to_integer(&g->json, i, 0, INT32_MAX, &node, g->f))
+        int node;
+        if (!json_to_index(&g->json, i, model->node_count, "node", &node, g->f))
             return false;
-        if (node >= model->node_count)
-            return json_fail(&g->json, i, NULL, g->f, "there is no node %d", (int)node);
         model->in_scene[node] = true;
     }
     for (int i = 0; i < model->node_count; i++) {

@@ -542,9 +542,12 @@ bool json_get_index(const struct json *json, int object, const char *key, int co
                     const char *what, int *out, struct failure *f)
 {
     int value = json_member(json, object, key);
+    return value < 0 || json_to_index(json, value, count, what, out, f);
+}
+
+bool json_to_index(const struct json *json, int value, int count, const char *what, int *out, struct failure *f)
+{
     int64_t index;
-    if (value < 0)
-        return true;
     if (!json_to_integer(json, value, 0, INT32_MAX, &index, f))
         return false;
     if (index >= count)

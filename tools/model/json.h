@@ -85,5 +85,7 @@ bool json_get_object(const struct json *json, int object, const char *key, int *
 bool json_to_integer(const struct json *json, int value, int64_t min, int64_t max, int64_t *out,
                      struct failure *f);
 bool json_to_number(const struct json *json, int value, double *out, struct failure *f);
+/* The value itself as an index into a list of `count` things called `what`. */
+bool json_to_index(const struct json *json, int value, int count, const char *what, int *out, struct failure *f);
 
 #endif
