@@ -5,11 +5,10 @@
  * [Wang04] "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE TIP
  * 2004.
  *
- * Both SSIM and FLIP are convolutions with separable kernels. Pictures are gone through in bands of
- * columns. Rows of a band are convolved along x when the window of the column convolution first
- * needs them, and kept in a ring as high as the kernel, so memory grows with the radius only and
- * stays in the caches. Pixels that see no difference through their windows are known to be equal
- * and cost nothing. */
+ * Both SSIM and FLIP are convolutions with separable kernels. Rows are convolved along x when the
+ * window of the column convolution first needs them, and kept in a ring as high as the kernel, so
+ * memory grows with the radius only. Rows that see no difference through their windows are known to
+ * be equal and cost nothing. */
 #include "tools/image/image.h"
 
 #include <math.h>
@@ -27,130 +26,108 @@ struct kernel {
     double weight[MAX_TAPS];
 };
 
-/* Columns of a band: its loops are of a fixed length, which compilers turn into wide steps. */
-enum { BAND = 128 };
-
-/* Rows of several planes of a band, convolved along x; row y lives in slot y modulo `slots`. */
+/* Rows of several planes, convolved along x; row y lives in slot y modulo `slots`. */
 struct ring {
     int width, height;          /* of the picture */
-    int left;                   /* the band's first column */
     int radius, slots, planes, filled;          /* rows below `filled` have been made if needed */
-    double *rows;               /* [slot][plane][BAND] */
-    double wide[BAND + 2 * MAX_RADIUS];         /* one row with its margins */
+    double *rows;               /* [slot][plane][width] */
+    double *lines;              /* of `width` values each, for who fills and reads the ring */
+    double *wide;               /* one row with its margins */
 };
 
-static bool ring_alloc(struct ring *r, const struct image *image, int radius, int planes)
+static bool ring_alloc(struct ring *r, const struct image *image, int radius, int planes, int lines)
 {
+    const size_t width = (size_t)image->width;
     *r = (struct ring){.width = image->width, .height = image->height, .radius = radius,
                        .slots = 2 * radius + 1, .planes = planes};
-    r->rows = malloc((size_t)r->slots * (size_t)planes * BAND * sizeof *r->rows);
-    return r->rows != NULL;
+    r->rows = malloc((size_t)r->slots * (size_t)planes * width * sizeof *r->rows);
+    r->lines = malloc((size_t)lines * width * sizeof *r->lines);
+    r->wide = malloc((width + 2 * (size_t)radius) * sizeof *r->wide);
+    return r->rows != NULL && r->lines != NULL && r->wide != NULL;
 }
 
-static void ring_begin_band(struct ring *r, int left)
+static void ring_free(struct ring *r)
 {
-    r->left = left;
-    r->filled = 0;
+    free(r->rows);
+    free(r->lines);
+    free(r->wide);
+}
+
+static double *ring_line(const struct ring *r, int line)
+{
+    return r->lines + (size_t)line * (size_t)r->width;
 }
 
 /* A row of a plane; y outside the picture is clamped to its edge. */
 static double *ring_row(const struct ring *r, int y, int plane)
 {
     y = y < 0 ? 0 : y >= r->height ? r->height - 1 : y;
-    size_t row = (size_t)(y % r->slots) * (size_t)r->planes + (size_t)plane;
-    return r->rows + row * BAND;
+    return r->rows + ((size_t)(y % r->slots) * (size_t)r->planes + (size_t)plane) * (size_t)r->width;
 }
 
-/* How many columns of the picture the band has. */
-static int ring_columns(const struct ring *r)
+/* The next row to be convolved; its edges are repeated. */
+static void ring_input(struct ring *r, const double *values)
 {
-    return r->width - r->left < BAND ? r->width - r->left : BAND;
+    memcpy(r->wide + r->radius, values, (size_t)r->width * sizeof *values);
+    for (int i = 0; i < r->radius; i++) {
+        r->wide[i] = values[0];
+        r->wide[r->radius + r->width + i] = values[r->width - 1];
+    }
 }
 
-/* The columns of the picture that the band's windows see: the first and how many. */
-static int ring_first_seen(const struct ring *r)
+static const uint8_t *pixels_of(const struct image *image, int y)
 {
-    return r->left > r->radius ? r->left - r->radius : 0;
-}
-
-static int ring_seen(const struct ring *r)
-{
-    int end = r->left + BAND + r->radius;
-    return (end < r->width ? end : r->width) - ring_first_seen(r);
-}
-
-/* Where to put the values of a row that the windows see before convolving it. */
-static double *ring_input(struct ring *r)
-{
-    return r->wide + r->radius - (r->left - ring_first_seen(r));
-}
-
-static void ring_clamp_input(struct ring *r)
-{
-    double *first = ring_input(r), *end = first + ring_seen(r);
-    for (double *to = r->wide; to < first; to++)
-        *to = *first;
-    for (double *to = end; to < r->wide + BAND + 2 * r->radius; to++)
-        *to = end[-1];
-}
-
-/* The same columns of the picture itself. */
-static const uint8_t *ring_pixels(const struct ring *r, int y, const struct image *image)
-{
-    return image->rgba + ((size_t)y * (size_t)r->width + (size_t)ring_first_seen(r)) * 4;
+    return image->rgba + (size_t)y * (size_t)image->width * 4;
 }
 
 /* The sum of the kernel's rows, each by its weight. Four are added at a time, in their order: sums
  * are fetched and stored less often, and come out the same. */
-static void convolve(double *restrict to, const double *const *row, const struct kernel *k)
+static void convolve(double *restrict to, int width, const double *const *row, const struct kernel *k)
 {
     int taps = 2 * k->radius + 1, i = 0;
-    memset(to, 0, BAND * sizeof *to);
+    memset(to, 0, (size_t)width * sizeof *to);
     for (; i + 4 <= taps; i += 4) {
         const double *a = row[i], *b = row[i + 1], *c = row[i + 2], *d = row[i + 3];
         const double *w = k->weight + i, wa = w[0], wb = w[1], wc = w[2], wd = w[3];
-        for (int x = 0; x < BAND; x++)
+        for (int x = 0; x < width; x++)
             to[x] = to[x] + wa * a[x] + wb * b[x] + wc * c[x] + wd * d[x];
     }
     for (; i < taps; i++) {
         const double *a = row[i], wa = k->weight[i];
-        for (int x = 0; x < BAND; x++)
+        for (int x = 0; x < width; x++)
             to[x] += wa * a[x];
     }
 }
 
-/* The clamped input convolved along x into row y of a plane. */
+/* The input convolved along x into row y of a plane. */
 static void ring_convolve_x(struct ring *r, int y, int plane, const struct kernel *k)
 {
     const double *row[MAX_TAPS];
     for (int i = -k->radius; i <= k->radius; i++)
         row[i + k->radius] = r->wide + r->radius + i;
-    convolve(ring_row(r, y, plane), row, k);
+    convolve(ring_row(r, y, plane), r->width, row, k);
 }
 
 /* A plane convolved along y, centred on row y. */
-static void ring_convolve_y(const struct ring *r, int y, int plane, const struct kernel *k,
-                            double *to)
+static void ring_convolve_y(const struct ring *r, int y, int plane, const struct kernel *k, double *to)
 {
     const double *row[MAX_TAPS];
     for (int i = -k->radius; i <= k->radius; i++)
         row[i + k->radius] = ring_row(r, y + i, plane);
-    convolve(to, row, k);
+    convolve(to, r->width, row, k);
 }
 
-/* Marks the rows whose pixels in the ring's band see a difference between the pictures. */
-static void mark_rows(const struct ring *r, const struct image *a, const struct image *b,
-                      uint8_t *marked)
+/* Marks the rows whose pixels see a difference between the pictures; malloc'ed. */
+static uint8_t *mark_rows(const struct image *a, const struct image *b, int radius)
 {
-    size_t size = (size_t)ring_seen(r) * 4;
-    memset(marked, 0, (size_t)r->height);
-    for (int y = 0; y < r->height; y++) {
-        if (memcmp(ring_pixels(r, y, a), ring_pixels(r, y, b), size) == 0)
+    uint8_t *marked = calloc((size_t)a->height, 1);
+    for (int y = 0; y < a->height && marked != NULL; y++) {
+        if (memcmp(pixels_of(a, y), pixels_of(b, y), (size_t)a->width * 4) == 0)
             continue;
-        int from = y < r->radius ? 0 : y - r->radius;
-        int to = r->height - y > r->radius ? y + r->radius : r->height - 1;
+        int from = y < radius ? 0 : y - radius, to = a->height - y > radius ? y + radius : a->height - 1;
         memset(marked + from, 1, (size_t)(to - from) + 1);
     }
+    return marked;
 }
 
 /* The first row that row y needs and the ring has not got; the next ones follow. */
@@ -175,74 +152,46 @@ static double mean_square_error(const struct image *a, const struct image *b)
 
 /* --- SSIM --- */
 
-enum { SSIM_RADIUS = 5 };
+enum { SSIM_RADIUS = 5, MOMENTS = 5 };      /* lines: of each moment, then both lumas and a product */
+enum { LINE_A = MOMENTS, LINE_B, LINE_PRODUCT, SSIM_LINES };
 
 /* Rec. 601 luma of codes, 0..1. */
-static double luma(const uint8_t *rgba)
+static void luma_row(const struct image *image, int y, double *to)
 {
-    return (0.299 * rgba[0] + 0.587 * rgba[1] + 0.114 * rgba[2]) / 255;
-}
-
-/* The lumas of a row that the band's windows see. */
-static void ssim_luma_row(const struct ring *r, int y, const struct image *image, double *to)
-{
-    const uint8_t *from = ring_pixels(r, y, image);
-    for (int i = 0; i < ring_seen(r); i++)
-        to[i] = luma(from + i * 4);
+    const uint8_t *p = pixels_of(image, y);
+    for (int x = 0; x < image->width; x++, p += 4)
+        to[x] = (0.299 * p[0] + 0.587 * p[1] + 0.114 * p[2]) / 255;
 }
 
 /* Convolves row y of the five moments a, b, aa, bb, ab. */
 static void ssim_fill_row(struct ring *r, int y, const struct image *a, const struct image *b,
                           const struct kernel *window)
 {
-    double one[BAND + 2 * SSIM_RADIUS], u[BAND + 2 * SSIM_RADIUS], v[BAND + 2 * SSIM_RADIUS];
-    const double *const factor[5][2] = {{u, one}, {v, one}, {u, u}, {v, v}, {u, v}};
-    int count = ring_seen(r);
-    double *in = ring_input(r);
-    ssim_luma_row(r, y, a, u);
-    ssim_luma_row(r, y, b, v);
-    for (int i = 0; i < count; i++)
-        one[i] = 1;
-    for (int plane = 0; plane < 5; plane++) {
+    double *u = ring_line(r, LINE_A), *v = ring_line(r, LINE_B), *product = ring_line(r, LINE_PRODUCT);
+    const double *const factor[MOMENTS][2] = {{u, NULL}, {v, NULL}, {u, u}, {v, v}, {u, v}};
+    luma_row(a, y, u);
+    luma_row(b, y, v);
+    for (int plane = 0; plane < MOMENTS; plane++) {
         const double *p = factor[plane][0], *q = factor[plane][1];
-        for (int i = 0; i < count; i++)
-            in[i] = p[i] * q[i];
-        ring_clamp_input(r);
+        for (int x = 0; x < r->width && q != NULL; x++)
+            product[x] = p[x] * q[x];
+        ring_input(r, q != NULL ? product : p);
         ring_convolve_x(r, y, plane, window);
     }
 }
 
-static double ssim_pixel(const double moment[5][BAND], int x)
+static double ssim_pixel(const struct ring *r, int x)
 {
-    double mean_a = moment[0][x], mean_b = moment[1][x];
-    double variance_a = moment[2][x] - mean_a * mean_a;
-    double variance_b = moment[3][x] - mean_b * mean_b;
-    double covariance = moment[4][x] - mean_a * mean_b;
+    double moment[MOMENTS];
+    for (int i = 0; i < MOMENTS; i++)
+        moment[i] = ring_line(r, i)[x];
+    double mean_a = moment[0], mean_b = moment[1];
+    double variance_a = moment[2] - mean_a * mean_a;
+    double variance_b = moment[3] - mean_b * mean_b;
+    double covariance = moment[4] - mean_a * mean_b;
     double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
     return (2 * mean_a * mean_b + c1) * (2 * covariance + c2) /
            ((mean_a * mean_a + mean_b * mean_b + c1) * (variance_a + variance_b + c2));
-}
-
-/* The sum over columns `begin` to `end` - 1 of the band in rows border .. height - border - 1. */
-static double ssim_band(struct ring *r, const struct image *a, const struct image *b,
-                        const struct kernel *window, const uint8_t *marked, int begin, int end,
-                        int border)
-{
-    double sum = 0, moment[5][BAND];
-    for (int y = border; y < r->height - border; y++) {
-        if (!marked[y]) {
-            sum += end - begin;
-            continue;
-        }
-        for (r->filled = ring_next_row(r, y); r->filled < r->height && r->filled <= y + SSIM_RADIUS;
-             r->filled++)
-            ssim_fill_row(r, r->filled, a, b, window);
-        for (int plane = 0; plane < 5; plane++)
-            ring_convolve_y(r, y, plane, window, moment[plane]);
-        for (int x = begin; x < end; x++)
-            sum += ssim_pixel(moment, x);
-    }
-    return sum;
 }
 
 /* Mean over the windows that lie inside the picture, as in [Wang04]; along an edge shorter than a
@@ -251,27 +200,30 @@ static bool mean_ssim(const struct image *a, const struct image *b, double *resu
                       struct failure *f)
 {
     struct kernel window = {.radius = SSIM_RADIUS};
-    double total = 0;
+    double total = 0, sum = 0;
     for (int i = -SSIM_RADIUS; i <= SSIM_RADIUS; i++)
         total += window.weight[i + SSIM_RADIUS] = exp(-i * i / (2 * 1.5 * 1.5));
     for (int i = 0; i <= 2 * SSIM_RADIUS; i++)
         window.weight[i] /= total;
 
     struct ring r;
-    uint8_t *marked = malloc((size_t)a->height);
-    bool ok = ring_alloc(&r, a, SSIM_RADIUS, 5) && marked != NULL;
+    uint8_t *marked = mark_rows(a, b, SSIM_RADIUS);
+    bool ok = ring_alloc(&r, a, SSIM_RADIUS, MOMENTS, SSIM_LINES) && marked != NULL;
     int border_x = a->width > 2 * SSIM_RADIUS ? SSIM_RADIUS : 0;
     int border_y = a->height > 2 * SSIM_RADIUS ? SSIM_RADIUS : 0;
-    double sum = 0;
-    for (int left = 0; ok && left < a->width; left += BAND) {
-        ring_begin_band(&r, left);
-        mark_rows(&r, a, b, marked);
-        int begin = left == 0 ? border_x : 0, inside = a->width - border_x - left;
-        int end = inside < BAND ? inside : BAND;
-        if (begin < end)
-            sum += ssim_band(&r, a, b, &window, marked, begin, end, border_y);
+    for (int y = border_y; ok && y < a->height - border_y; y++) {
+        if (!marked[y]) {
+            sum += a->width - 2 * border_x;
+            continue;
+        }
+        for (r.filled = ring_next_row(&r, y); r.filled < r.height && r.filled <= y + SSIM_RADIUS; r.filled++)
+            ssim_fill_row(&r, r.filled, a, b, &window);
+        for (int plane = 0; plane < MOMENTS; plane++)
+            ring_convolve_y(&r, y, plane, &window, ring_line(&r, plane));
+        for (int x = border_x; x < a->width - border_x; x++)
+            sum += ssim_pixel(&r, x);
     }
-    free(r.rows);
+    ring_free(&r);
     free(marked);
     if (!ok)
         return fail(f, "out of memory (comparison)");
@@ -283,13 +235,6 @@ static bool mean_ssim(const struct image *a, const struct image *b, double *resu
 
 struct color {
     double x, y, z;             /* RGB, XYZ with white at 1, YCxCz or L*a*b* */
-};
-
-/* Cube roots from 1/128 up: by the upper bits of a number, one near it. */
-enum { ROOT_BITS = 8, ROOTS = 8 << ROOT_BITS };
-
-struct root {
-    double of, inverse;         /* the root of a number, and 1 by the number */
 };
 
 /* The two Gaussians in degrees that make up the contrast sensitivity of a channel: the weights and
@@ -306,8 +251,6 @@ enum flip_plane { PLANE_Y, PLANE_CX, PLANE_CZ1, PLANE_CZ2, PLANE_SMOOTH, PLANE_E
 
 struct flip {
     double linear[256];         /* sRGB codes to linear light */
-    double rgb_to_xyz[3][3], xyz_to_rgb[3][3];
-    struct root root[ROOTS];
     struct kernel y, cx, cz1, cz2;
     double cz1_share, cz2_share;
     struct kernel smooth, edge, point;
@@ -324,49 +267,23 @@ static inline struct color transform(const double m[3][3], struct color c)
     };
 }
 
-static void invert(double m[3][3], double inverse[3][3])
-{
-    double determinant = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            int r0 = (j + 1) % 3, r1 = (j + 2) % 3, c0 = (i + 1) % 3, c1 = (i + 2) % 3;
-            inverse[i][j] = m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];
-        }
-    for (int i = 0; i < 3; i++)
-        determinant += m[0][i] * inverse[i][0];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            inverse[i][j] /= determinant;
-}
-
-/* The matrices of sRGB from the chromaticities of its primaries and its white, D65, with the five
- * digits that FLIP is defined with. */
-static void flip_color_matrices(struct flip *p)
-{
-    static const double primary[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
-    static const double white[2] = {0.31271, 0.32902};
-    double columns[3][3], inverse[3][3];
-    for (int i = 0; i < 3; i++) {
-        columns[0][i] = primary[i][0] / primary[i][1];
-        columns[1][i] = 1;
-        columns[2][i] = (1 - primary[i][0] - primary[i][1]) / primary[i][1];
-    }
-    struct color xyz = {white[0] / white[1], 1, (1 - white[0] - white[1]) / white[1]};
-    double by[3] = {1 / xyz.x, 1 / xyz.y, 1 / xyz.z};   /* white becomes (1, 1, 1) */
-    invert(columns, inverse);
-    struct color scale = transform((const double(*)[3])inverse, xyz);
-    for (int row = 0; row < 3; row++) {
-        p->rgb_to_xyz[row][0] = columns[row][0] * scale.x * by[row];
-        p->rgb_to_xyz[row][1] = columns[row][1] * scale.y * by[row];
-        p->rgb_to_xyz[row][2] = columns[row][2] * scale.z * by[row];
-    }
-    invert(p->rgb_to_xyz, p->xyz_to_rgb);
-}
+/* Of sRGB with its white, D65, at (1, 1, 1): from the chromaticities of its primaries and of white with the five digits that
+ * FLIP is defined with. */
+static const double rgb_to_xyz[3][3] = {
+    {0.43389538883150308, 0.37624237262225113, 0.18986223854624576},
+    {0.21263682167732384, 0.71518298184125073, 0.072180196481425457},
+    {0.01775242315172991, 0.10946562866246512, 0.8727819481858049},
+};
+static const double xyz_to_rgb[3][3] = {
+    {3.0803419882804604, -1.5373989694887853, -0.54294301879167495},
+    {-0.92117839616512331, 1.8759299836951757, 0.04524841246994759},
+    {0.052881292875543287, -0.20401120612390994, 1.1511299132483668},
+};
 
 /* The opponent space that is linear in light, so that averages mean something. */
-static struct color rgb_to_ycxcz(const struct flip *p, struct color rgb)
+static struct color rgb_to_ycxcz(struct color rgb)
 {
-    struct color c = transform((const double(*)[3])p->rgb_to_xyz, rgb);
+    struct color c = transform(rgb_to_xyz, rgb);
     return (struct color){116 * c.y - 16, 500 * (c.x - c.y), 200 * (c.y - c.z)};
 }
 
@@ -375,57 +292,24 @@ static double clamp01(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
-static struct color ycxcz_to_rgb(const struct flip *p, struct color c)
+static struct color ycxcz_to_rgb(struct color c)
 {
     double y = (c.x + 16) / 116, x = y + c.y / 500, z = y - c.z / 200;
-    struct color rgb = transform((const double(*)[3])p->xyz_to_rgb, (struct color){x, y, z});
+    struct color rgb = transform(xyz_to_rgb, (struct color){x, y, z});
     return (struct color){clamp01(rgb.x), clamp01(rgb.y), clamp01(rgb.z)};
 }
 
-static uint64_t bits_of(double v)
-{
-    uint64_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    return bits;
-}
-
-/* The entry of a number from 1/128 to 2: the lower part of its exponent and the top of its
- * fraction. */
-static size_t root_entry(double t)
-{
-    return (bits_of(t) - bits_of(1.0 / 128)) >> (52 - ROOT_BITS);
-}
-
-static void fill_roots(struct root *root)
-{
-    for (int i = 0; i < ROOTS; i++) {
-        int steps = 1 << ROOT_BITS;
-        double middle = ldexp((i % steps + 0.5) / steps + 1, i / steps - 7);
-        root[i] = (struct root){cbrt(middle), 1 / middle};
-    }
-}
-
-/* The cube root of a number from 1/128 to 2, right to 15 digits: that of one nearby times that of
- * the ratio of the two, by its series. The library's takes five times as long. */
-static double cube_root(const struct root *root, double t)
-{
-    const struct root *near = root + root_entry(t);
-    double r = t * near->inverse - 1;           /* within 1/512 of 0 */
-    double series = r * (1.0 / 3 - r * (1.0 / 9 - r * (5.0 / 81 - r * (10.0 / 243))));
-    return near->of + near->of * series;
-}
-
-static inline double lab_curve(const struct flip *p, double t)
+static inline double lab_curve(double t)
 {
     double knee = 6.0 / 29;
-    return t > knee * knee * knee ? cube_root(p->root, t) : t / (3 * knee * knee) + 4.0 / 29;
+    return t > knee * knee * knee ? cbrt(t) : t / (3 * knee * knee) + 4.0 / 29;
 }
 
 /* L*a*b* with the chroma of dark colours reduced (Hunt effect). */
-static struct color rgb_to_hunt_lab(const struct flip *p, struct color rgb)
+static struct color rgb_to_hunt_lab(struct color rgb)
 {
-    struct color c = transform((const double(*)[3])p->rgb_to_xyz, rgb);
-    double x = lab_curve(p, c.x), y = lab_curve(p, c.y), z = lab_curve(p, c.z);
+    struct color c = transform(rgb_to_xyz, rgb);
+    double x = lab_curve(c.x), y = lab_curve(c.y), z = lab_curve(c.z);
     double lightness = 116 * y - 16;
     return (struct color){lightness, 0.01 * lightness * 500 * (x - y),
                           0.01 * lightness * 200 * (y - z)};
@@ -490,8 +374,6 @@ static void flip_prepare(struct flip *p, double pixels_per_degree)
         double v = code / 255.0;
         p->linear[code] = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
     }
-    flip_color_matrices(p);
-    fill_roots(p->root);
 
     /* The radius that the widest Gaussian needs serves all three channels. */
     int radius = (int)ceil(3 * sqrt(sensitivity_cz.b1 / (2 * pi * pi)) * pixels_per_degree);
@@ -512,102 +394,82 @@ static void flip_prepare(struct flip *p, double pixels_per_degree)
     feature_kernels(p, deviation, feature_radius);
     p->radius = radius > feature_radius ? radius : feature_radius;
 
-    p->max_color_difference = color_distance(rgb_to_hunt_lab(p, (struct color){0, 1, 0}),
-                                             rgb_to_hunt_lab(p, (struct color){0, 0, 1}));
+    p->max_color_difference = color_distance(rgb_to_hunt_lab((struct color){0, 1, 0}),
+                                             rgb_to_hunt_lab((struct color){0, 0, 1}));
 }
 
-/* What FLIP compares at each pixel of a row of a band. */
-struct flip_row {
-    struct color lab[BAND];
-    double edge[BAND], point[BAND];     /* lengths of the two detectors' gradients */
-};
+/* Of each picture: what comes in, what FLIP compares at each pixel of a row (the colour, and the lengths of the two detectors'
+ * gradients), and sums. */
+enum flip_line { LINE_Y, LINE_CX, LINE_CZ, LINE_L, LINE_LA, LINE_LB, LINE_EDGE, LINE_POINT, LINE_S0, LINE_S1, LINE_S2, LINE_S3,
+                 FLIP_LINES };
 
 static void flip_fill_row(const struct flip *p, struct ring *r, int y, const struct image *image)
 {
-    struct color row[BAND + 2 * MAX_RADIUS];
-    const uint8_t *from = ring_pixels(r, y, image);
-    double *in = ring_input(r);
-    int count = ring_seen(r);
-    for (int i = 0; i < count; i++, from += 4)
-        row[i] = rgb_to_ycxcz(p, (struct color){p->linear[from[0]], p->linear[from[1]],
-                                                 p->linear[from[2]]});
-    for (int i = 0; i < count; i++)
-        in[i] = row[i].y;
-    ring_clamp_input(r);
+    double *light = ring_line(r, LINE_Y), *cx = ring_line(r, LINE_CX), *cz = ring_line(r, LINE_CZ);
+    const uint8_t *from = pixels_of(image, y);
+    for (int x = 0; x < r->width; x++, from += 4) {
+        struct color c = rgb_to_ycxcz((struct color){p->linear[from[0]], p->linear[from[1]], p->linear[from[2]]});
+        light[x] = c.x;
+        cx[x] = c.y;
+        cz[x] = c.z;
+    }
+    ring_input(r, cx);
     ring_convolve_x(r, y, PLANE_CX, &p->cx);
-    for (int i = 0; i < count; i++)
-        in[i] = row[i].z;
-    ring_clamp_input(r);
+    ring_input(r, cz);
     ring_convolve_x(r, y, PLANE_CZ1, &p->cz1);
     ring_convolve_x(r, y, PLANE_CZ2, &p->cz2);
-    for (int i = 0; i < count; i++)
-        in[i] = row[i].x;
-    ring_clamp_input(r);
+    ring_input(r, light);
     ring_convolve_x(r, y, PLANE_Y, &p->y);
-    for (int i = 0; i < count; i++)
-        in[i] = (row[i].x + 16) / 116;          /* 0..1 for the feature detectors */
-    ring_clamp_input(r);
+    for (int x = 0; x < r->width; x++)
+        light[x] = (light[x] + 16) / 116;       /* 0..1 for the feature detectors */
+    ring_input(r, light);
     ring_convolve_x(r, y, PLANE_SMOOTH, &p->smooth);
     ring_convolve_x(r, y, PLANE_EDGE, &p->edge);
     ring_convolve_x(r, y, PLANE_POINT, &p->point);
 }
 
-static void flip_finish_row(const struct flip *p, const struct ring *r, int y, struct flip_row *out)
+static void flip_finish_row(const struct flip *p, const struct ring *r, int y)
 {
-    double s0[BAND], s1[BAND], s2[BAND], s3[BAND];
+    double *s0 = ring_line(r, LINE_S0), *s1 = ring_line(r, LINE_S1), *s2 = ring_line(r, LINE_S2), *s3 = ring_line(r, LINE_S3);
     ring_convolve_y(r, y, PLANE_Y, &p->y, s0);
     ring_convolve_y(r, y, PLANE_CX, &p->cx, s1);
     ring_convolve_y(r, y, PLANE_CZ1, &p->cz1, s2);
     ring_convolve_y(r, y, PLANE_CZ2, &p->cz2, s3);
-    for (int x = 0; x < ring_columns(r); x++) {
+    for (int x = 0; x < r->width; x++) {
         double cz = p->cz1_share * s2[x] + p->cz2_share * s3[x];
-        out->lab[x] = rgb_to_hunt_lab(p, ycxcz_to_rgb(p, (struct color){s0[x], s1[x], cz}));
+        struct color lab = rgb_to_hunt_lab(ycxcz_to_rgb((struct color){s0[x], s1[x], cz}));
+        ring_line(r, LINE_L)[x] = lab.x;
+        ring_line(r, LINE_LA)[x] = lab.y;
+        ring_line(r, LINE_LB)[x] = lab.z;
     }
     ring_convolve_y(r, y, PLANE_EDGE, &p->smooth, s0);
     ring_convolve_y(r, y, PLANE_SMOOTH, &p->edge, s1);
     ring_convolve_y(r, y, PLANE_POINT, &p->smooth, s2);
     ring_convolve_y(r, y, PLANE_SMOOTH, &p->point, s3);
-    for (int x = 0; x < BAND; x++) {
-        out->edge[x] = length(s0[x], s1[x]);
-        out->point[x] = length(s2[x], s3[x]);
+    for (int x = 0; x < r->width; x++) {
+        ring_line(r, LINE_EDGE)[x] = length(s0[x], s1[x]);
+        ring_line(r, LINE_POINT)[x] = length(s2[x], s3[x]);
     }
 }
 
-static double flip_pixel(const struct flip *p, const struct flip_row *a, const struct flip_row *b,
-                         int x)
+static struct color lab_at(const struct ring *r, int x)
+{
+    return (struct color){ring_line(r, LINE_L)[x], ring_line(r, LINE_LA)[x], ring_line(r, LINE_LB)[x]};
+}
+
+static double flip_pixel(const struct flip *p, const struct ring *a, const struct ring *b, int x)
 {
     /* Colour: up to 0.4 of the largest difference onto 0..0.95, the rest onto 0.95..1. */
     double knee = 0.4 * p->max_color_difference;
-    double color = color_distance(a->lab[x], b->lab[x]);
+    double color = color_distance(lab_at(a, x), lab_at(b, x));
     if (color < knee)
         color *= 0.95 / knee;
     else
         color = 0.95 + (color - knee) / (p->max_color_difference - knee) * 0.05;
-    double edge = fabs(a->edge[x] - b->edge[x]), point = fabs(a->point[x] - b->point[x]);
+    double edge = fabs(ring_line(a, LINE_EDGE)[x] - ring_line(b, LINE_EDGE)[x]);
+    double point = fabs(ring_line(a, LINE_POINT)[x] - ring_line(b, LINE_POINT)[x]);
     double feature = sqrt((edge > point ? edge : point) / sqrt(2));
     return color > 0 ? pow(color, feature < 1 ? 1 - feature : 0) : 0;
-}
-
-/* The sum over the band that both rings are at. */
-static double flip_band(const struct flip *p, struct ring ring[2],
-                        const struct image *const image[2], const uint8_t *marked)
-{
-    struct flip_row row[2];
-    double sum = 0;
-    for (int y = 0; y < ring->height; y++) {
-        if (!marked[y])
-            continue;
-        for (int i = 0; i < 2; i++) {
-            struct ring *r = ring + i;
-            for (r->filled = ring_next_row(r, y); r->filled < r->height && r->filled <= y + p->radius;
-                 r->filled++)
-                flip_fill_row(p, r, r->filled, image[i]);
-            flip_finish_row(p, r, y, &row[i]);
-        }
-        for (int x = 0; x < ring_columns(ring); x++)
-            sum += flip_pixel(p, &row[0], &row[1], x);
-    }
-    return sum;
 }
 
 static bool mean_flip(const struct image *a, const struct image *b, double pixels_per_degree,
@@ -616,21 +478,29 @@ static bool mean_flip(const struct image *a, const struct image *b, double pixel
     const struct image *const image[2] = {a, b};
     struct ring ring[2] = {{0}, {0}};
     struct flip *p = malloc(sizeof *p);
-    uint8_t *marked = malloc((size_t)a->height);
-    bool ok = p != NULL && marked != NULL;
-    if (ok)
-        flip_prepare(p, pixels_per_degree);
-    for (int i = 0; ok && i < 2; i++)
-        ok = ring_alloc(&ring[i], a, p->radius, FLIP_PLANES);
+    uint8_t *marked = NULL;
+    bool ok = p != NULL;
     double sum = 0;
-    for (int left = 0; ok && left < a->width; left += BAND) {
-        ring_begin_band(&ring[0], left);
-        ring_begin_band(&ring[1], left);
-        mark_rows(&ring[0], a, b, marked);
-        sum += flip_band(p, ring, image, marked);
+    if (ok) {
+        flip_prepare(p, pixels_per_degree);
+        ok = (marked = mark_rows(a, b, p->radius)) != NULL;
     }
-    free(ring[0].rows);
-    free(ring[1].rows);
+    for (int i = 0; ok && i < 2; i++)
+        ok = ring_alloc(&ring[i], a, p->radius, FLIP_PLANES, FLIP_LINES);
+    for (int y = 0; ok && y < a->height; y++) {
+        if (!marked[y])
+            continue;
+        for (int i = 0; i < 2; i++) {
+            struct ring *r = ring + i;
+            for (r->filled = ring_next_row(r, y); r->filled < r->height && r->filled <= y + p->radius; r->filled++)
+                flip_fill_row(p, r, r->filled, image[i]);
+            flip_finish_row(p, r, y);
+        }
+        for (int x = 0; x < a->width; x++)
+            sum += flip_pixel(p, &ring[0], &ring[1], x);
+    }
+    ring_free(&ring[0]);
+    ring_free(&ring[1]);
     free(marked);
     free(p);
     if (!ok)
