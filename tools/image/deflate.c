@@ -3,9 +3,8 @@
  *
  * RFC 1951. Matches are found through chains of positions with the same next four bytes (of three
  * equal bytes only the last place is known), one position late ("lazy"): a match is given up when
- * the next position starts a longer one. The
- * resulting tokens are written in blocks, each with its own Huffman codes, the fixed ones, or
- * stored, whichever is the smallest. */
+ * the next position starts a longer one. The resulting tokens are written in blocks, each with its
+ * own Huffman codes. */
 #include "tools/image/deflate.h"
 #include "tools/image/inflate.h"
 
@@ -36,7 +35,6 @@ struct deflater {
     struct buffer *out;
     uint64_t hold;              /* bits not yet written; the first is the lowest */
     unsigned hold_count;
-    size_t block_start;         /* first input byte of the tokens below */
     size_t token_count;
     token tokens[BLOCK_TOKENS];
     uint32_t literal_uses[LITERALS], distance_uses[DISTANCES];
@@ -188,27 +186,6 @@ static void build_huffman(struct huffman *h, const uint32_t *uses, unsigned n, u
     }
 }
 
-static void fixed_huffman(struct huffman *literal, struct huffman *distance)
-{
-    /* Uses that give exactly the fixed lengths would be a riddle; the lengths and codes are in the
-     * RFC. */
-    memset(literal, 0, sizeof *literal);
-    memset(distance, 0, sizeof *distance);
-    for (unsigned i = 0; i < 288; i++) {
-        unsigned bits = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
-        unsigned code = i < 144 ? 0x30 + i : i < 256 ? 0x190 + i - 144 : i < 280 ? i - 256
-                                                     : 0xc0 + i - 280;
-        literal->length[i] = (uint8_t)bits;
-        for (unsigned bit = 0; bit < bits; bit++)
-            literal->code[i] = (uint16_t)((unsigned)literal->code[i] << 1 | (code >> bit & 1));
-    }
-    for (unsigned i = 0; i < DISTANCES; i++) {
-        distance->length[i] = 5;
-        for (unsigned bit = 0; bit < 5; bit++)
-            distance->code[i] = (uint16_t)((unsigned)distance->code[i] << 1 | (i >> bit & 1));
-    }
-}
-
 /* The lengths of both codes, run-length coded: symbols 0..18 and their extra bits. */
 struct code_lengths {
     uint8_t symbol[LITERALS + DISTANCES], extra[LITERALS + DISTANCES];
@@ -268,14 +245,6 @@ static void describe_codes(struct code_lengths *c, const struct huffman *literal
         c->lengths--;
 }
 
-static uint64_t description_bits(const struct code_lengths *c)
-{
-    uint64_t bits = 5 + 5 + 4 + 3 * c->lengths;
-    for (unsigned i = 0; i < c->count; i++)
-        bits += c->huffman.length[c->symbol[i]] + code_length_extra_bits(c->symbol[i]);
-    return bits;
-}
-
 static void put_description(struct deflater *d, const struct code_lengths *c)
 {
     put(d, c->literals - 257, 5);
@@ -288,18 +257,6 @@ static void put_description(struct deflater *d, const struct code_lengths *c)
         put(d, c->huffman.code[symbol], c->huffman.length[symbol]);
         put(d, c->extra[i], code_length_extra_bits(symbol));
     }
-}
-
-static uint64_t token_bits(const struct deflater *d, const struct huffman *literal,
-                           const struct huffman *distance)
-{
-    uint64_t bits = 0;
-    for (unsigned i = 0; i < LITERALS; i++)
-        bits += (uint64_t)d->literal_uses[i] *
-                (literal->length[i] + (i > 256 ? length_extra_bits(i - 257) : 0));
-    for (unsigned i = 0; i < DISTANCES; i++)
-        bits += (uint64_t)d->distance_uses[i] * (distance->length[i] + distance_extra_bits(i));
-    return bits;
 }
 
 static void put_tokens(struct deflater *d, const struct huffman *literal,
@@ -321,49 +278,19 @@ static void put_tokens(struct deflater *d, const struct huffman *literal,
     put(d, literal->code[END_OF_BLOCK], literal->length[END_OF_BLOCK]);
 }
 
-static void put_stored(struct deflater *d, size_t from, size_t to, bool last)
+/* Writes the tokens gathered so far. */
+static void end_block(struct deflater *d, bool last)
 {
-    do {
-        size_t run = to - from < 65535 ? to - from : 65535;
-        put(d, last && from + run == to, 1);
-        put(d, 0, 2);
-        put(d, 0, (8 - d->hold_count) % 8);
-        put(d, (uint32_t)run, 16);
-        put(d, (uint32_t)run ^ 0xffff, 16);
-        buffer_append(d->out, d->in + from, run);
-        from += run;
-    } while (from < to);
-}
-
-/* Writes the tokens gathered so far, which cover the input up to `end`. */
-static void end_block(struct deflater *d, size_t end, bool last)
-{
-    struct huffman literal, distance, fixed_literal, fixed_distance;
+    struct huffman literal, distance;
     struct code_lengths lengths;
     d->literal_uses[END_OF_BLOCK] = 1;
     build_huffman(&literal, d->literal_uses, LITERALS, MAX_BITS);
     build_huffman(&distance, d->distance_uses, DISTANCES, MAX_BITS);
     describe_codes(&lengths, &literal, &distance);
-    fixed_huffman(&fixed_literal, &fixed_distance);
-
-    size_t raw = end - d->block_start;
-    uint64_t dynamic_bits = 3 + description_bits(&lengths) + token_bits(d, &literal, &distance);
-    uint64_t fixed_bits = 3 + token_bits(d, &fixed_literal, &fixed_distance);
-    uint64_t stored_bits = ((uint64_t)raw + (raw / 65535 + 1) * 5) * 8;
-    if (stored_bits < dynamic_bits && stored_bits < fixed_bits) {
-        put_stored(d, d->block_start, end, last);
-    } else {
-        put(d, last, 1);
-        if (fixed_bits <= dynamic_bits) {
-            put(d, 1, 2);
-            put_tokens(d, &fixed_literal, &fixed_distance);
-        } else {
-            put(d, 2, 2);
-            put_description(d, &lengths);
-            put_tokens(d, &literal, &distance);
-        }
-    }
-    d->block_start = end;
+    put(d, last, 1);
+    put(d, 2, 2);
+    put_description(d, &lengths);
+    put_tokens(d, &literal, &distance);
     d->token_count = 0;
     memset(d->literal_uses, 0, sizeof d->literal_uses);
     memset(d->distance_uses, 0, sizeof d->distance_uses);
@@ -380,7 +307,7 @@ static void add_token(struct deflater *d, unsigned length, unsigned value, size_
         d->distance_uses[distance_to_symbol(d, value)]++;
     }
     if (d->token_count == BLOCK_TOKENS && end < d->size)
-        end_block(d, end, false);
+        end_block(d, false);
 }
 
 static uint32_t load32(const uint8_t *p)
@@ -494,7 +421,7 @@ static void compress(struct deflater *d)
     /* A match cannot wait here: its second position would have been visited. */
     if (has_literal)
         add_token(d, 0, d->in[d->size - 1], d->size);
-    end_block(d, d->size, true);
+    end_block(d, true);
 }
 
 bool deflate_zlib(const uint8_t *bytes, size_t size, struct buffer *out)

@@ -10,7 +10,6 @@
 
 enum {
     MAX_BITS = 15,              /* longest code */
-    FAST_BITS = 10,             /* codes up to this length are decoded by one look-up */
     LITERALS = 288, DISTANCES = 32
 };
 
@@ -21,7 +20,6 @@ struct bits {
 };
 
 struct code {
-    uint16_t fast[1 << FAST_BITS];      /* symbol << 4 | length; 0: the code is longer or unused */
     uint16_t count[MAX_BITS + 1];       /* codes of each length */
     uint16_t symbol[LITERALS];          /* in order of their codes */
 };
@@ -31,7 +29,6 @@ struct inflater {
     uint8_t *out;
     size_t used, capacity;
     struct code literal, distance;
-    bool has_fixed_codes;       /* that is what the two codes are now; saves building them again */
 };
 
 static const uint16_t length_base[29] = {
@@ -72,21 +69,12 @@ static bool take(struct bits *b, unsigned n, unsigned *value)
     return true;
 }
 
-static unsigned reversed(unsigned code, unsigned length)
-{
-    unsigned result = 0;
-    for (unsigned i = 0; i < length; i++)
-        result |= (code >> i & 1) << (length - 1 - i);
-    return result;
-}
-
 /* Canonical code from the lengths of n symbols (0: unused). False when it is over-full, or
  * incomplete unless it consists of at most one code of one bit, which RFC 1951 allows for distances
  * and zlib's encoder has always been granted for literals too. */
 static bool build_code(struct code *c, const uint8_t *length, unsigned n, bool lone_allowed)
 {
     uint16_t offset[MAX_BITS + 2] = {0};
-    unsigned next_code[MAX_BITS + 2] = {0};
     memset(c, 0, sizeof *c);
     for (unsigned i = 0; i < n; i++)
         c->count[length[i]]++;
@@ -98,41 +86,22 @@ static bool build_code(struct code *c, const uint8_t *length, unsigned n, bool l
         if (left < 0)
             return false;
         offset[bits + 1] = (uint16_t)(offset[bits] + c->count[bits]);
-        next_code[bits + 1] = (next_code[bits] + c->count[bits]) << 1;
     }
     bool lone = used == 0 || (used == 1 && c->count[1] == 1);
     if (left > 0 && !(lone_allowed && lone))
         return false;
-    for (unsigned i = 0; i < n; i++) {
-        unsigned bits = length[i];
-        if (bits == 0)
-            continue;
-        c->symbol[offset[bits]++] = (uint16_t)i;
-        unsigned code = next_code[bits]++;
-        if (bits <= FAST_BITS) {
-            for (unsigned j = reversed(code, bits); j < 1u << FAST_BITS; j += 1u << bits)
-                c->fast[j] = (uint16_t)(i << 4 | bits);
-        }
-    }
+    for (unsigned i = 0; i < n; i++)
+        if (length[i] != 0)
+            c->symbol[offset[length[i]]++] = (uint16_t)i;
     return true;
 }
 
-/* The next symbol, or -1 for a code that is not used or cut off by the end of the data. */
+/* The next symbol, or -1 for a code that is not used or cut off by the end of the data. Bit by bit: at each length the codes are
+ * consecutive numbers starting at `first`. */
 static int decode(struct bits *b, const struct code *c)
 {
     if (b->count < MAX_BITS)
         refill(b);
-    unsigned entry = c->fast[b->hold & ((1u << FAST_BITS) - 1)];
-    if (entry != 0) {
-        unsigned length = entry & 15;
-        if (length > b->count)
-            return -1;
-        b->hold >>= length;
-        b->count -= length;
-        return (int)(entry >> 4);
-    }
-    /* Long codes bit by bit: at each length the codes are consecutive numbers starting at `first`.
-     * */
     int code = 0, first = 0, index = 0;
     for (unsigned length = 1; length <= MAX_BITS && length <= b->count; length++) {
         code |= (int)(b->hold >> (length - 1) & 1);
@@ -201,7 +170,6 @@ static bool read_dynamic_codes(struct inflater *s, struct failure *f)
             return fail(f, "compressed data ends early (in a code description)");
         length[order[i]] = (uint8_t)bits;
     }
-    s->has_fixed_codes = false;
     if (!build_code(&s->literal, length, 19, false))
         return fail(f, "compressed data is damaged (code lengths)");
 
@@ -242,9 +210,6 @@ static bool read_dynamic_codes(struct inflater *s, struct failure *f)
 static void fixed_codes(struct inflater *s)
 {
     uint8_t length[LITERALS];
-    if (s->has_fixed_codes)
-        return;
-    s->has_fixed_codes = true;
     memset(length, 8, 144);
     memset(length + 144, 9, 256 - 144);
     memset(length + 256, 7, 280 - 256);
@@ -260,15 +225,8 @@ static bool copy_match(struct inflater *s, size_t length, size_t distance, struc
         return fail(f, "compressed data is damaged (distance before the start)");
     if (length > s->capacity - s->used)
         return too_large(s, f);
-    uint8_t *to = s->out + s->used;
-    const uint8_t *from = to - distance;
-    s->used += length;
-    while (length > 0) {        /* overlapping: repeats the last bytes, twice as many each time */
-        size_t run = (size_t)(to - from) < length ? (size_t)(to - from) : length;
-        memcpy(to, from, run);
-        to += run;
-        length -= run;
-    }
+    for (; length > 0; length--, s->used++)     /* may overlap: repeats the last bytes */
+        s->out[s->used] = s->out[s->used - distance];
     return true;
 }
 
