@@ -28,10 +28,9 @@ struct point {
     float weight;
 };
 
-/* A colour of the palette in the making; in arrays ordered by luma, to be found fast. */
+/* A colour of the palette in the making. */
 struct center {
     float v[3];
-    int entry;                  /* of the palette */
 };
 
 static struct point to_point(float r, float g, float b)
@@ -212,39 +211,11 @@ static float square_distance(const float a[3], const float b[3])
     return x * x + y * y + z * z;
 }
 
-static int compare_luma(const void *a, const void *b)
-{
-    const struct center *x = a, *y = b;
-    return x->v[0] < y->v[0] ? -1 : x->v[0] > y->v[0] ? 1 : x->entry - y->entry;
-}
-
-static void sort_centers(struct center *center, int count)
-{
-    qsort(center, (size_t)count, sizeof *center, compare_luma);
-}
-
-/* Among centers ordered by luma. The search goes outwards from the luma of v and ends when luma
- * alone is further than the best distance so far. */
 static int nearest_center(const float v[3], const struct center *center, int count, float *distance)
 {
-    int below = 0, above = count;
-    while (below < above) {
-        int middle = (below + above) / 2;
-        if (center[middle].v[0] < v[0])
-            below = middle + 1;
-        else
-            above = middle;
-    }
     int best = 0;
     *distance = FLT_MAX;
-    below = above - 1;
-    while (below >= 0 || above < count) {
-        float down = below >= 0 ? v[0] - center[below].v[0] : FLT_MAX;
-        float up = above < count ? center[above].v[0] - v[0] : FLT_MAX;
-        float step = down < up ? down : up;
-        if (step * step >= *distance)
-            break;
-        int i = down < up ? below-- : above++;
+    for (int i = 0; i < count; i++) {
         float d = square_distance(v, center[i].v);
         if (d < *distance) {
             *distance = d;
@@ -279,7 +250,6 @@ static double refine(const struct point *points, int count, struct center *cente
         for (int k = 0; k < 3; k++)
             center[c].v[k] = used ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
     }
-    sort_centers(center, centers);
     return error;
 }
 
@@ -297,9 +267,8 @@ bool palette_choose(const struct marked_image *from, int limit, struct palette *
     for (unsigned shift = 0; shift <= 4 && count == 0; shift++)     /* 4: never above MAX_POINTS */
         count = histogram(from, shift, cells, points);
     if (count > 0) {
-        struct center center[256] = {{{0}, 0}};
+        struct center center[256] = {{{0}}};
         int centers = median_cut(points, count, limit, center);
-        sort_centers(center, centers);
         double last = DBL_MAX;
         for (int round = 0; round < REFINEMENTS; round++) {
             double error = refine(points, count, center, centers);
@@ -343,14 +312,7 @@ static struct mixture find_mixture(const float v[3], const struct center *center
     float best_gain = 0, share = 0;
     const float *n = center[nearest].v;
     float e[3] = {v[0] - n[0], v[1] - n[1], v[2] - n[2]};
-    /* Only partners with 2 e.d > q d.d gain anything, so |d| < 2 |e| / q, and so is its luma. */
-    float reach = 2 / NOISE_WEIGHT * sqrtf(distance);
-    int first = nearest, end = nearest;
-    while (first > 0 && n[0] - center[first - 1].v[0] < reach)
-        first--;
-    while (end < count && center[end].v[0] - n[0] < reach)
-        end++;
-    for (int i = first; i < end; i++) {
+    for (int i = 0; i < count; i++) {
         float d[3] = {center[i].v[0] - n[0], center[i].v[1] - n[1], center[i].v[2] - n[2]};
         float dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         float ed = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
@@ -363,10 +325,10 @@ static struct mixture find_mixture(const float v[3], const struct center *center
     }
     unsigned dots = (unsigned)(share * 64 + 0.5f);
     dots = dots > 64 ? 64 : dots;
-    uint8_t entry = (uint8_t)center[nearest].entry, other = (uint8_t)center[partner].entry;
+    uint8_t entry = (uint8_t)nearest, other = (uint8_t)partner;
     /* Always counting the brighter entry keeps the pattern when nearest and partner change places.
      * */
-    if (partner > nearest)
+    if (center[partner].v[0] > n[0])
         return (struct mixture){0, entry, other, (uint8_t)dots};
     return (struct mixture){0, other, entry, (uint8_t)(64 - dots)};
 }
@@ -374,15 +336,13 @@ static struct mixture find_mixture(const float v[3], const struct center *center
 bool palette_map(const struct marked_image *from, const struct palette *palette, uint8_t *index)
 {
     struct mixture *cache = calloc(CACHE_SLOTS, sizeof *cache);
-    struct center center[256] = {{{0}, 0}};
+    struct center center[256] = {{{0}}};
     if (cache == NULL)
         return false;
     for (int i = 0; i < palette->count; i++) {
         const uint8_t *rgb = palette->rgb[i];
         memcpy(center[i].v, to_point(rgb[0], rgb[1], rgb[2]).v, sizeof center[i].v);
-        center[i].entry = i;
     }
-    sort_centers(center, palette->count);
     const uint8_t *p = from->image->rgba;
     size_t i = 0;
     for (int y = 0; y < from->image->height; y++) {
