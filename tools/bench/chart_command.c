@@ -88,7 +88,7 @@ static const struct option table[] = {
     { "--jobs", OPTION_INTEGER, AT(jobs), .low = 1, .high = 8 },
     { "--quick", OPTION_FLAG, AT(quick) },
     { "--strict", OPTION_FLAG, AT(strict) },
-    { NULL },
+    { .name = NULL },
 };
 
 static int read_options(struct options *o, int count, char **text)

@@ -237,7 +237,7 @@ static const struct option table[] = {
     { "--models", OPTION_READ, .read = read_models },
     { "--light", OPTION_NAME, OPTION_AT(struct options, only_light), OPTION_NAMES("encoded", "linear"), .low = ENCODED },
     { "--count", OPTION_FLAG, OPTION_AT(struct options, count) },
-    { NULL },
+    { .name = NULL },
 };
 
 static bool read_options(struct options *o, int count, char **text)

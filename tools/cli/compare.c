@@ -24,7 +24,7 @@ enum { DEFAULT_GAIN = 8, MAX_PIXELS = 1 << 23 };
 static const struct option table[] = {
     { "--diff", OPTION_TEXT, OPTION_AT(struct compare_options, difference) },
     { "--gain", OPTION_INTEGER, OPTION_AT(struct compare_options, gain), .low = 1, .high = 255 },
-    { NULL },
+    { .name = NULL },
 };
 
 static bool load_pfm(const uint8_t *bytes, size_t size, struct image *out, struct failure *f)

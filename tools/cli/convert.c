@@ -109,7 +109,7 @@ static const struct option table[] = {
     { "--mask", OPTION_FLAG, AT(sprite.mask), SPRITE },
     { "--font", OPTION_INTEGER, AT(sprite.first), .given = offsetof(struct convert_command, sprite.font), .high = 255,
       .needs = "the code of its first letter" },
-    { NULL },
+    { .name = NULL },
 };
 
 static bool ends_with(const char *text, const char *end)

@@ -37,7 +37,7 @@ static const struct option table[] = {
     { "--outside", OPTION_FLAG, OPTION_AT(struct source_view, files) },
     { "--board", OPTION_READ, .read = read_board },
     { "--desc", OPTION_READ, .read = read_desc },
-    { NULL },
+    { .name = NULL },
 };
 
 /* ------------------------------------------------------------------ a model's parts */

@@ -128,7 +128,7 @@ static const struct option table[] = {
     { "--no-shared-memory", OPTION_FLAG, AT(no_shared_memory) },
     { "--colors", OPTION_NAME, AT(colors), OPTION_NAMES("256", "24bit"), OPTION_VALUES(8, 24) },
     { "--times", OPTION_FLAG, AT(times) },
-    { NULL },
+    { .name = NULL },
 };
 
 /* ------------------------------------------------------------------ options of a board */

@@ -169,7 +169,7 @@ int arguments_read(int count, char **text, const struct option *table, void *opt
             return say_bad_usage(option->name, "needs a value");
         if (option_has_value(option) && value == NULL)
             value = text[i];
-        near = (struct guess){ NULL };
+        near = (struct guess){ .word = NULL };
         wrong = take_value(option, to, value);
         if (wrong != NULL)
             return say_wrong(option->name, wrong, value);

@@ -230,7 +230,7 @@ static const struct option table[] = {
     { "--depth", OPTION_TEXT, AT(depth) },
     { "--velocity", OPTION_TEXT, AT(velocity) },
     { "--stats", OPTION_TEXT, AT(stats) },
-    { NULL },
+    { .name = NULL },
 };
 
 /* ------------------------------------------------------------------ all of them together */
