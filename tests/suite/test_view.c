@@ -710,3 +710,5 @@ static void test_boards_have_names_of_their_own(void)
     CHECK(board_find("nothing") == NULL);
 }
 
+
+#include "build/suites/view.h"
