@@ -33,13 +33,13 @@ struct model_screen {
 };
 
 static const struct model_screen screens[] = {
-    { "oled", { .width = 128, .height = 64, .reach = 4, .format = SMEAR_L4, .bands = 2 }, SMEAR_PATH_LINE },
-    { "gba", { .width = 120, .height = 80, .reach = 6, .format = SMEAR_RGB555 }, SMEAR_PATH_DEFAULT },
-    { "pico", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-240", { .width = 240, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-320", { .width = 320, .height = 240, .reach = 12, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-128", { .width = 128, .height = 128, .reach = 6, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "linux", { .width = 640, .height = 480, .reach = 24, .format = SMEAR_XRGB8888 }, SMEAR_PATH_DEFAULT },
+    { "oled", { .width = 128, .height = 64, .format = SMEAR_L4, .bands = 2 }, SMEAR_PATH_LINE },
+    { "gba", { .width = 120, .height = 80, .format = SMEAR_RGB555 }, SMEAR_PATH_DEFAULT },
+    { "pico", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-240", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-320", { .width = 320, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "pico-128", { .width = 128, .height = 128, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
+    { "linux", { .width = 640, .height = 480, .format = SMEAR_XRGB8888 }, SMEAR_PATH_DEFAULT },
 };
 
 static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
@@ -83,7 +83,6 @@ static int start(const struct model_screen *screen, smear_desc *desc)
 {
     *desc = screen->desc;
     path = screen->path;
-    desc->methods = SMEAR_SET(SMEAR_RECONSTRUCT);
     desc->max_draws = MODEL_DRAWS;
     desc->max_triangles = MODEL_TRIANGLES;
     return smear_actor_init(&actor, &model_model, 2, actor_memory, sizeof actor_memory);
@@ -95,7 +94,7 @@ static int frame(uint32_t index, bool draw)
     const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
                               .time = (int32_t)(index * 65536u / FPS) };
     const smear_frame how = { .camera = &camera, .light_space = SMEAR_LIGHT_ENCODED,
-                              .method = is_sharp ? SMEAR_NONE : SMEAR_RECONSTRUCT, .shutter.path = path };
+                              .method = is_sharp ? SMEAR_NONE : SMEAR_AUTO, .shutter.path = path };
     int result = smear_actor_advance(actor, &play);
     if (result == SMEAR_OK)
         result = smear_begin(ctx, &how);
