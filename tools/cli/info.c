@@ -211,14 +211,17 @@ static void print_memory(const struct presented *presented, int width, int heigh
 {
     static const char *const names[MEMORY_SETUPS] = { "auto", "auto, no window", "reconstruct",
                                                       "none" };
+    /* What a firmware gets that says nothing comes first. */
+    static const enum memory_setup order[MEMORY_SETUPS] = { MEMORY_AUTO_SHARP, MEMORY_AUTO, MEMORY_RECONSTRUCT, MEMORY_NONE };
     for (int i = 0; i < MEMORY_SETUPS; i++) {
+        const enum memory_setup setup = order[i];
         struct memory_need need;
         struct failure why = { "" };
         if (presented->triangle_count > MAX_MEASURED) {
             printf("memory at %dx%d: not measured for more than %d triangles\n", width, height, MAX_MEASURED);
             return;
         }
-        if (!memory_measure(presented, width, height, (enum memory_setup)i, &need, work, &why)) {
+        if (!memory_measure(presented, width, height, setup, &need, work, &why)) {
             printf("memory at %dx%d: %s\n", width, height, why.text);
             return;
         }
@@ -226,9 +229,9 @@ static void print_memory(const struct presented *presented, int width, int heigh
             printf("memory at %dx%d (rgb565, reach %d, tile %d, %u draws):\n", width, height,
                    need.reach, need.tile, (unsigned)need.draws);
         printf("  %-16s %zu bytes: window %zu, bands %zu, draws %zu, %u triangles %zu, rest %zu%s\n",
-               names[i], need.total, need.window, need.bands, need.draw_bytes,
+               names[setup], need.total, need.window, need.bands, need.draw_bytes,
                (unsigned)need.triangles, need.triangle_bytes, need.rest,
-               i == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods" : "");
+               setup == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods" : "");
     }
 }
 
