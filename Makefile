@@ -86,7 +86,7 @@ BENCH_SRC := $(wildcard tools/bench/*.c)
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) $(addprefix tools/options/,say.c sink.c) \
     $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c output.c palette.c pfm.c place.c \
         png_read.c png_write.c ppm.c) \
-    $(addprefix tools/scenes/,build.c demo.c demo_car.c demo_drone.c demo_track.c present.c present_surface.c scene.c stage.c)
+    $(addprefix tools/scenes/,backdrop.c build.c demo.c demo_car.c demo_drone.c demo_track.c present.c present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)
 

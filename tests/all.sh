@@ -122,6 +122,7 @@ programs() {
     needs python3 "python3" || true        # cli.sh reads statistics with it
     suite command-line sh tests/shell/cli.sh build/smear
     suite did-you-mean sh tests/shell/did_you_mean.sh build/smear
+    suite show sh tests/shell/show.sh build/smear
     suite outputs sh tests/shell/outputs.sh build/smear
     suite arenas sh tests/shell/arenas.sh build/smear
     suite strangers sh tests/shell/strangers.sh build/smear

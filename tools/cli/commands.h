@@ -9,6 +9,7 @@ int command_convert(int count, char **text);
 int command_compare(int count, char **text);
 int command_info(int count, char **text);
 int command_view(int count, char **text);
+int command_show(int count, char **text);
 int command_bench(int count, char **text);
 int command_chart(int count, char **text);
 int command_help(int count, char **text);

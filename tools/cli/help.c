@@ -12,6 +12,7 @@ static const char program_help[] =
     "smear - motion blur for machines without a GPU, drawn on this one\n"
     "\n"
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
+    "    smear show MODEL [-o OUT.gif]    a model at its best: clip, camera and background are chosen\n"
     "    smear view [SCENE]               in a window or terminal, with live controls\n"
     "    smear convert MODEL|PICTURE -o OUT.h|OUT.smr\n"
     "                                     a model, sprite or font as constant data for firmware\n"
@@ -41,7 +42,8 @@ static const char *const render_help[] = {
     "  --size WxH            pixels, 1 to 2048 [320x240]\n"
     "  --fps F               frames per second [30]\n"
     "  --time SECONDS        one frame, number 0, at this time [0]\n"
-    "  --frames A-B          frames A to B; frame i shows the time i / fps\n"
+    "  --frames A-B          frames A to B; frame i shows the time i / fps [0-0; of a .gif or .apng, all\n"
+    "                        frames of the clip]\n"
     "  --clip NAME|INDEX|all|none\n"
     "                        what moves the model [0]; all: together, the later in the file wins\n"
     "  --loop                clips start again at the end of their longest channel [they stop]\n"
@@ -55,7 +57,8 @@ static const char *const render_help[] = {
     "                        frame is seen from there\n"
     "  --filter nearest|bilinear\n"
     "                        texels [nearest]\n"
-    "  --clear RRGGBB        background [000000]\n"
+    "  --clear RRGGBB[,RRGGBB]\n"
+    "                        background; of two colours, from the top to the bottom [000000]\n"
     "  --fog RRGGBB,NEAR,FAR fog between two distances from the camera, in units of the scene; the\n"
     "                        background has its colour, and nothing is drawn beyond it [none]\n"
     "  --edges hard|smooth   auto, subframes: what lies on both sides of an edge is mixed where it\n"
@@ -152,6 +155,22 @@ static const char *const render_help[] = {
     "  --stats FILE.json|-   times, counts and the CRC-32 of the pixels as the display gets them; - is\n"
     "                        standard output\n"
     "Files get their names when all are complete, at the end: all of them, or none.\n",
+    NULL
+};
+
+static const char *const show_help[] = {
+    "smear show MODEL [-o OUT.gif|.apng|.png] [options]\n"
+    "\n"
+    "Shows a .glb, .gltf or .obj file at its best: the clip that moves most, all of it, looped (without\n"
+    "one, the model turned once about itself), seen from where all of it fills the picture (by the\n"
+    "file's own camera, where it has one), blurred, with smooth edges, before a soft background. Prints\n"
+    "the options of `render` that draw the same, to go on from.\n"
+    "\n"
+    "  -o FILE               .gif or .apng; a still (.png, .ppm, .pfm) is of the middle of the clip, and\n"
+    "                        one %d or %04d in its name makes one of each frame [a window or terminal,\n"
+    "                        as `smear view MODEL` opens it]\n"
+    "  --outside             files that MODEL names may lie outside of its folder [only in it or below]\n"
+    "  --double-sided        backs of faces are seen, too [where the file's material says so; OBJ: not]\n",
     NULL
 };
 
@@ -273,7 +292,7 @@ static const char *const chart_help[] = {
 };
 
 static const char *const help_help[] = {
-    "smear help [render|view|convert|compare|info|bench|chart]\n",
+    "smear help [render|show|view|convert|compare|info|bench|chart]\n",
     NULL
 };
 
@@ -293,9 +312,9 @@ static void print_methods(void)
 
 int help_print(const char *command)
 {
-    static const char *const names[] = { "render", "convert", "compare", "info", "bench", "chart",
+    static const char *const names[] = { "render", "show", "convert", "compare", "info", "bench", "chart",
                                          "help", NULL };
-    static const char *const *const texts[] = { render_help, convert_help, compare_help, info_help,
+    static const char *const *const texts[] = { render_help, show_help, convert_help, compare_help, info_help,
                                                 bench_help, chart_help, help_help };
     int found = command != NULL ? read_name(command, names) : -1;
     if (command == NULL) {

@@ -23,7 +23,7 @@ static const struct {
     const char *name;
     int (*run)(int count, char **text);
 } commands[] = {
-    { "convert", command_convert },
+    { "convert", command_convert }, { "show", command_show },
     { "render", command_render }, { "compare", command_compare }, { "info", command_info },
     { "view", command_view },     { "bench", command_bench },     { "chart", command_chart },
     { "help", command_help },     { "--help", command_help },     { "-h", command_help },

@@ -14,6 +14,7 @@
 #include "tools/player/unseen.h"
 #include "tools/view/orbit.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,11 +85,13 @@ static bool start_orbit(struct render *r, struct failure *f)
     if (o->orbit == 0.0)
         return true;
     orbit_open(&r->orbit, &r->source.scene);
+    if (o->view.has_eye)                /* what it looks at has been said */
+        r->orbit.focus = hypot(hypot(o->view.eye[0] - o->view.look[0], o->view.eye[1] - o->view.look[1]), o->view.eye[2] - o->view.look[2]);
     if (o->has_frames)
         r->orbit.spin = angle * r->setup.present.fps / (double)(o->last - o->first + 1);
     else
         r->orbit.yaw = angle;
-    return orbit_find_focus(&r->orbit, time_of(r, o->first), f);
+    return r->orbit.focus > 0.0 || orbit_find_focus(&r->orbit, time_of(r, o->first), f);
 }
 
 /* ------------------------------------------------------------------ a frame */
@@ -244,10 +247,12 @@ static int render_scene(struct render *r)
 {
     struct failure f = { "" };
     struct apart_output outputs[OPTIONS_OUTPUTS];
-    options_outputs(&r->options, outputs);
-    int status = apart_check_inputs(outputs, OPTIONS_OUTPUTS);
+    int status = setup_open(&r->options, &r->source, &r->setup);
     if (status == STATUS_OK)
-        status = setup_open(&r->options, &r->source, &r->setup);
+        status = options_move(&r->options, source_period(&r->source, &r->options.view, r->setup.present.fps));
+    options_outputs(&r->options, outputs);
+    if (status == STATUS_OK)
+        status = apart_check_inputs(outputs, OPTIONS_OUTPUTS);
     if (status != STATUS_OK)
         return status;
     r->options.picture_sink.fps = r->setup.present.fps;

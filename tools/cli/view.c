@@ -2,6 +2,8 @@
 /* view.c - `smear view`: the options of `render` that say what is drawn, and those of a viewer. */
 #include "tools/cli/commands.h"
 
+#include "tools/cli/show.h"
+
 #include "tools/image/file.h"
 #include "tools/options/arguments.h"
 #include "tools/options/options.h"
@@ -203,7 +205,8 @@ static const char *const help[] = {
     "\n"
     "Shows SCENE (without one, the demo) in a window, in the terminal or on the display, whichever\n"
     "there is, exactly as a device would show it: frames are drawn by what `smear render` uses, and\n"
-    "equal options give equal bits. All options of `render` that say what is drawn are options of\n"
+    "equal options give equal bits. A model begins as `smear show` has it, unless options say which\n"
+    "clip, camera or time, or nobody looks (below). All options of `render` that say what is drawn are options of\n"
     "view, too (smear help render); those that name files are not.\n"
     "\n"
     "Where\n"
@@ -319,6 +322,43 @@ static int check_files(struct view_options *w)
     return apart_check(w->output, VIEW_OUTPUTS);
 }
 
+/* Whether a person looks at a model and leaves open how. */
+static bool begins_at_its_best(const struct view_options *w, const struct render_options *o)
+{
+    const bool is_watched = w->frames == 0 && !w->crc && w->check == NULL && w->record == NULL && w->play == NULL;
+    return is_watched && o->scene != NULL && source_builtin_name(o->scene) == NULL && o->view.clip == NULL && o->view.camera == NULL
+        && !o->view.has_eye && !o->has_time;
+}
+
+/* Reads the options again, behind those that show the model at its best. A board's picture stays as the board would draw it. */
+static int read_at_its_best(struct view_options *w, struct render_options *o, int count, char **all)
+{
+    struct show show;
+    struct show_texts texts = { .count = 0 };
+    struct failure why = { "" };
+    bool is_empty, wants_help;
+    int status = show_choose_file(o->scene, &o->view, o->has_size ? o->view.aspect : 0.0, &show, &is_empty, &why);
+    if (status != STATUS_OK || is_empty)
+        return status;                  /* the viewer says of what is empty why */
+    const bool is_board = find_board(count, all) != NULL;
+    show_add_scene(&texts, &show);
+    if (!is_board && !o->has_clear && o->fog.end == 0.0)
+        show_add_background(&texts);
+    if (!is_board && method_smooths_edges(o->method) && !o->keep_display)
+        show_add_smoothness(&texts);
+    char **text = calloc((size_t)(texts.count + count), sizeof *text);
+    if (text == NULL) {
+        fail(&why, "out of memory");
+        return say_bad_input("view", &why);
+    }
+    memcpy(text, texts.text, (size_t)texts.count * sizeof *text);
+    memcpy(text + texts.count, all, (size_t)count * sizeof *text);
+    status = options_read_seen(o, texts.count + count, text, &wants_help);
+    w->spin = show.spin;
+    free(text);
+    return status;
+}
+
 int command_view(int count, char **text)
 {
     static struct view view;            /* large, and one is enough */
@@ -332,13 +372,15 @@ int command_view(int count, char **text)
     }
     arguments_also(table, &view.wish);
     int status = options_read_seen(&options, count, all, &wants_help);
+    if (status == STATUS_OK && !wants_help)
+        status = check(&view.wish, &options);
+    if (status == STATUS_OK && !wants_help)
+        status = check_files(&view.wish);
+    if (status == STATUS_OK && !wants_help && begins_at_its_best(&view.wish, &options))
+        status = read_at_its_best(&view.wish, &options, count, all);
     free(all);
     if (status == STATUS_OK && wants_help)
         return view_help_print();
-    if (status == STATUS_OK)
-        status = check(&view.wish, &options);
-    if (status == STATUS_OK)
-        status = check_files(&view.wish);
     if (status != STATUS_OK)
         return status;
     if (options.scene == NULL)

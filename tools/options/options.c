@@ -151,8 +151,16 @@ static const char *read_cut(void *to, const char *value)
 static const char *read_clear(void *to, const char *value)
 {
     struct render_options *o = to;
-    o->has_clear = read_color(value, &o->clear);
-    return o->has_clear ? NULL : "needs RRGGBB, six hexadecimal digits";
+    const bool is_pair = strlen(value) == 13 && value[6] == ',';
+    char top[7];
+    unsigned color[2];
+    snprintf(top, sizeof top, "%.6s", value);
+    o->has_clear = is_pair ? read_color(top, &color[0]) && read_color(value + 7, &color[1]) : read_color(value, &color[0]);
+    if (!o->has_clear)
+        return "needs RRGGBB, six hexadecimal digits, or two of them, TOP,BOTTOM";
+    o->clear = color[0];
+    o->backdrop = (struct backdrop_colors){ .is_wanted = is_pair, .top = color[0], .bottom = is_pair ? color[1] : color[0] };
+    return NULL;
 }
 
 static const char *read_fog(void *to, const char *value)
@@ -293,6 +301,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--samples", "is at most 1024 without --exact (\"%d\")", o->samples);
     if (o->has_quality && o->has_target)
         return say_bad_usage("--target", "contradicts --quality");
+    if (o->backdrop.is_wanted && o->fog.end != 0.0)
+        return say_bad_usage("--fog", "contradicts a background of two colours");
     if (o->has_time && o->has_frames)
         return say_bad_usage("--time", "contradicts --frames");
     return check_filter(o);
@@ -306,16 +316,9 @@ void options_outputs(const struct render_options *o, struct apart_output out[OPT
     out[3] = (struct apart_output){ .path = o->stats };
 }
 
-static int check_outputs(struct render_options *o)
+static int open_sinks(struct render_options *o)
 {
-    long frames = o->last - o->first + 1;
-    if (o->output == NULL && o->stats == NULL && o->repeat == 0) {
-        char stem[280];
-        if (!source_stem(o->scene, stem, sizeof stem) || strchr(stem, '%') != NULL)
-            return say_bad_usage("-o", "is needed for a scene of this name");
-        snprintf(o->default_output, sizeof o->default_output, "%s.png", stem);
-        o->output = o->default_output;
-    }
+    const long frames = o->last - o->first + 1;
     int status = STATUS_OK;
     if (o->output != NULL)
         status = sink_open(&o->picture_sink, "-o", o->output, frames, false);
@@ -326,6 +329,28 @@ static int check_outputs(struct render_options *o)
     struct apart_output outputs[OPTIONS_OUTPUTS];
     options_outputs(o, outputs);
     return status == STATUS_OK ? apart_check(outputs, OPTIONS_OUTPUTS) : status;
+}
+
+int options_move(struct render_options *o, long period)
+{
+    const bool moves = o->picture_sink.kind == SINK_GIF || o->picture_sink.kind == SINK_APNG;
+    if (!moves || period < 2 || o->has_frames || o->has_time)
+        return STATUS_OK;
+    o->has_frames = true;
+    o->last = period - 1;
+    return open_sinks(o);
+}
+
+static int check_outputs(struct render_options *o)
+{
+    if (o->output == NULL && o->stats == NULL && o->repeat == 0) {
+        char stem[280];
+        if (!source_stem(o->scene, stem, sizeof stem) || strchr(stem, '%') != NULL)
+            return say_bad_usage("-o", "is needed for a scene of this name");
+        snprintf(o->default_output, sizeof o->default_output, "%s.png", stem);
+        o->output = o->default_output;
+    }
+    return open_sinks(o);
 }
 
 int options_read_seen(struct render_options *o, int count, char **text, bool *wants_help)

@@ -50,6 +50,7 @@ struct render_options {
     int target;                 /* of auto, 1/64 codes; 0: the library's default */
     smear_light_space light;
     unsigned clear;
+    struct backdrop_colors backdrop;
     struct present_fog fog;
     smear_edges edges;
 
@@ -77,6 +78,9 @@ struct render_options {
 int options_read(struct render_options *options, int count, char **text, bool *wants_help);
 /* The same for `smear view`: the scene may be missing, and nothing is checked about files. */
 int options_read_seen(struct render_options *options, int count, char **text, bool *wants_help);
+
+/* A moving picture of which no frames are said has all of the scene, `period` of them; 0: nobody knows. A status. */
+int options_move(struct render_options *options, long period);
 
 /* Where a command line that has been read writes; paths that are null stand for nothing. */
 enum { OPTIONS_OUTPUTS = 4 };

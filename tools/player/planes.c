@@ -44,6 +44,8 @@ bool planes_draw(struct planes *planes, const struct presented *presented, struc
     drawn.frame.shutter.exposure = SMEAR_CENTRED;
     drawn.frame.shutter.path = SMEAR_PATH_LINE;     /* velocities of curves belong to the exposure */
     drawn.frame.samples = 1;
+    drawn.frame.edges = SMEAR_EDGES_HARD;
+    drawn.draw_count -= drawn.has_backdrop ? 1 : 0;     /* a background has no distance */
     planes->presented = &drawn;
     bool ok = device_fit(&planes->device, &drawn, f) && device_draw(&planes->device, &drawn, f);
     planes->presented = NULL;

@@ -26,6 +26,7 @@ static bool leaves_a_trace(const struct unseen_frame *frame, bool *trace, struct
     options.instant_only = true;
     options.edges = SMEAR_EDGES_HARD;
     options.fog = (struct present_fog){ .end = 0.0 };
+    options.backdrop.is_wanted = false;
     options.clear = (uint32_t)clear[0] << 16 | (uint32_t)clear[1] << 8 | clear[2];
     bool ok = device_open(&device, &setup, f);
     const struct presented *presented = ok ? presenter_frame(frame->presenter, frame->time, &options, f) : NULL;
@@ -81,7 +82,8 @@ bool unseen_look(struct unseen *unseen, const struct unseen_frame *frame, struct
             return false;
         unseen->is_inside_out = 2 * sight.back_pixels > sight.pixels;
     }
-    if (trace && is_of_one_color(frame->picture) && !leaves_a_trace(frame, &trace, f))
+    const bool may_be_empty = frame->options->backdrop.is_wanted || is_of_one_color(frame->picture);
+    if (trace && may_be_empty && !leaves_a_trace(frame, &trace, f))
         return false;
     if (trace)
         return true;

@@ -60,6 +60,7 @@ struct presenter {
     int slot_room;
     struct slot **slot;
     smear_draw *draw;
+    struct backdrop backdrop;
     struct presented out;
 };
 
@@ -634,6 +635,22 @@ static bool add_draws(struct presenter *p, const bool seen[POSES], const double 
     return true;
 }
 
+/* Adds the background, behind all that is drawn. */
+static bool add_backdrop(struct presenter *p, const struct present_options *o, const struct reach *reach, struct failure *f)
+{
+    struct presented *out = &p->out;
+    const double farthest = reach->max_depth > 0.0 ? reach->max_depth * out->world_scale + out->camera_back : 0.0;
+    if (!o->backdrop.is_wanted)
+        return true;
+    if (!slot_room(p, out->draw_count + 1, f) ||
+        !backdrop_place(&p->backdrop, &o->backdrop, &out->camera[NOW], farthest, &p->draw[out->draw_count], f))
+        return false;
+    out->draw = p->draw;
+    out->draw_count++;
+    out->triangle_count += BACKDROP_TRIANGLES;
+    return out->has_backdrop = true;
+}
+
 static bool present(struct presenter *p, double time, const struct present_options *o,
                     struct failure *f)
 {
@@ -681,7 +698,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
     out->frame.open = seen[OPEN] && !o->keep_ids ? &out->camera[OPEN] : NULL;
     out->frame.close = seen[CLOSE] ? &out->camera[CLOSE] : NULL;
     out->frame.shutter.poses = out->frame.shutter.poses && moves;
-    return add_draws(p, seen, reference, o, f);
+    return add_draws(p, seen, reference, o, f) && add_backdrop(p, o, &reach, f);
 }
 
 const struct presented *presenter_frame(struct presenter *presenter, double time,

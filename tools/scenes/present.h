@@ -29,6 +29,7 @@
 
 #include "tools/failure.h"
 #include "tools/image/image.h"
+#include "tools/scenes/backdrop.h"
 #include "tools/scenes/scene.h"
 
 #include <smear.h>
@@ -55,6 +56,7 @@ struct present_options {
     int samples;                    /* 0: the library's default */
     smear_light_space light;
     uint32_t clear;                 /* 0xRRGGBB */
+    struct backdrop_colors backdrop;        /* one more draw, the last, of a background of two colours */
     struct present_fog fog;
     smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of presenter_exact */
     int reconstruct;                /* SMEAR_FENCE | ... */
@@ -91,6 +93,7 @@ struct presented {
     double near_plane, far_plane;   /* as given to the library, in its units */
     double camera_back;             /* library units an orthographic camera was moved back by */
     bool orthographic;
+    bool has_backdrop;              /* is the last draw */
 };
 
 struct presenter;

@@ -47,6 +47,7 @@ struct view_options {
     double cpu_hz;
     enum pace pace;
     long first, frames;             /* frames 0: until the user ends it */
+    double spin;                    /* radians per second of a turntable to begin with; 0: none */
     bool crc, update, times, paused, no_shared_memory, figures;
     int colors;
     const char *check, *record, *play;

@@ -555,6 +555,14 @@ static int open_lanes(struct view *v, const struct render_options *options)
         return status;
     if (!open_scene(v, options, &f))
         return say_bad_input(v->source->name, &f);
+    if (v->wish.spin != 0.0) {
+        const double *eye = options->view.eye, *look = options->view.look;
+        if (options->view.has_eye)
+            v->orbit.focus = hypot(hypot(eye[0] - look[0], eye[1] - look[1]), eye[2] - look[2]);
+        else if (!orbit_find_focus(&v->orbit, 0.0, &f))
+            return say_bad_input(v->source->name, &f);
+        v->orbit.spin = v->wish.spin;
+    }
     if (v->wish.has_split) {
         struct render_options left = *options;
         left.method = v->wish.split;
