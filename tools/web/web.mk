@@ -11,7 +11,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tool
     $(filter-out $(addprefix tools/image/,apng.c interrupt.c metrics.c output.c pfm.c place.c ppm.c),$(IMAGE_SRC)) \
     $(addprefix tools/scenes/,backdrop.c build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c methods.c model_scene.c present.c present_surface.c \
         scene.c stage.c cover.c) \
-    $(filter-out $(addprefix tools/cli/,compare.c desc.c help.c info.c main.c measure.c render.c view.c) $(addprefix tools/options/,apart.c sink.c) \
+    $(filter-out $(addprefix tools/cli/,compare.c desc.c help.c info.c main.c measure.c render.c show.c show_choose.c view.c) $(addprefix tools/options/,apart.c sink.c) \
         $(addprefix tools/player/,crew.c exact.c memory.c planes.c stats.c),$(CLI_SRC)) \
     $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
