@@ -273,9 +273,11 @@ dist-test: dist $(ONE_FILE)
 dist-single-test: $(ONE_FILE) build/tapes/golden.c
 	sh tests/shell/dist_single.sh $(<D)
 
+# What the examples of packages draw, where sample models are at hand.
+FOX := $(if $(filter undefined,$(origin SMEAR_ASSETS)),../shared/assets,$(SMEAR_ASSETS))/khronos/Fox.glb
 ## start: one smear.c, and packages for CMake, PlatformIO, Arduino, ESP-IDF, Zephyr, pico-sdk in build/dist; URL=https://... of the project
-dist: build/dist-single
-	sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
+dist: build/dist-single $(BIN)/smear
+	SMEAR=$(BIN)/smear MODEL="$(wildcard $(FOX))" sh tools/dist/dist.sh $< build/dist $(SRC_ROOMS)
 
 # The one file alone, for suites that compile it: it stays as long as its sources do.
 $(ONE_FILE): build/dist-single tools/dist/dist.sh $(foreach room,include $(SRC_ROOMS),$(wildcard $(room)/*.[ch]*))
@@ -466,8 +468,8 @@ test-examples: $(LIB)
 	[ $$(tail -c 57600 $(EXAMPLES)/c.ppm | od -An -v -tx1 -w3 | sort -u | wc -l) -gt 100 ]
 
 # flush() for other people's displays (platform/examples), on stand-ins of their headers: one picture on all panels.
-FLUSH_CXX := adafruit_gfx arduino_gfx lovyangfx tft_espi u8g2
-FLUSH_ALL := $(filter-out cube,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h)))
+FLUSH_CXX := adafruit_gfx arduino_gfx ili9341_t4 lovyangfx tft_espi u8g2
+FLUSH_ALL := $(filter-out cube fox terminal,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h)))
 test-flush: $(LIB)
 	CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) \
 	    $(filter-out $(if $(call with_cxx,yes),,$(FLUSH_CXX)),$(FLUSH_ALL))

@@ -176,6 +176,7 @@ packages() {
     needs arduino-builder "arduino-builder arduino-ctags" || true
     needs zip "zip" || true
     suite dist $make -s dist-test
+    suite dist-rules sh tests/shell/dist_rules.sh
 }
 
 objects() {

@@ -45,8 +45,8 @@ static void display_begin(smear_desc *desc)
     spi_bus_config_t bus = { .mosi_io_num = PIN_DATA, .miso_io_num = -1, .sclk_io_num = PIN_CLOCK, .quadwp_io_num = -1,
                              .quadhd_io_num = -1, .max_transfer_sz = 240 * 64 * 2 };
     esp_lcd_panel_io_spi_config_t wires = { .cs_gpio_num = PIN_SELECT, .dc_gpio_num = PIN_COMMAND, .pclk_hz = 40 * 1000 * 1000,
-                                            .trans_queue_depth = 2, .lcd_cmd_bits = 8, .lcd_param_bits = 8,
-                                            .on_color_trans_done = display_sent };
+                                            .trans_queue_depth = 2, .on_color_trans_done = display_sent,
+                                            .lcd_cmd_bits = 8, .lcd_param_bits = 8 };
     esp_lcd_panel_dev_config_t kind = { .reset_gpio_num = PIN_RESET, .bits_per_pixel = 16 };
     esp_lcd_panel_io_handle_t io;
     spi_bus_initialize(SPI2_HOST, &bus, SPI_DMA_CH_AUTO);

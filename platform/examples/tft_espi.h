@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* tft_espi.h - smear on a display of TFT_eSPI, whose pins User_Setup.h names. */
+#if defined(CONFIG_IDF_TARGET_ESP32P4) || defined(CONFIG_IDF_TARGET_ESP32C6) || defined(PICO_RP2350)
+#error "TFT_eSPI knows neither ESP32-P4 and C6 nor RP2350: take LovyanGFX or Arduino_GFX"
+#endif
 #include <TFT_eSPI.h>
 
 #define SCREEN_WIDTH 240

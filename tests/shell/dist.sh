@@ -47,66 +47,54 @@ claim "version of esp-idf" states "$dist/esp-idf/smear/idf_component.yml" "versi
 claim "version of zephyr" states "$dist/zephyr/smear/zephyr/CMakeLists.txt" "version $version:"
 claim "version of pico-sdk" states "$dist/pico-sdk/smear/CMakeLists.txt" "Version $version."
 claim "version of smear.pc" states "$installed/usr/lib/pkgconfig/smear.pc" "Version: $version"
+claim "Arduino: for all cores" states "$dist/arduino/smear/library.properties" "architectures=*"
 claim "no other version is stated" sh -c "! grep -rnE 'VERSION [0-9]|ersion[\": =]+[0-9]+\\.[0-9]+\\.[0-9]' '$dist' \
     --include=CMakeLists.txt --include=*.json --include=*.properties --include=*.yml | grep -vF '$version' | grep -v cmake_minimum | grep ."
 
 # ---------------------------------------------------------------------- manifests
 
-# What Arduino's library specification asks of library.properties (1.5 format, rev. 2.2).
-claim "library.properties" sh -c "cd '$dist/arduino/smear' && python3 - <<'END'
-import os, re
-fields = dict(line.rstrip('\n').split('=', 1) for line in open('library.properties'))
-known = 'name version author maintainer sentence paragraph category url architectures depends dot_a_linkage includes precompiled ldflags'.split()
-assert set(fields) <= set(known), set(fields) - set(known)
-for field in known[:9]:
-    assert fields[field], field
-assert re.fullmatch(r'[A-Za-z0-9][A-Za-z0-9_.\- ]{0,62}', fields['name'])
-assert re.fullmatch(r'\d+\.\d+\.\d+', fields['version'])
-assert fields['category'] in ['Display', 'Communication', 'Signal Input/Output', 'Sensors', 'Device Control', 'Timing', 'Data Storage',
-    'Data Processing', 'Other']
-assert fields['url'].startswith('https://') and 'avr' not in fields['architectures'] and '*' not in fields['architectures']
-assert all(os.path.isfile('src/' + name) for name in fields['includes'].split(','))
-assert all(os.path.isfile('examples/%s/%s.ino' % (name, name)) for name in os.listdir('examples'))
-END"
+# Those of Arduino and ESP-IDF: dist_rules.sh.
 # PlatformIO's schema of library.json: fields, types, lengths.
-claim "library.json" sh -c "cd '$dist/platformio/smear' && python3 - <<'END'
+library_json() { (cd "$1" && python3 - <<'END'
 import json, os, re
 m = json.load(open('library.json'))
-known = '\$schema name version description keywords homepage repository authors license frameworks platforms headers examples build'.split()
+known = '$schema name version description keywords homepage repository authors license frameworks platforms headers examples build'.split()
 assert set(m) == set(known), set(m) ^ set(known)
 assert re.fullmatch(r'[a-z0-9-]{1,50}', m['name']) and len(m['version']) <= 20 and len(m['description']) <= 255
 assert set(m['repository']) <= {'type', 'url', 'branch'} and m['repository']['type'] in ('git', 'hg', 'svn')
 assert all(set(a) <= {'name', 'email', 'url', 'maintainer'} and len(a['name']) <= 50 for a in m['authors'])
-assert all(os.path.isfile('include/' + name) for name in m['headers'])
+assert all(os.path.isfile(m['build']['includeDir'] + '/' + name) for name in m['headers'])
 assert all(os.path.isfile(e['base'] + '/' + name) for e in m['examples'] for name in e['files'])
 assert os.path.isdir(m['build']['srcDir']) and os.path.isdir(m['build']['includeDir'])
-END"
-# Fields that the component manager knows in idf_component.yml, and what a registry demands.
-idf_manifest() {
-    file=$dist/esp-idf/smear/idf_component.yml
-    sed -n 's/^\([a-z_]*\):.*/\1/p' "$file" | while read -r field; do
-        case $field in
-        version | description | url | repository | license | tags | targets | examples | dependencies) ;;
-        *) echo "$field is no field of a manifest"; return 1 ;;
-        esac
-    done && has "$file" '^url: "https://' && has "$file" '^license: MIT$' && has "$file" '^targets: \[esp32, [esp0-9a-z, ]*\]$' &&
-        exists "$dist/esp-idf/smear/README.md" && exists "$dist/esp-idf/smear/examples/cube/main/main.c"
+END
+    )
 }
-claim "idf_component.yml" idf_manifest
-
+claim "library.json" library_json "$dist/platformio/smear"
+claim "library.json of the tree" library_json "$made/tree"
 # ---------------------------------------------------------------------- Arduino, PlatformIO
 
-# The picture that the cube makes on a panel in 12 frames (tests/shell/flush.sh).
+# The pictures that the cube and the fox make on a panel in 12 frames (tests/shell/flush.sh).
 mkdir -p "$base/plain"
 cp tests/examples/stand_ins/plain.h "$base/plain/display.h"
-plain_panel() {
+cp "$dist/single/smear/examples/fox/model.h" "$dist/single/smear/examples/fox/coin.h" "$base/plain"
+one_file() {
     # shellcheck disable=SC2086
     sh tests/shell/launch_cached.sh ${CC:-cc} -std=gnu11 $file_flags -I"$dist/single/smear" -o "$base/plain/smear.o" -c \
-        "$dist/single/smear/smear.c" &&
-        ${CC:-cc} -std=c11 $file_flags -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples \
-            -o "$base/plain/program" tests/examples/flush.c "$base/plain/smear.o" && "$base/plain/program" >"$base/plain/panel"
+        "$dist/single/smear/smear.c"
 }
-claim "one file, on a panel" plain_panel
+claim "one file" one_file
+plain_panel() { # EXAMPLE OPTIONS...
+    plain=$1
+    shift
+    # shellcheck disable=SC2086
+    ${CC:-cc} -std=c11 $file_flags "$@" -I"$dist/single/smear" -I"$base/plain" -I"$stand_ins" -Iplatform/examples \
+        -o "$base/plain/program" tests/examples/flush.c "$base/plain/smear.o" && "$base/plain/program" >"$base/plain/$plain" &&
+        is_true "$(od -An -v -tx2 -w2 "$base/plain/$plain" | sort -u | wc -l) > 100"
+}
+claim "one file, on a panel" plain_panel cube
+claim "a model and a sprite, on a panel" plain_panel fox -DEXAMPLE_FOX
+claim "on a tall one" plain_panel cube-tall -DTALL_PANEL
+claim "a model on a tall one" plain_panel fox-tall -DTALL_PANEL -DEXAMPLE_FOX
 claim "it is the one that dist_single.sh tries" same "$dist/single/smear/smear.c" build/one-file/single/smear.c
 
 # Arduino's builder, on a board that is this machine, with stand-ins of the displays' libraries.
@@ -158,20 +146,127 @@ library LovyanGFX LovyanGFX.hpp LGFX_AUTODETECT.hpp
 library Adafruit_ST7789 Adafruit_ST7789.h
 library GFX_Library_for_Arduino Arduino_GFX_Library.h
 library U8g2 U8x8lib.h
-cp -r "$dist/arduino/smear" "$base/arduino-libraries/"
-sketch() { # EXAMPLE
-    arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
-        -fqbn tests:here:here -build-path "$base/arduino-build" "$dist/arduino/smear/examples/$1/$1.ino" &&
+library ILI9341_T4 ILI9341_T4.h
+# sketch EXAMPLE DISPLAY LIBRARY: the library is that of the archive, or the tree
+sketch() {
+    rm -rf "$base/sketch" "$base/arduino-libraries/smear"
+    mkdir -p "$base/sketch" && cp -r "$3" "$base/arduino-libraries/smear" && cp -r "$3/examples/$1" "$base/sketch/$1" &&
+        { printf '#define DISPLAY_%s\n' "$2"
+          [ "$2" != ILI9341_T4 ] || echo '#define TALL_PANEL'
+          cat "$3/examples/$1/display.h"; } >"$base/sketch/$1/display.h" &&
+        arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
+            -fqbn tests:here:here -build-path "$base/arduino-build" "$base/sketch/$1/$1.ino" &&
         "$base/arduino-build/$1.ino.elf" >"$base/$1.panel"
 }
+drawn_by() { # EXAMPLE DISPLAY LIBRARY
+    sketch "$@" || return 1
+    case $2 in
+    U8G2) ;;
+    ILI9341_T4) same "$base/plain/$1-tall" "$base/$1.panel" ;;
+    *) same "$base/plain/$1" "$base/$1.panel" ;;
+    esac
+}
 if command -v arduino-builder >/dev/null 2>&1 && command -v arduino-ctags >/dev/null 2>&1; then
-    for example in TFT_eSPI LovyanGFX Adafruit_GFX Arduino_GFX U8g2; do
-        claim "sketch for $example by arduino-builder" sketch $example
-        [ $example = U8g2 ] || claim "its panel" same "$base/plain/panel" "$base/$example.panel"
+    for display in LOVYANGFX ARDUINO_GFX TFT_ESPI ADAFRUIT_GFX U8G2 ILI9341_T4; do
+        claim "cube for $display by arduino-builder" drawn_by cube $display "$dist/arduino/smear"
+        claim "fox for $display by arduino-builder" drawn_by fox $display "$dist/arduino/smear"
     done
+    claim "fox by arduino-builder, from the tree" drawn_by fox LOVYANGFX "$made/tree"
 else
     echo "not run without arduino-builder and arduino-ctags"
 fi
+
+# ---------------------------------------------------------------------- all examples, by their cores' own flags
+
+# compiles NAME COMPILER FLAGS... -- FILE: the example against stand-ins
+compiles() {
+    claim_of=$1
+    shift
+    claim "$claim_of" "$@" -Wall -Werror -I"$stand_ins" -fsyntax-only
+}
+cxx=${CXX:-c++} cc=${CC:-cc}
+esp="-Os -Werror=all -Wno-error=unused-function -Wno-error=unused-variable -Wextra -Wno-unused-parameter -Wno-sign-compare -Wno-enum-conversion
+ -ffunction-sections -fdata-sections -fstrict-volatile-bitfields -gdwarf-4"
+for forms in "$dist/arduino/smear src" "$made/tree src"; do
+    folder=${forms% *} include="$folder/src"
+    for example in cube fox; do
+        for display in LOVYANGFX ARDUINO_GFX TFT_ESPI ADAFRUIT_GFX U8G2 ILI9341_T4; do
+            option=-DDISPLAY_$display
+            [ $display != ILI9341_T4 ] || option="$option -DTALL_PANEL"
+            [ $display != U8G2 ] || option="$option -DSMALL_PANEL"
+            for core in "-std=c++11 -Os" "-std=gnu++11 -Os -fno-exceptions -fno-rtti -fpermissive -felide-constructors -fno-threadsafe-statics" \
+                "-std=gnu++17 -Os -fno-exceptions -Wextra" "-std=gnu++20 $esp -fno-exceptions"; do
+                # shellcheck disable=SC2086
+                compiles "${folder##*/} $example $display: $core" $cxx $core $option -x c++ -include "$board/cores/here/Arduino.h" -I"$include" \
+                    "$folder/examples/$example/$example.ino"
+            done
+        done
+    done
+done
+refuses() { ! $cxx -std=c++11 -D"$1" -DDISPLAY_TFT_ESPI -I"$made/tree/src" -I"$stand_ins" -fsyntax-only -x c++ "$dist/arduino/smear/examples/cube/cube.ino" \
+    -include "$board/cores/here/Arduino.h" 2>"$base/said" && has "$base/said" 'take LovyanGFX or Arduino_GFX'; }
+for chip in CONFIG_IDF_TARGET_ESP32P4 CONFIG_IDF_TARGET_ESP32C6 PICO_RP2350; do
+    claim "TFT_eSPI is refused with $chip" refuses $chip
+done
+zephyr_flags="-Os -std=c11 -fno-strict-aliasing -Wformat -Wformat-security -Wno-format-zero-length -Wdouble-promotion -Wno-pointer-sign -Wpointer-arith
+ -Wexpansion-to-defined -Wno-address-of-packed-member -Wno-unused-but-set-variable -fno-common -ffreestanding"
+# A form's folder, its examples, where its headers are.
+for places in "$dist/platformio/smear examples include pio" "$made/tree examples/platformio src pio" \
+    "$dist/esp-idf/smear examples include idf" "$made/tree examples/esp-idf src idf" "$dist/zephyr/smear samples include zephyr" \
+    "$made/tree samples src zephyr" "$dist/pico-sdk/smear examples include pico" "$made/tree examples/pico-sdk src pico" \
+    "$dist/cmake/smear examples include c" "$made/tree examples/cmake src c" "$dist/single/smear examples . c"; do
+    # shellcheck disable=SC2086
+    set -- $places
+    for example in cube fox; do
+        folder=$1/$2/$example name="${1#"$base/"} $2/$example"
+        name=${name#"$made/"}
+        case $4 in
+        pio)
+            for display in LOVYANGFX ARDUINO_GFX TFT_ESPI; do
+                compiles "$name $display" $cxx -std=gnu++11 -Os -fno-exceptions -DDISPLAY_$display -I"$1/$3" -I"$board/cores/here" "$folder/src/main.cpp"
+            done
+            compiles "$name on Teensy" $cxx -std=gnu++17 -O2 -fno-exceptions -fno-rtti -fpermissive -felide-constructors -D__IMXRT1062__ -DTALL_PANEL \
+                -I"$1/$3" -I"$board/cores/here" "$folder/src/main.cpp"
+            ;;
+        idf)
+            compiles "$name" $cc -std=gnu17 $esp -I"$1/$3" "$folder/main/main.c"
+            compiles "$name as C++" $cxx -std=gnu++11 $esp -Wno-missing-field-initializers -fno-exceptions -fno-rtti -I"$1/$3" -x c++ "$folder/main/main.c"
+            ;;
+        zephyr) compiles "$name" $cc $zephyr_flags -I"$1/$3" "$folder/src/main.c" ;;
+        pico)
+            compiles "$name" $cc -std=gnu11 -Os -Wextra -I"$1/$3" "$folder/main.c"
+            compiles "$name as C++" $cxx -std=c++11 -Os -fno-exceptions -fno-rtti -Wno-missing-field-initializers -I"$1/$3" -x c++ "$folder/main.c"
+            ;;
+        c)
+            compiles "$name" $cc -std=c99 -Os -Wextra -Wpedantic -I"$1/$3" "$folder/main.c"
+            compiles "$name as C++" $cxx -std=c++11 -Os -fno-exceptions -Wextra -Wpedantic -I"$1/$3" -x c++ "$folder/main.c"
+            ;;
+        esac
+    done
+done
+compiles "single, on a Playdate" $cc -std=gnu11 -Os -Wstrict-prototypes -Wno-unknown-pragmas -Wdouble-promotion -DWIDE_PANEL -DTARGET_PLAYDATE=1 \
+    -I"$dist/single/smear" "$dist/single/smear/examples/playdate/main.c"
+if command -v arm-none-eabi-g++ >/dev/null 2>&1; then
+    for example in cube fox; do
+        compiles "fits a Cortex-M0+'s compiler: $example" arm-none-eabi-g++ -std=gnu++17 -mcpu=cortex-m0plus -mthumb -Os -fno-exceptions -fno-rtti \
+            -DDISPLAY_LOVYANGFX -x c++ -include "$board/cores/here/Arduino.h" -I"$made/tree/src" "$made/tree/examples/$example/$example.ino"
+    done
+fi
+# A page and two examples each.
+complete() { exists "$1/README.md" && exists "$1/LICENSE" && [ "$(find "$1" -name cube.h | wc -l)" -ge 1 ] && [ "$(find "$1" -name model.h | wc -l)" -ge 1 ] &&
+    ! grep -rn '@[A-Z]*@' "$1"; }
+for form in cmake platformio arduino esp-idf zephyr pico-sdk single; do
+    claim "$form has a page and two examples, nothing left to fill" complete "$dist/$form/smear"
+done
+claim "the tree, too" complete "$made/tree"
+pages() {
+    for page in "$dist"/*/smear/README.md "$made/tree/README.md"; do
+        sed -n 's/[^]]*](\([^)]*\))/\1\n/gp' "$page" | grep -v -e '^http' -e '^$' -e ' ' | while read -r to; do
+            [ -e "${page%/*}/$to" ] || { echo "$page: $to"; exit 1; }
+        done || return 1
+    done
+}
+claim "what their pages point to is there" pages
 
 # As PlatformIO builds: each source by itself.
 example() {
@@ -184,13 +279,6 @@ example() {
             "$objects"/*.o && "$base/example" >"$base/example.ppm"
 }
 claim "plain example of platformio" example
-claim "arduino example of platformio" ${CXX:-c++} -std=gnu++11 -Wall -Wextra -Werror -fsyntax-only -I"$dist/platformio/smear/include" \
-    -I"$board/cores/here" -I"$stand_ins" "$dist/platformio/smear/examples/arduino/src/main.cpp"
-claim "example of esp-idf" ${CC:-cc} -std=gnu11 -Wall -Wextra -Werror -fsyntax-only -I"$dist/esp-idf/smear/include" -I"$stand_ins" \
-    "$dist/esp-idf/smear/examples/cube/main/main.c"
-claim "sample of zephyr" ${CC:-cc} -std=gnu11 -Wall -Wextra -Werror -fsyntax-only -I"$dist/zephyr/smear/include" -I"$stand_ins" \
-    "$dist/zephyr/smear/samples/cube/src/main.c"
-
 # ---------------------------------------------------------------------- installed
 
 if command -v pkg-config >/dev/null 2>&1; then
@@ -270,28 +358,36 @@ END
             [ -n "$command" ] && sh -c "$command -o $base/$1-off/anim.o" && ! nm "$base/$1-off/anim.o" | grep smear_actor_init &&
             nm "$base/$1/build/$2" | grep -q smear_actor_init
     }
-    cat >"$base/esp-idf/CMakeLists.txt" <<END
+    # esp_project NAME ROOT, with the component's CMakeLists.txt in ROOT; likewise for the others
+    esp_project() {
+        mkdir -p "$base/$1"
+        cat >"$base/$1/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 set(CMAKE_C_STANDARD 11)
 add_compile_options($board_flags)
 function(idf_component_register)
     cmake_parse_arguments(c "" "" "SRCS;INCLUDE_DIRS;PRIV_INCLUDE_DIRS" \${ARGN})
-    list(TRANSFORM c_SRCS PREPEND $dist/esp-idf/smear/)
-    list(TRANSFORM c_INCLUDE_DIRS PREPEND $dist/esp-idf/smear/)
-    list(TRANSFORM c_PRIV_INCLUDE_DIRS PREPEND $dist/esp-idf/smear/)
+    list(TRANSFORM c_SRCS PREPEND $2/)
+    list(TRANSFORM c_INCLUDE_DIRS PREPEND $2/)
+    list(TRANSFORM c_PRIV_INCLUDE_DIRS PREPEND $2/)
     add_library(component STATIC \${c_SRCS})
     target_include_directories(component PUBLIC \${c_INCLUDE_DIRS} PRIVATE \${c_PRIV_INCLUDE_DIRS})
     set(COMPONENT_LIB component PARENT_SCOPE)
 endfunction()
 $switches
-include($dist/esp-idf/smear/CMakeLists.txt)
+set(ESP_PLATFORM 1)
+include($2/CMakeLists.txt)
 add_executable(program main.c)
 target_link_libraries(program component)
 END
+    }
+    esp_project esp-idf "$dist/esp-idf/smear"
     claim "esp-idf's functions" project esp-idf
     claim "esp-idf: a switch that is off leaves code out" switched_off esp-idf libcomponent.a
-    cat >"$base/zephyr/CMakeLists.txt" <<END
+    zephyr_project() {
+        mkdir -p "$base/$1"
+        cat >"$base/$1/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 set(CMAKE_C_STANDARD 11)
@@ -317,22 +413,69 @@ macro(zephyr_compile_definitions)
 endmacro()
 set(CONFIG_SMEAR y)
 $switches
-include($dist/zephyr/smear/zephyr/CMakeLists.txt)
+include($2/zephyr/CMakeLists.txt)
 add_executable(program main.c)
 target_link_libraries(program smear)
 END
+    }
+    zephyr_project zephyr "$dist/zephyr/smear"
     claim "zephyr's functions" project zephyr
     claim "zephyr: a switch that is off leaves code out" switched_off zephyr libsmear.a
-    cat >"$base/pico-sdk/CMakeLists.txt" <<END
+    pico_project() {
+        mkdir -p "$base/$1"
+        cat >"$base/$1/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 set(CMAKE_C_STANDARD 11)
 add_compile_options($board_flags)
-add_subdirectory($dist/pico-sdk/smear smear)
+set(PICO_SDK_VERSION_STRING 1.5.1)
+add_subdirectory($2 smear)
 add_executable(program main.c)
 target_link_libraries(program smear)
 END
+    }
+    pico_project pico-sdk "$dist/pico-sdk/smear"
     claim "pico-sdk's functions" project pico-sdk
+
+    # The tree, as a clone of a branch of some repository: what installs from git gets that.
+    git_tree() {
+        rm -rf "$base/repository" "$base/clone" && cp -r "$made/tree" "$base/repository" && git -C "$base/repository" init -q &&
+            git -C "$base/repository" checkout -q -b dist && git -C "$base/repository" add -A &&
+            git -C "$base/repository" -c user.name=- -c user.email=- commit -q -m tree && git clone -q -b dist "file://$base/repository" "$base/clone"
+    }
+    if command -v git >/dev/null 2>&1; then
+        claim "the tree in a repository" git_tree
+        mkdir -p "$base/fetch-git"
+        cat >"$base/fetch-git/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.14)
+project(program C)
+include(FetchContent)
+FetchContent_Declare(smear GIT_REPOSITORY file://$base/repository GIT_TAG dist)
+FetchContent_MakeAvailable(smear)
+add_executable(program main.c)
+target_link_libraries(program smear::smear)
+END
+        claim "the tree by FetchContent, from git" project fetch-git
+        for form in esp-idf zephyr pico-sdk; do
+            case $form in
+            esp-idf) esp_project tree-$form "$base/clone" ;;
+            zephyr) zephyr_project tree-$form "$base/clone" ;;
+            pico-sdk) pico_project tree-$form "$base/clone" ;;
+            esac
+            claim "the tree by $form's functions" project tree-$form
+        done
+    else
+        echo "not run without git"
+    fi
+    # Examples of CMake's form, in a terminal, and those of the one file.
+    terminal() { # EXAMPLE FOLDER
+        # shellcheck disable=SC2086
+        cmake -S "$2" -B "$base/terminal-$1" $debug && cmake --build "$base/terminal-$1" -j2 && "$base/terminal-$1/$1" 3 >"$base/$1.text" &&
+            is_true "$(grep -ao '8;2;[0-9;]*m' "$base/$1.text" | sort -u | wc -l) > 20"
+    }
+    for example in cube fox; do
+        claim "$example of cmake, in a terminal" terminal $example "$dist/cmake/smear/examples/$example"
+    done
     # The real one, where it lies beside the repository or was unpacked for firmware.
     archive=${PICO_SDK_ARCHIVE:-../shared/third-party/pico-sdk-1.5.1.tar.xz}
     sdk=${PICO_SDK_PATH:-}
@@ -343,11 +486,12 @@ END
         mkdir -p "$sdk/docs" && : >>"$sdk/docs/CMakeLists.txt"          # which the archive leaves out
     fi
     if [ -n "$sdk" ] && command -v arm-none-eabi-g++ >/dev/null 2>&1; then
-        cube_uf2() {
-            cmake -S "$dist/pico-sdk/smear/examples/cube" -B "$base/cube" -DPICO_SDK_PATH="$sdk" && cmake --build "$base/cube" -j2 &&
-                [ -s "$base/cube/cube.uf2" ]
+        uf2() { # EXAMPLE FOLDER
+            rm -rf "$base/uf2"
+            cmake -S "$2/$1" -B "$base/uf2" -DPICO_SDK_PATH="$sdk" && cmake --build "$base/uf2" -j2 && [ -s "$base/uf2/$1.uf2" ]
         }
-        claim "example of pico-sdk, by pico-sdk" cube_uf2
+        claim "cube of pico-sdk, by pico-sdk" uf2 cube "$dist/pico-sdk/smear/examples"
+        claim "fox of pico-sdk, by pico-sdk" uf2 fox "$dist/pico-sdk/smear/examples"
     else
         echo "not run without pico-sdk"
     fi

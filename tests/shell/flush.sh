@@ -32,14 +32,19 @@ claim "plain panel" shows plain tests/examples/stand_ins/plain.h
 claim "plain panel shows something" has_picture plain 100
 claim "plain small panel" shows small tests/examples/stand_ins/plain.h -DSMALL_PANEL
 claim "plain small panel shows something" has_picture small 20
+claim "plain tall panel" shows tall tests/examples/stand_ins/plain.h -DTALL_PANEL
+claim "plain tall panel shows something" has_picture tall 100
+claim "plain wide panel" shows wide tests/examples/stand_ins/plain.h -DWIDE_PANEL
+claim "plain wide panel shows something" has_picture wide 20
 for name in "$@"; do
-    if [ "$name" = u8g2 ]; then
-        claim "$name" shows "$name" platform/examples/"$name".h -DSMALL_PANEL
-        claim "$name shows the picture" same "$base/small/panel" "$base/$name/panel"
-    else
-        claim "$name" shows "$name" platform/examples/"$name".h
-        claim "$name shows the picture" same "$base/plain/panel" "$base/$name/panel"
-    fi
+    panel=plain option=
+    case $name in
+    u8g2) panel=small option=-DSMALL_PANEL ;;
+    ili9341_t4) panel=tall option=-DTALL_PANEL ;;
+    playdate) panel=wide option=-DWIDE_PANEL ;;
+    esac
+    claim "$name" shows "$name" platform/examples/"$name".h $option
+    claim "$name shows the picture" same "$base/$panel/panel" "$base/$name/panel"
     claim "$name in about 15 lines" is_true "$(awk '/^static int display_flush/ { on = 1 } on { n++ } /^}/ { on = 0 } END { print n + 0 }' \
         platform/examples/"$name".h) <= 15"
 done

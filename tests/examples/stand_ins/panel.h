@@ -12,6 +12,10 @@
 
 #ifdef SMALL_PANEL
 enum { PANEL_WIDTH = 128, PANEL_HEIGHT = 64 };      /* eight pixels of a column in a byte */
+#elif defined(TALL_PANEL)
+enum { PANEL_WIDTH = 240, PANEL_HEIGHT = 320 };     /* 16 bits a pixel */
+#elif defined(WIDE_PANEL)
+enum { PANEL_WIDTH = 400, PANEL_HEIGHT = 240 };     /* eight pixels of a row in a byte, rows of 52 bytes */
 #else
 enum { PANEL_WIDTH = 240, PANEL_HEIGHT = 240 };     /* 16 bits a pixel, high byte first */
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* A cube that flies past, blurred. display.h knows the display: its size is there. */
+/* @WHAT@ display.h knows the display: its size is there. */
 #include <zephyr/kernel.h>
-#include "cube.h"
+#include "@NAME@.h"
 
 int main(void)
 {
-    int result = cube_begin();
+    int result = @NAME@_begin();
     while (result == SMEAR_OK)
-        result = cube_frame();
+        result = @NAME@_frame();
     printk("%s\n", smear_error_text(result));
     return 0;
 }

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* A cube that flies past, blurred. display.h knows the panel: pins and size are there. */
+/* @WHAT@ display.h knows the panel: pins and size are there. */
 #include <stdio.h>
-#include "cube.h"
+#include "@NAME@.h"
 
 void app_main(void)
 {
-    const int result = cube_begin();
-    if (result != SMEAR_OK)
-        printf("%s\n", smear_error_text(result));
+    int result = @NAME@_begin();
     while (result == SMEAR_OK) {
-        cube_frame();
+        result = @NAME@_frame();
         vTaskDelay(1);                  /* other tasks, the watchdog's among them */
     }
+    printf("%s\n", smear_error_text(result));
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* A cube that flies past, blurred. display.h knows the display: pins and size are there. */
+/* @WHAT@ display.h says which library knows the display. */
 #include <smear.h>
-#include "cube.h"
+#include "@NAME@.h"
 
 void setup()
 {
     Serial.begin(115200);
-    const int result = cube_begin();
+    const int result = @NAME@_begin();
     if (result != SMEAR_OK)
         Serial.println(smear_error_text(result));
 }
@@ -14,5 +14,5 @@ void setup()
 void loop()
 {
     if (ctx != nullptr)
-        cube_frame();
+        @NAME@_frame();
 }
