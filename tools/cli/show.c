@@ -77,31 +77,13 @@ struct show_options {
     struct source_view view;
 };
 
-static const char *read_output(void *to, const char *value)
-{
-    ((struct show_options *)to)->output = value;
-    return value[0] != '\0' ? NULL : "needs a file name";
-}
-
-static const char *read_outside(void *to, const char *value)
-{
-    (void)value;
-    ((struct show_options *)to)->view.files = MODEL_FILES_ANYWHERE;
-    return NULL;
-}
-
-static const char *read_double_sided(void *to, const char *value)
-{
-    (void)value;
-    ((struct show_options *)to)->view.double_sided = true;
-    return NULL;
-}
+#define AT(member) OPTION_AT(struct show_options, member)
 
 static const struct option table[] = {
-    { "-o", true, read_output },
-    { "--outside", false, read_outside },
-    { "--double-sided", false, read_double_sided },
-    { NULL, false, NULL },
+    { "-o", OPTION_TEXT, AT(output) },
+    { "--outside", OPTION_FLAG, AT(view.files) },
+    { "--double-sided", OPTION_FLAG, AT(view.double_sided) },
+    { .name = NULL },
 };
 
 static int read_options(struct show_options *o, int count, char **text, bool *wants_help)
