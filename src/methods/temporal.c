@@ -496,6 +496,8 @@ static void lines_job(void *argument, int job, int worker)
     (void)worker;
     smear_job_columns(rows, job, &x0, &x1);
     smear_lines_blur(f->self->lines, &rows->window, x0, x1, top, bottom, min_i32(bottom + rows->window.tile, rows->window.height));
+    for (int32_t y = top; x0 < x1 && y < bottom; y++)
+        smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
 }
 
 /* Blurs a row along lines, as far as it stands still, and finishes it. */
@@ -510,7 +512,8 @@ static int finish_along_lines(struct smear_temporal *self, struct smear_rows *ro
     smear_jobs_run(&rows->jobs, lines_job, &finish, rows->jobs.workers);
     stage_end(rows, &rows->stats->time.blur, start);
     finish.background.color = self->lines->row;
-    finish.background.color_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
+    finish.background.depth = self->lines->depth;
+    finish.background.color_rows = finish.background.window_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
     const int result = finish_run(self, &finish, end, &all);
     end_row(self, rows);
     return result;

@@ -43,6 +43,12 @@ void smear_lines_mix(const struct smear_lines *lines, const struct smear_window 
     smear_line_means(&b, lines->linear);
 }
 
+void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+{
+    __builtin_memcpy(lines->depth + (y & (w->tile - 1)) * w->width + x0, w->depth + window_ring_row(w, y) * w->width + x0,
+                     (size_t)(x1 - x0) * sizeof *lines->depth);
+}
+
 /* Finds the displacement of a block from picture to picture, q8 px, in steps, so that blocks beside each other often have the same,
  * and no longer along y than lines reach. */
 static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)

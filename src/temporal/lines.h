@@ -19,7 +19,7 @@ struct smear_lines {
     struct smear_instant instant[2];
     struct smear_flow flow;         /* how what stands still moves on the screen */
     uint32_t *row;                  /* pixels of a tile row: of the second picture, then blurred ones */
-    uint16_t *depth;                /* of the second picture */
+    uint16_t *depth;                /* of the second picture, then of the blurred one: planes of a target are alike */
     uint32_t opaque;                /* its list of the row */
 };
 
@@ -28,6 +28,9 @@ void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
 
 /* Makes columns [x0, x1) of row y of the window the mean of both pictures'. */
 void smear_lines_mix(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
+
+/* Copies the depth of columns [x0, x1) of row y of the window to lines->depth. */
+void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
 
 /* Blurs columns [x0, x1) of pixel rows [y0, y1) of a tile row into lines->row; x0 and y0 are multiples of 8. `end`: rows of the
  * frame up to it have been drawn; those from its height on have no pixels. */

@@ -418,10 +418,10 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     f.plans = plan != NULL && plan->chooser != NULL;
     bool is_still = false;
     if (f.plans && target_is_sketch(plan->chooser->target)) {
-        instants = smear_tile_sketch_instants(plan, t);
-        is_still = instants == 0;
-        f.instants = (uint32_t)max_i32(instants, 1);
-        f.plans = false;
+        const int32_t sketched = smear_tile_sketch_instants(plan, t);
+        is_still = sketched == 0;
+        f.plans = sketched < 0;
+        f.instants = (uint32_t)(f.plans ? instants : max_i32(sketched, 1));
     }
     if (t->fill != NULL) {
         own = *t;

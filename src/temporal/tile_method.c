@@ -176,17 +176,16 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     return instants;
 }
 
-/* Returns how many instants a tile takes of a sketch. */
-static int32_t sketch_instants(const struct smear_tile_travel *tile)
+/* Returns how many instants a tile takes of a sketch; INSTANTS_MAX: it is to be measured, as gaps are not closed there. */
+static int32_t sketch_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
     enum { WAY = 16 * 16,           /* that a gap may be wide, 1/16 px */
-           UNLIKE = 16 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
-           MOST = 2,
+           UNLIKE = 12 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
            STILL = 24 };            /* a way that is not seen */
     const int32_t way = reach_of(tile);
-    if (!is_displaced(tile))        /* it is not seen in the middle of the exposure */
-        return MOST;
-    return way <= STILL ? 0 : min_i32(max_i32(way / WAY, spread_of(tile) / UNLIKE) + 1, MOST);
+    if (!smear_tile_may_close(chooser, tile) || (tile->flags & PATH_SUBFRAMES) != 0)
+        return INSTANTS_MAX;
+    return way <= STILL ? 0 : min_i32(max_i32(way / WAY, spread_of(tile) / UNLIKE) + 1, INSTANTS_MAX - 1);
 }
 
 int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t)
@@ -194,7 +193,9 @@ int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const str
     const int tiles = (t->x1 - t->x0 + t->tile - 1) / t->tile;
     int32_t instants = 0;
     for (int i = 0; i < tiles; i++)
-        instants = max_i32(instants, sketch_instants(&plan->travel[i]));
+        instants = max_i32(instants, sketch_instants(plan->chooser, &plan->travel[i]));
+    if (instants == INSTANTS_MAX)
+        return -1;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     for (int32_t y = 0; instants != 0 && y < t->background.y1 - t->background.y0; y += BLOCK_PX)
@@ -220,7 +221,7 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
     } else {
         choice->method = TILE_SUBFRAMES;
         choice->instants = chooser->method != SMEAR_AUTO ? instants_for(tile, chooser->samples)
-                         : target_is_sketch(chooser->target) ? sketch_instants(tile) : INSTANTS_MAX;
+                         : target_is_sketch(chooser->target) ? sketch_instants(chooser, tile) : INSTANTS_MAX;
     }
 }
 
