@@ -198,9 +198,13 @@ int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const str
         return -1;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
-    for (int32_t y = 0; instants != 0 && y < t->background.y1 - t->background.y0; y += BLOCK_PX)
-        for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX)
-            block_at(plan->blocks, x >> BLOCK_SHIFT, y >> BLOCK_SHIFT)->last = BLOCK_INSTANTS_MAX;
+    const int32_t rows = (t->background.y1 - t->background.y0 + BLOCK_PX - 1) >> BLOCK_SHIFT;
+    for (int32_t row = 0; instants != 0 && row < rows; row++)
+        for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX) {
+            struct smear_block *b = block_at(plan->blocks, x >> BLOCK_SHIFT, row);
+            b->last = (uint8_t)(b->depth != 0 ? smear_block_closing(plan->blocks, x >> BLOCK_SHIFT, row, rows)
+                                              : smear_tile_closing(&plan->travel[(x - t->x0) / t->tile])).last;
+        }
     return instants;
 }
 
