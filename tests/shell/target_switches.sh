@@ -83,6 +83,7 @@ rgb565="$rgb565 -DSMEAR_WITH_LINEAR=1 -DSMEAR_WITH_GOURAUD=1 -DSMEAR_WITH_ALPHA=
         -DSMEAR_WITH_CURVES=1
     try draws reconstruct $rgb565 -DSMEAR_WITH_RECONSTRUCT=1
     try draws auto $rgb565 -DSMEAR_WITH_SUBFRAMES=1
+    try draws sketch $rgb565 -DSMEAR_WITH_SUBFRAMES=1 -DSMEAR_WITH_LINES=1
     try zeros manual $(sed -n 's/^ *cc -Os \(.*-DSMEAR_WITH_ALL=0.*\) \.\.\..*/\1/p' include/README.md)
 }
 finish
