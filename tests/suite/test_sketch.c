@@ -61,6 +61,8 @@ static void place(smear_transform *pose, double t)
     pose[LEAF] = pose_at(-0.4, 0.6, -4, 0, 0);
     pose[SIGN] = pose_at(1.9, 0.5, -6, 0, 0);
     pose[MOVER] = pose_at(-2 + 1.6 * t, -0.3, -6, 1.2 * t, 0);
+    for (int i = 3; i < 6; i++)
+        pose[MOVER].basis[i] *= 2;
 }
 
 static smear_camera camera_of(enum kind kind, double t)
@@ -196,14 +198,15 @@ static void test_a_frame_in_parts_and_in_refilled_rows_is_the_same(void)
     bool parts = false;
     for (int kind = 0; kind < KINDS; kind++) {
         smear_desc desc = sketch_desc();
-        static const uint32_t rooms[] = { 40, 16, 6 };
+        desc.tile = (int16_t)(kind % 2 == 0 ? 16 : 8);
+        desc.reach = 8;
         uint8_t *want = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
-        for (int i = 0; i < 3; i++) {
+        for (uint32_t room = 90; room >= 6; room -= room / 6) {
             smear_stats stats = { 0 };
-            desc.max_triangles = rooms[i];
+            desc.max_triangles = room;
             uint8_t *got = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, &stats);
             if (!CHECK(want != NULL && got != NULL && memcmp(got, want, WIDTH * HEIGHT * 4) == 0))
-                say("    kind %d, room for %u\n", kind, (unsigned)rooms[i]);
+                say("    kind %d, room for %u\n", kind, (unsigned)room);
             parts = parts || stats.parts_added != 0;
             free(got);
         }
@@ -304,7 +307,7 @@ static void test_frames_smaller_than_a_tile(void)
 
 /* ------------------------------------------------------------------ what is shown */
 
-/* What is nearer to the finest target than a sharp picture is, by this part at least; codes of what is left. */
+/* But where something large moves before the orthographic camera: what a tile of it shows of the rest is blurred with it. */
 static void test_everything_is_nearer_to_the_finest_target_than_a_sharp_picture(void)
 {
     for (int kind = 0; kind < CUT; kind++) {
@@ -314,7 +317,7 @@ static void test_everything_is_nearer_to_the_finest_target_than_a_sharp_picture(
                 *sharp = third(&desc, (enum kind)kind, SMEAR_NONE, 0, NULL),
                 *sketch = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, &stats);
         const double before = difference(sharp, fine, WIDTH * HEIGHT), after = difference(sketch, fine, WIDTH * HEIGHT);
-        if (!CHECK(kind == FLAT ? after < 18 : after < before))
+        if (!CHECK(kind == FLAT ? after < 20 : after < before))
             say("    kind %d: none %.2f, sketch %.2f\n", kind, before, after);
         CHECK_EQ(stats.tiles[SMEAR_CAMERA] != 0, kind != CURVE);
         free(fine);
@@ -460,8 +463,9 @@ static int put_band(void *user, const smear_band *band)
     return 0;
 }
 
-/* Frames of any target, of a camera that goes, stands and goes again, and of what moves and stands. */
-static void check_display(int buffers, bool cache, uint32_t seed)
+/* Frames of any target, of a camera that goes, stands and comes back, and of what moves and stands. Returns the tiles that lines
+ * blurred. */
+static uint32_t check_display(int buffers, bool cache, uint32_t seed)
 {
     static const uint16_t targets[] = { SMEAR_SKETCH, SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, 300 };
     smear_desc desc = sketch_desc();
@@ -480,15 +484,13 @@ static void check_display(int buffers, bool cache, uint32_t seed)
         ok = CHECK((d.buffer[i] = calloc(WIDTH * HEIGHT, 4)) != NULL) && ok;
     for (int t = 0; ok && t < 40; t++) {
         smear_stats stats;
-        at += chance(2) ? 0.5 : 0;
-        moved += chance(2) ? 0.3 : 0;
+        at = chance(2) ? 0.5 * between(0, 1) : at;      /* and back to where it was */
+        moved += chance(4) ? 0.3 : 0;
         make_world(&w, PLAIN, at);
         place(w.pose, moved);
         w.frame.target = targets[between(0, 4)];
         w.frame.method = chance(6) ? SMEAR_NONE : SMEAR_AUTO;
-        w.frame.cut = chance(8);
-        if (!buffers && !cache)
-            continue;
+        w.frame.cut = chance(3);
         d.written = (d.written + 1) % d.buffers;
         uint8_t *want = rig_copy(&d.all, &w.frame, w.draw, DRAWS);
         CHECK_EQ(rig_frame(&d.keeps, &w.frame, w.draw, DRAWS), SMEAR_OK);
@@ -499,20 +501,22 @@ static void check_display(int buffers, bool cache, uint32_t seed)
         lines += stats.tiles[SMEAR_CAMERA];
         kept += stats.tiles_kept + stats.static_cached;
     }
-    if (!CHECK(lines != 0 && (kept != 0 || buffers > 1)))
-        say("    %d buffers, cache %d, seed %u: %u lines, %u kept\n", buffers, cache, (unsigned)seed, (unsigned)lines, (unsigned)kept);
+    CHECK(kept != 0 || buffers > 1);
     rig_end(&d.keeps);
     rig_end(&d.all);
     for (int i = 0; i < d.buffers; i++)
         free(d.buffer[i]);
+    return lines;
 }
 
 static void test_a_display_never_takes_a_blurred_picture_for_a_still_one(void)
 {
+    uint32_t lines = 0;
     for (uint32_t seed = 1; seed <= 12; seed++)
         for (int buffers = 0; buffers <= 2; buffers++)
             for (int cache = buffers == 0; cache < 2; cache++)
-                check_display(buffers, cache != 0, seed);
+                lines += check_display(buffers, cache != 0, seed);
+    CHECK(lines > 1000);
 }
 
 void suite_sketch(void)
