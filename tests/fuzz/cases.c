@@ -384,7 +384,7 @@ static const unsigned sets[] = {
 /* Tiles, strips and bands that go with the methods and the reach. */
 static void make_tiles(struct source *s, smear_desc *d)
 {
-    const bool reaches = has(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS);
+    const bool reaches = has(d, SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH);
     const bool four = !d->filter.scatter && !d->reuse.buffer_age && !has(d, SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET(SMEAR_HALF));
     d->reach = (int16_t)(source_chance(s, 2) ? source_range(s, 0, 16) : source_range(s, 1, 64));
     if (!reaches)
@@ -439,6 +439,8 @@ static void make_desc(struct fuzz_case *c)
                        .workers = (uint8_t)(source_chance(s, 4) ? source_range(s, 1, 8) : 0),
                        .vertex_cache = (uint16_t)(16 << source_range(s, 0, 8)),
                        .debug.crc = source_chance(s, 3) };
+    if (has(d, SMEAR_SET(SMEAR_AUTO)) && d->width % 2 != 0) /* most targets are beyond SMEAR_DRAFT */
+        d->methods |= SMEAR_SET_SKETCH;
     if (c->triangles != 0)
         case_many_desc(c);
     if (d->format >= SMEAR_L4 && source_chance(s, 4))
