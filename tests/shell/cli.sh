@@ -196,7 +196,7 @@ claim "no options are the same" drawn same written.ppm nothing.ppm "$plate"
 claim "the target of balanced is the default" drawn same out.ppm target.ppm $moving --target 1.5
 turn="$plate $small --time 0.25 --clip spin"
 claim "what auto aims at" render $turn --method accumulate --samples 256 -o truth.ppm
-for quality in draft balanced fine; do
+for quality in sketch draft balanced fine; do
     claim "--quality $quality" render $turn --quality $quality -o $quality.ppm
     run compare truth.ppm $quality.ppm
     eval "rmse_$quality=\$(value_of rmse)"

@@ -150,7 +150,7 @@ const tests = {
     "equal bits with SIMD, without, and on the host": async () => {
         const settings = ["", "&scene=drone", "&method=timemask", "&method=reconstruct&quality=fine", "&method=accumulate", "&method=subframes&shutter=360", "&method=none",
             "&method=camera", "&method=pingpong", "&method=half&quality=draft", "&method=object", "&method=layered&quality=fine",
-            "&fps=10&quality=fine", "&light=encoded", "&panel=grey", "&panel=oled&method=none", "&panel=rp2040&method=reconstruct", "&panel=round&method=reconstruct",
+            "&fps=10&quality=fine", "&quality=sketch", "&method=timemask&quality=sketch", "&light=encoded", "&panel=grey", "&panel=oled&method=none", "&panel=rp2040&method=reconstruct", "&panel=round&method=reconstruct",
             "&panel=gba&method=reconstruct", "&panel=memlcd", "&panel=fb320&scene=drone"];
         const seen = new Set();
         for (const s of settings) {
@@ -191,7 +191,7 @@ const tests = {
             check(await picture("right") !== before, id + " does not change the picture");
             last = now;
         }
-        for (const [label, key, value] of [["Shutter 0\u00b0", "shutter", 0], ["Method auto", "method", 10], ["Shutter 360\u00b0", "shutter", 360], ["Quality fine", "quality", 2], ["Frame rate 15 per second", "fps", 15]]) {
+        for (const [label, key, value] of [["Shutter 0\u00b0", "shutter", 0], ["Method auto", "method", 10], ["Shutter 360\u00b0", "shutter", 360], ["Quality fine", "quality", 3], ["Frame rate 15 per second", "fps", 15]]) {
             await browser.click('[aria-label="' + label + '"]');
             equal(await browser.run("return S." + key), value, label);
             await sameAsHost(label);
@@ -204,7 +204,7 @@ const tests = {
     },
     "settings are in the address, and come back": async () => {
         await open();
-        await browser.run("set({ shutter: 90, method: methodNamed('timemask'), quality: 0, fps: 60, panel: 'rp2040', scene: 'drone' }); S.split = 20; pause(true); step(1)");
+        await browser.run("set({ shutter: 90, method: methodNamed('timemask'), quality: 1, fps: 60, panel: 'rp2040', scene: 'drone' }); S.split = 20; pause(true); step(1)");
         await crc();
         const hash = await browser.run("return location.hash"), before = await crc();
         for (const part of ["shutter=90", "method=timemask", "quality=draft", "fps=60", "panel=rp2040", "scene=drone", "split=20", "paused=1", "frame="])
@@ -394,7 +394,7 @@ const tests = {
             check(name.includes("mended") || marks.includes(name), name + " is not in the chart");
         }
         const seen = new Set([await ring()]);
-        for (const [label, method, quality] of [["timemask 8", "timemask", 0], ["accumulate 16", "accumulate", 2], ["auto fine", "auto", 2]]) {
+        for (const [label, method, quality] of [["timemask 8", "timemask", 1], ["accumulate 16", "accumulate", 3], ["auto fine", "auto", 3]]) {
             await browser.run("[...document.querySelectorAll('.point')].find(p => p.getAttribute('aria-label').startsWith(arguments[0])).dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter', bubbles: true }))", label);
             equal(await browser.run("return METHODS[S.method].name + S.quality"), method + quality, label);
             check((await browser.text("#chartText")).includes(label), "the text does not name " + label);
@@ -403,7 +403,7 @@ const tests = {
         }
         equal(seen.size, 4, "places of the ring");
         const read = await browser.run("return readChart('setting,cost,rmse\\nnone,1,10\\nobject,2,3\\nobject plain 4,2,4\\nwarp 8,2,3\\ncamera 8,x,3\\ncamera 8,2,3\\npingpong spread,2,3\\nauto 2.8,2,3').map(r => r.setting + ':' + r.quality).join()");
-        equal(read, "none:3,object:3,camera 8:1,auto 2.8:-1", "a chart with methods that the page does not know");
+        equal(read, "none:4,object:4,camera 8:2,auto 2.8:-1", "a chart with methods that the page does not know");
         const names = await browser.run("return METHODS.map(m => m.name).sort().join()");
         const there = execFileSync(smear, ["help", "render"], { encoding: "utf8" });
         for (const name of names.split(",")) check(there.includes(name), name + " is no method");

@@ -88,7 +88,7 @@ const struct chart_setting chart_settings[] = {
     { TIMEMASK, "timemask 16", "16", SMEAR_TIMEMASK, .samples = 16 },
     { TIMEMASK, "timemask 32", "32", SMEAR_TIMEMASK, .samples = 32, .everywhere = true },
 
-    { AUTO, "auto 8", NULL, SMEAR_AUTO, .target = CODES(8) },
+    { AUTO, "auto sketch", "sketch", SMEAR_AUTO, .target = SMEAR_SKETCH, .everywhere = true },
     { AUTO, "auto 5.6", NULL, SMEAR_AUTO, .target = CODES(5.6) },
     { AUTO, "auto draft", "draft", SMEAR_AUTO, .target = SMEAR_DRAFT, .everywhere = true },
     { AUTO, "auto 2.8", NULL, SMEAR_AUTO, .target = CODES(2.8) },

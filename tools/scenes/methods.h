@@ -13,7 +13,8 @@ struct method {
     const char *help;           /* of the command line, lines with \n between them */
     uint32_t tile_color;        /* of a tile that got it, in the viewer, 0xRRGGBB; auto's tiles get other methods */
     const char *label, *hint;   /* on the page */
-    uint8_t samples[3];         /* there: of qualities draft, balanced, fine; 0: there are none to choose */
+    uint8_t samples[3];         /* there: of qualities draft, balanced, fine; 0: there are none to choose. Of
+                                 * sketch they are those of draft */
     const char *curve, *color;  /* in the page's chart */
 };
 

@@ -3,14 +3,14 @@
 
 const CURVES = METHODS.filter(m => m.curve).map(m => [m.name, m.curve, m.color]);
 
-const ANY = 3;                          // quality, of methods that have but one
+const ANY = 4;                          // quality, of methods that have but one
 
 // [{ setting, method, index, quality, label, cost, rmse }] of chart.csv; what the page does not offer is left out.
 function readChart(text) {
     const rows = text.trim().split("\n").slice(1).map(line => {
         const [setting, cost, rmse] = line.split(","), [method, at, more] = setting.split(" "), index = methodNamed(method);
         if (index < 0 || more || !(cost > 0) || !(rmse > 0)) return null;
-        const samples = METHODS[index].samples, quality = method === "auto" ? QUALITIES.indexOf(at) : at ? samples.indexOf(+at) : samples[0] ? -1 : ANY;
+        const samples = METHODS[index].samples, quality = method === "auto" ? QUALITIES.indexOf(at) : at ? samples.indexOf(+at) + 1 || -1 : samples[0] ? -1 : ANY;
         return method !== "auto" && at && !(+at > 0) ? null : { setting, method, index, quality, label: at || METHODS[index].label, cost: +cost, rmse: +rmse };
     });
     return rows.filter(r => r);
@@ -20,7 +20,7 @@ const chartRows = readChart(chartText), sharpRow = chartRows.find(r => r.method 
 
 function current() {
     const method = S.shutter === 0 ? 0 : S.method;
-    return chartRows.find(r => r.index === method && (r.quality === S.quality || r.quality === ANY));
+    return chartRows.find(r => r.index === method && (r.quality === (r.method === "auto" ? S.quality : sampleQuality(S.quality)) || r.quality === ANY));
 }
 
 function svg(name, attributes, text) {

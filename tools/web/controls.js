@@ -5,12 +5,12 @@ const knobs = [
     { key: "shutter", label: "Shutter", min: 0, max: 360, step: 5, stops: [0, 90, 180, 270, 360], text: v => v + "\u00b0",
       hint: v => v === 0 ? "Closed at once: the sharp frame." : "Open for " + Math.round(v / 3.6) + " % of each frame" + (v === 180 ? ", as film cameras have it." : ".") },
     { key: "method", label: "Method", min: 0, max: METHODS.length - 1, step: 1, stops: METHODS.map((m, i) => i), text: v => METHODS[v].label, hint: v => METHODS[v].hint },
-    { key: "quality", label: "Quality", min: 0, max: 2, step: 1, stops: [0, 1, 2], text: v => QUALITIES[v],
+    { key: "quality", label: "Quality", min: 0, max: 3, step: 1, stops: [0, 1, 2, 3], text: v => QUALITIES[v],
       hint: v => {
           const m = METHODS[S.method];
-          if (m.name === "auto") return "Error aimed at: " + ["4", "1.5", "0.5"][v] + " of 255 codes.";
+          if (m.name === "auto") return v === 0 ? "What stands still is blurred along lines while the camera moves." : "Error aimed at: " + ["4", "1.5", "0.5"][v - 1] + " of 255 codes.";
           if (m.name === "none") return "A sharp frame has none.";
-          return m.samples[v] ? m.samples[v] + " samples." : "This method has but one.";
+          return samplesOf(m, v) ? samplesOf(m, v) + " samples." : "This method has but one.";
       } },
     { key: "fps", label: "Frame rate", min: 0, max: 3, step: 1, stops: RATES, text: v => v + " per second", list: RATES,
       hint: v => v <= 15 ? "What small machines manage: the sharp side stutters."
@@ -168,7 +168,7 @@ function nextPanel(by) {
 
 const KEYS = {
     " ": () => pause(!S.paused), ",": () => step(-1), ".": () => step(1), b: toggleBlur, m: () => set({ method: (S.method + 1) % METHODS.length }),
-    M: () => set({ method: (S.method + METHODS.length - 1) % METHODS.length }), u: () => set({ quality: (S.quality + 1) % 3 }),
+    M: () => set({ method: (S.method + METHODS.length - 1) % METHODS.length }), u: () => set({ quality: (S.quality + 1) % QUALITIES.length }),
     "[": () => set({ shutter: Math.max(0, S.shutter - 15) }), "]": () => set({ shutter: Math.min(360, S.shutter + 15) }),
     v: () => { S.split = S.split > 0 ? 0 : 50; showSplit(); writeAddress(); }, "<": () => moveSplit(-5), ">": () => moveSplit(5),
     f: () => nextPanel(1), F: () => nextPanel(-1), x: straighten, g: () => record(), l: () => set({ light: S.light === "linear" ? "encoded" : "linear" }),

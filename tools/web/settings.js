@@ -5,7 +5,7 @@ const $ = id => document.getElementById(id);
 
 // METHODS, of tools/scenes/methods.c, comes before this.
 const methodNamed = name => METHODS.findIndex(m => m.name === name);
-const QUALITIES = ["draft", "balanced", "fine"];
+const QUALITIES = ["sketch", "draft", "balanced", "fine"];
 const RATES = [10, 15, 30, 60];
 const PANELS = [                        // those of boards are added when the module has told them
     { name: "pocket", label: "240\u00d7240 LCD, RGB565", shell: "pocket", words: ["--size", "240x240", "--format", "rgb565"], board: -1 },
@@ -15,9 +15,12 @@ const SHELLS = { oled: "board", rp2040: "pocket", round: "watch", gba: "gba", me
 const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
     memlcd: "400\u00d7240 memory LCD, 1 bit", fb320: "320\u00d7240 framebuffer" };
 const SCENES = [{ name: "race", label: "Racing car, chased" }, { name: "drone", label: "Drone, fixed camera" }];
-const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: methodNamed("auto"), quality: 1, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
+const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: methodNamed("auto"), quality: 2, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };
 
 let S = { ...DEFAULTS };
+// Quality of methods that have three, without a sketch: its samples are a draft's.
+const sampleQuality = quality => Math.max(1, quality);
+const samplesOf = (method, quality) => method.samples[sampleQuality(quality) - 1];
 let model = null;                       // { name, files } of what has been dropped
 let scene = { period: 60, clips: [], width: 240, height: 240 };
 let turned = false, isStill = false;
@@ -53,7 +56,7 @@ const sceneWord = () => S.scene === "file" && model ? model.main : "builtin:demo
 function words() {
     const method = METHODS[S.method], out = [...panel().words, "--fps", String(S.fps), "--shutter", String(S.shutter), "--method", method.name];
     if (method.name === "auto") out.push("--quality", QUALITIES[S.quality]);
-    if (method.samples[S.quality]) out.push("--samples", String(method.samples[S.quality]));
+    if (samplesOf(method, S.quality)) out.push("--samples", String(samplesOf(method, S.quality)));
     if (S.light !== "linear") out.push("--light", S.light);
     if (S.scene === "file") {
         out.push("--loop");
