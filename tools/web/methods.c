@@ -6,7 +6,7 @@
 
 int main(void)
 {
-    printf("// samples: of qualities draft, balanced, fine; 0: the method has none to choose. curve, color: in the chart.\nconst METHODS = [\n");
+    printf("// samples: of draft, balanced, fine; 0: there are none to choose. curve, color: in the chart.\nconst METHODS = [\n");
     for (int i = 0; i < method_count; i++) {
         const struct method *m = &method_list[i];
         printf("    { name: \"%s\", label: \"%s\", hint: \"%s\", samples: [%d, %d, %d], curve: \"%s\", color: \"%s\" },\n", m->name,
