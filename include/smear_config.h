@@ -41,7 +41,7 @@
                                          * several instants: no temporal methods */
 #define SMEAR_WITH_SUBFRAMES SMEAR_WITH_ALL
 #endif
-#ifndef SMEAR_WITH_LINES                /* SMEAR_SKETCH: targets beyond SMEAR_DRAFT */
+#ifndef SMEAR_WITH_LINES                /* SMEAR_SET_SKETCH: targets beyond SMEAR_DRAFT */
 #define SMEAR_WITH_LINES (SMEAR_WITH_ALL && SMEAR_WITH_SUBFRAMES)
 #endif
 #ifndef SMEAR_WITH_TIMEMASK             /* needs SMEAR_WITH_SUBFRAMES, which draws what it cannot */

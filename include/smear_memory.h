@@ -4,6 +4,7 @@
  *     static uint64_t memory[SMEAR_MEMORY(240, 240, 600, 8)];                 // width, height, triangles, draws
  *     static uint64_t less[SMEAR_MEMORY(240, 240, 600, 8, SMEAR_RGB565)];     // of one format
  *     static uint64_t more[SMEAR_MEMORY(240, 240, 600, 8) + SMEAR_MEMORY_BAND(240, 240, SMEAR_XRGB8888)];  // two bands
+ *     static uint64_t fast[SMEAR_MEMORY_SKETCH(240, 240, 600, 8)];            // with SMEAR_SET_SKETCH
  *
  * It is enough for every smear_desc that says no more than width, height, max_triangles, max_draws, format, callbacks
  * and a dither other than SMEAR_DITHER_DIFFUSE, and at most a kilobyte and a fiftieth more than SMEAR_XRGB8888, the
@@ -16,6 +17,10 @@
 
 /* Words of 8 bytes: a constant. */
 #define SMEAR_MEMORY(...) SMEAR_MEMORY_OF_(__VA_ARGS__, SMEAR_XRGB8888, 0)
+
+/* In place of SMEAR_MEMORY where methods are SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH, also with SMEAR_NONE; tile, reach and
+ * strip are the defaults. It is a whole, to which BAND and WORKER do not add: its tiles are others. */
+#define SMEAR_MEMORY_SKETCH(...) SMEAR_SKETCH_OF_(__VA_ARGS__, SMEAR_XRGB8888, 0)
 
 /* Words that the second of two bands takes, and each of desc.workers but the first. */
 #define SMEAR_MEMORY_BAND(width, height, format) \
@@ -71,15 +76,30 @@ static inline size_t smear_memory_needed(int result)
 /* At least a twentieth of the width. */
 #define SMEAR_TILE_(w, h) ((w) <= 160 ? 8u : (w) <= 320 ? 16u : 32u)
 #define SMEAR_COLUMNS_(w) ((w) > 160u ? 144u : SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u))
+#define SMEAR_REACH_(h) ((h) < 40u ? 1u : (h) > 1299u ? 64u : (h) * 5u / 100u)
 /* Entries, vertices, a place in a row's list; a segment for each 50000 words. */
 #define SMEAR_TRIANGLES_BYTES_(t) ((t) * (SMEAR_TEMPORAL_TRIANGLE_BYTES + 8u) + (t) / 192u)
 /* Instants, sums, depths and finished pixels of a strip; what is known of a row's tiles and blocks of 8 x 8 pixels. */
-#define SMEAR_WORKER_BYTES_(w, T) \
-    (SMEAR_COLUMNS_(w) * (T) * 14u + 512u + ((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
+#define SMEAR_STRIP_BYTES_(w, T, columns) \
+    ((columns) * (T) * 14u + 512u + ((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
+#define SMEAR_WORKER_BYTES_(w, T) SMEAR_STRIP_BYTES_(w, T, SMEAR_COLUMNS_(w))
 /* Colour and depth of a row of tiles; the band; the last triangles of each row. */
 #define SMEAR_ROWS_BYTES_(w, h, T, bits) \
     (SMEAR_WORKER_BYTES_(w, T) + (w) * SMEAR_MIN_(T, h) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
      + ((h) + (T) - 1u) / (T) * 12u)
+/* Sketches: at least the reach; two tile rows and the reach of colour and depth, and one more that lines have blurred; what
+ * stands still may be listed twice. */
+#define SMEAR_SKETCH_TILE_(h) ((h) <= 179 ? 8u : (h) <= 339 ? 16u : (h) <= 659 ? 32u : 64u)
+#define SMEAR_SKETCH_COLUMNS_(w, T) ((T) == 8u ? SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u) : (w) > 128u ? 144u : SMEAR_UP_(w, T))
+#define SMEAR_SKETCH_ROWS_(w, h, T, bits) \
+    (SMEAR_STRIP_BYTES_(w, T, SMEAR_SKETCH_COLUMNS_(w, T)) + (w) * (3u * (T) + SMEAR_REACH_(h)) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
+     + ((h) + (T) - 1u) / (T) * 16u + 256u)
+#define SMEAR_SKETCH_TRIANGLES_(t) ((t) * (2u * SMEAR_TRIANGLE_BYTES + 8u) + (t) / 160u)
+#define SMEAR_SKETCH_TWICE_(d) (SMEAR_MIN_(d, 65536u - (d)) * SMEAR_SEGMENT_BYTES)
+#define SMEAR_SKETCH_OF_(w, h, t, d, f, ...) \
+    ((SMEAR_FIXED_BYTES_ + SMEAR_SKETCH_TRIANGLES_((size_t)(t) != 0 ? (size_t)(t) : 1024u) \
+      + ((size_t)(d) != 0 ? (size_t)(d) : 16u) * SMEAR_DRAW_BYTES_ + SMEAR_SKETCH_TWICE_((size_t)(d) != 0 ? (size_t)(d) : 16u) \
+      + SMEAR_SKETCH_ROWS_((size_t)(w), (size_t)(h), SMEAR_SKETCH_TILE_(h), SMEAR_PIXEL_BITS_(f)) + 7u) / 8u)
 #elif SMEAR_WITH_RECONSTRUCT                /* SMEAR_RECONSTRUCT */
 #define SMEAR_REACH_(h) ((h) < 40u ? 1u : (h) > 1299u ? 64u : (h) * 5u / 100u)
 #define SMEAR_TILE_(w, h) ((h) <= 179 ? 8u : (h) <= 339 ? 16u : (h) <= 659 ? 32u : 64u)

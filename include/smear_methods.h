@@ -19,7 +19,8 @@
  *                        not grow with its length; those without one displacement as in SMEAR_LAYERED
  *     SMEAR_LAYERED      each blurred layer by velocities of its pixels, over the static scene
  *
- * desc.reach is the longest blur radius of a filter or layer in pixels, 1..64; 0 means 5 % of the height, 64 at most.
+ * desc.reach is the longest blur radius of a filter or layer in pixels, 1..64; of a sketch how far its lines reach up and
+ * down, while along x they reach as far as they go; 0 means 5 % of the height, 64 at most.
  * desc.tile must not be below it (but with scatter), and may be 4 with filters but SMEAR_HALF and scatter. With a
  * window and without temporal methods, layers and SMEAR_HALF desc.band_rows may divide the tile. SMEAR_ACCUMULATE takes
  * 12 bytes per pixel of the frame. */
@@ -42,8 +43,13 @@ struct smear_frame;
  * instant. Small and slow. */
 #define SMEAR_SET_ACCUMULATE_BANDS (1u << 15)
 
-/* Beside SMEAR_AUTO: keeps a window of rows, by which frames of targets beyond SMEAR_DRAFT blur along lines what stands still while
- * the camera moves. */
+/* Beside SMEAR_AUTO, which it needs: room for frames of SMEAR_AUTO with targets beyond SMEAR_DRAFT (256), sketches. It is a
+ * window of a few tile rows (desc.reach and desc.tile are as with a filter) and as many more for what lines have blurred:
+ * SMEAR_MEMORY_SKETCH. While the camera moves, what stands still is drawn once, in the middle of the exposure, and blurred
+ * along lines: each 8 x 8 pixels by 2 to 8 taps on the way that depth and two cameras tell. Between SMEAR_DRAFT and 7 codes
+ * (448) it is drawn twice, and lines are half as long; that needs hard edges. What moves by itself is drawn over it, at one
+ * or two instants. Sketches need a shutter without a curve; with one, in a cut, and before a camera that stands still there
+ * are no lines. Frames of other targets and methods are the same as without it, but that tiles may be larger. */
 #define SMEAR_SET_SKETCH (1u << 14)
 
 static inline uint8_t smear_method_is_temporal(int method)

@@ -35,8 +35,9 @@ typedef struct smear_stats {
     uint32_t pixels;                    /* of the frame */
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
     uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves; SMEAR_AUTO's
-                                         * tiles count as SMEAR_SUBFRAMES; layers count where they reach into a tile */
-    uint32_t tiles_static, tiles_uniform, tiles_complex;        /* by the kind of motion in them */
+                                         * tiles count as SMEAR_SUBFRAMES, those that only lines of a sketch blur as
+                                         * SMEAR_CAMERA; layers count where they reach into a tile */
+    uint32_t tiles_static, tiles_uniform, tiles_complex;        /* by the kind of motion in them; tiles of lines alone are uniform */
     uint32_t tiles_kept;                /* neither drawn nor sent: the display has them (desc.reuse.buffer_age) */
     uint8_t static_cached;              /* 1: what is static was not drawn, and is not among triangles_drawn */
     uint32_t target;                    /* SMEAR_AUTO: smear_frame.target, or what the budget allowed; of a frame drawn

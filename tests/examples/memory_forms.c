@@ -14,7 +14,9 @@ int main(void)
         SMEAR_MEMORY_BAND(160, 120, SMEAR_L4),
         SMEAR_MEMORY_BAND(33, 39, SMEAR_RGB565_SWAPPED),
         SMEAR_MEMORY_WORKER(320, 240),
-        SMEAR_MEMORY_WORKER(7, 2048)
+        SMEAR_MEMORY_WORKER(7, 2048),
+        SMEAR_MEMORY_SKETCH(240, 240, 600, 8),
+        SMEAR_MEMORY_SKETCH(321, 479, 0, 0, SMEAR_L4)
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         printf("%lu\n", (unsigned long)words[i]);

@@ -95,6 +95,20 @@ static void test_the_macro_is_enough_for_the_methods_that_are_drawn_alike(void)
     }
 }
 
+static void test_the_macro_of_sketches_is_enough_and_tight(void)
+{
+    random_state = 5;
+    for (int n = 0; n < 20000; n++) {
+        smear_desc d = pick_usual();
+        d.methods = (uint16_t)(SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH | (n % 2 != 0 ? SMEAR_SET(SMEAR_NONE) : 0u));
+        if (!is_tight(&d, SMEAR_MEMORY_SKETCH(d.width, d.height, d.max_triangles, d.max_draws, d.format), 50, "sketch"))
+            return;
+        d.format = SMEAR_XRGB8888;
+        if (!is_tight(&d, SMEAR_MEMORY_SKETCH(d.width, d.height, d.max_triangles, d.max_draws), 50, "any sketch"))
+            return;
+    }
+}
+
 /* A desc whose memory no macro knows: other methods, tiles, strips, caches. */
 static smear_desc pick_special(void)
 {

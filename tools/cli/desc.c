@@ -32,19 +32,22 @@ struct reading {
     char wrong[280];
 };
 
-/* Adds methods joined by plus signs; accumulate_bands is the one whose memory differs from the method's of its name. */
+/* Adds methods joined by plus signs; accumulate_bands is the one whose memory differs from the method's of its name,
+ * and sketch is SMEAR_SET_SKETCH. */
 static bool read_methods(struct reading *r, char *value)
 {
     for (char *name = strtok(value, "+"); name != NULL; name = strtok(NULL, "+")) {
         const struct method *method = method_named(name);
-        if (method == NULL && strcmp(name, "accumulate_bands") != 0) {
+        const bool is_sketch = strcmp(name, "sketch") == 0;
+        if (method == NULL && !is_sketch && strcmp(name, "accumulate_bands") != 0) {
             for (int i = 0; i < method_count; i++)
                 read_near(name, method_list[i].name);
-            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, joined by +", name,
+            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, and sketch beside auto, joined by +", name,
                      method_names());
             return false;
         }
-        r->desc->methods = (uint16_t)(r->desc->methods | (method != NULL ? SMEAR_SET(method->method) : SMEAR_SET_ACCUMULATE_BANDS));
+        r->desc->methods = (uint16_t)(r->desc->methods | (method != NULL ? SMEAR_SET(method->method)
+                                                          : is_sketch ? SMEAR_SET_SKETCH : SMEAR_SET_ACCUMULATE_BANDS));
     }
     return true;
 }
