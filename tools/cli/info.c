@@ -231,7 +231,8 @@ static void print_memory(const struct presented *presented, int width, int heigh
         printf("  %-16s %zu bytes: window %zu, bands %zu, draws %zu, %u triangles %zu, rest %zu%s\n",
                names[setup], need.total, need.window, need.bands, need.draw_bytes,
                (unsigned)need.triangles, need.triangle_bytes, need.rest,
-               setup == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods" : "");
+               setup == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods"
+               : setup == MEMORY_AUTO ? "; with SMEAR_SET_SKETCH, as this program draws" : "");
     }
 }
 

@@ -96,7 +96,7 @@ bool memory_measure(const struct presented *presented, int width, int height,
         uint8_t method;
         unsigned set;
     } setups[MEMORY_SETUPS] = {
-        [MEMORY_AUTO] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_RECONSTRUCT) },
+        [MEMORY_AUTO] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH },
         [MEMORY_AUTO_SHARP] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) },
         [MEMORY_RECONSTRUCT] = { SMEAR_RECONSTRUCT, SMEAR_SET(SMEAR_RECONSTRUCT) },
         [MEMORY_NONE] = { SMEAR_NONE, SMEAR_SET(SMEAR_NONE) },
