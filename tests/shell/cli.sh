@@ -585,7 +585,7 @@ for line in '^nodes: 5$' '1 "plate" under 0, mesh 0' '^clips: 2$' '0 "slide" 1 s
     '^cameras: 2$' '0 "front" perspective, yfov 90, near 0.5, far 20' '1 "flat" orthographic' \
     '^materials: ' '"green" opaque' '^textures: 0$' '^meshes: 2$' '2 triangles, 4 vertices' \
     '^skipped primitives: 0$' '^bounds at 0 s: -5 -1 -2 to 3 2 0$' '^triangles: 4$' \
-    '^memory at 320x240 (' '^memory at 240x240 (' '^  auto  *[0-9]* bytes: window 112640, ' \
+    '^memory at 320x240 (' '^memory at 240x240 (' '^  auto  *[0-9]* bytes: window 115200, ' \
     '^  auto, no window  *[0-9]* bytes: window 30720, ' '^  reconstruct  *[0-9]* bytes: window 112640, ' \
     '^  none  *[0-9]* bytes: window 30720, '; do
     claim "has $line" out_has "$line"

@@ -42,7 +42,7 @@ static bool read_methods(struct reading *r, char *value)
         if (method == NULL && !is_sketch && strcmp(name, "accumulate_bands") != 0) {
             for (int i = 0; i < method_count; i++)
                 read_near(name, method_list[i].name);
-            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, and sketch beside auto, joined by +", name,
+            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, and sketch, joined by +", name,
                      method_names());
             return false;
         }

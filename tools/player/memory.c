@@ -84,8 +84,11 @@ static void split_up(struct memory_need *need, const smear_desc *desc)
     const bool has_window = (desc->methods & SMEAR_SET_FILTERS) != 0;
     const bool holds_back = has_window && (desc->methods & SMEAR_SET_TEMPORAL) != 0;    /* a band waits for the row below */
     need->bands = row * 2 * (size_t)need->tile * (holds_back ? 2 : 1);
-    need->window = has_window ? row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel
-                              : row * (size_t)need->tile * 6;
+    if ((desc->methods & SMEAR_SET_SKETCH) != 0)        /* colour and depth, and those of the row that lines have blurred */
+        need->window = row * (size_t)(3 * need->tile + need->reach) * 6;
+    else
+        need->window = has_window ? row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel
+                                  : row * (size_t)need->tile * 6;
     need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->bands - need->window;
 }
 
