@@ -22,26 +22,26 @@
 #endif
 
 /* Names are those of the demo's screens (platform/demo_player.c); "pico" is a panel of 128x128. Triangle lists have room for
- * what is in view at once. */
-#define SCREEN(name, w, h, pixels, buffers, px, columns, triangles)                                                     \
+ * what is in view at once. Slow boards draw sketches. */
+#define SCREEN(name, w, h, pixels, buffers, px, columns, triangles, also)                                               \
     { name, { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,                \
               .max_triangles = triangles, .max_draws = VIEW_DRAWS, .reuse.one_pose = 1,                                 \
-              .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH } }
+              .methods = SMEAR_SET(SMEAR_AUTO) | (also) } }
 
 static const struct screen {
     const char *name;
     smear_desc desc;
 } screens[] = {
-    SCREEN("pico", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
-    SCREEN("pico-128", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420),
-    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 96, 480),
-    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 48, 480),
-    SCREEN("gba", 120, 80, SMEAR_RGB555, 1, 16, 0, 420),
-    SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800),
-    SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800),
-    SCREEN("linux", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800),
-    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800),
-    SCREEN("page", 320, 240, SMEAR_XRGB8888, 1, 0, 0, 800)
+    SCREEN("pico", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420, SMEAR_SET_SKETCH),
+    SCREEN("pico-128", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420, SMEAR_SET_SKETCH),
+    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 96, 480, SMEAR_SET_SKETCH),
+    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 48, 480, SMEAR_SET_SKETCH),
+    SCREEN("gba", 120, 80, SMEAR_RGB555, 1, 16, 0, 420, SMEAR_SET_SKETCH),
+    SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800, 0),
+    SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800, 0),
+    SCREEN("linux", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800, 0),
+    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800, 0),
+    SCREEN("page", 320, 240, SMEAR_XRGB8888, 1, 0, 0, 800, 0)
 };
 
 static struct {
@@ -92,7 +92,7 @@ static unsigned recorded_keys(void)
 
 static int draw_frame(void)
 {
-    const int result = view_submit(game.ctx, &game.race, game.desc.width, game.desc.height);
+    const int result = view_submit(game.ctx, &game.race, &game.desc);
     return result == SMEAR_OK ? smear_render(game.ctx) : result;
 }
 

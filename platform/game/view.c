@@ -215,11 +215,12 @@ static const smear_overlay *overlay_of(const struct race *race, int16_t width, i
     return &overlay;
 }
 
-int view_submit(smear_context *ctx, const struct race *race, int16_t width, int16_t height)
+int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc)
 {
     const smear_camera camera = camera_of(&race->car[0]);
     const smear_frame frame = { .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1,
-                                .target = SMEAR_SKETCH, .overlay = overlay_of(race, width, height), .shutter.path = SMEAR_PATH_LINE };
+                                .target = (desc->methods & SMEAR_SET_SKETCH) != 0 ? SMEAR_SKETCH : SMEAR_DRAFT,
+                                .overlay = overlay_of(race, desc->width, desc->height), .shutter.path = SMEAR_PATH_LINE };
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);

@@ -10,7 +10,8 @@ enum { VIEW_CHUNKS = 4, VIEW_DRAWS = VIEW_CHUNKS + 1 + RACE_CARS };
 
 void view_make(void);
 
-/* Begins a frame and submits all that is seen of it. Returns a smear_result. */
-int view_submit(smear_context *ctx, const struct race *race, int16_t width, int16_t height);
+/* Begins a frame of a context of this desc and submits all that is seen of it: a sketch where there is room for it. Returns a
+ * smear_result. */
+int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc);
 
 #endif

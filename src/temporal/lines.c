@@ -63,7 +63,7 @@ static void displacement_of(int32_t out[2], const struct smear_lines *lines, con
         const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
         if (length <= most)
             continue;
-        out[1 - i] = (int32_t)((int64_t)out[1 - i] * most / length);
+        out[1 - i] = (out[1 - i] >> 4) * (int32_t)(((uint32_t)most << 11) / (uint32_t)length) >> 7;
         out[i] = out[i] < 0 ? -most : most;
     }
     out[0] = (out[0] + STEP / 2) & -STEP;

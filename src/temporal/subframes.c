@@ -432,7 +432,7 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
     uint32_t samples = 0;
     if (f.refilled != NULL ? list_refilled(&f, f.plans, &middle) : list(&f)) {
         all = no_box;
-        if (is_still && f.refilled == NULL && !f.blends) {
+        if (is_still && !f.blends) {
             all = draw_instant(&f, SHUTTER_CLOSE / 2);
             return (uint32_t)pixels_in(&all);
         }
