@@ -371,7 +371,7 @@ static bool is_well_formed(const char *text)
 
 static void test_pictures_are_well_formed_and_show_every_method_once(void)
 {
-    static const char *const names[] = { "chart", "object", "camera", "field", "peer", "scenes" };
+    static const char *const names[] = { "chart", "scenes" };
     struct failure f = { "" };
     END_UNLESS(make_folder());
     fill_good();
@@ -380,18 +380,18 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
             chart.value[CHART_MAIN][k][i] = chart.value[CHART_MAIN][0][i];
     memcpy(chart.value[CHART_DEFAULT], chart.value[CHART_MAIN], sizeof chart.value[CHART_MAIN]);
     CHECK(chart_write_pictures(&chart, FOLDER, &f));
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 4; i++) {
         char path[64];
         uint8_t *bytes;
         size_t size;
-        snprintf(path, sizeof path, FOLDER "/%s%s.svg", i < 6 ? "" : "study-", names[i % 6]);
+        snprintf(path, sizeof path, FOLDER "/%s%s.svg", i < 2 ? "" : "study-", names[i % 2]);
         REQUIRE(file_read(path, 1 << 20, &bytes, &size, &f));
         const char *text = (const char *)bytes;
         CHECK(is_well_formed(text));
         CHECK(strstr(text, ">accumulate") != NULL);
         CHECK(strstr(text, ">auto") != NULL);
-        CHECK(strstr(text, i < 6 ? ">As it comes" : ">As in studies") != NULL);
-        if (i % 6 == 0) {
+        CHECK(strstr(text, i < 2 ? ">As it comes" : ">As in studies") != NULL);
+        if (i % 2 == 0) {
             CHECK(strstr(text, ">TGX<") != NULL);
             CHECK(strstr(text, ">4 frames of the demo<") != NULL);
         }
