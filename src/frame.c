@@ -78,7 +78,7 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
     rows->refill = NULL;
     rows->bins.margin = c->frame.edges;
-    c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc, has_window(&c->desc));
+    c->direct = method == SMEAR_NONE && smear_sharp_may_be_direct(&c->desc, has_window(&c->desc) || has_lines(&c->desc));
 }
 
 SMEAR_NOINLINE void smear_frame_prepare(struct smear_context *c, bool by_depth)
