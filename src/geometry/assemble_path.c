@@ -221,7 +221,8 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     return word;
 }
 
-/* Whether no vertex moves, not even by a step (q8 px). Along lines: whether all move as if they stood still before the camera. */
+/* Whether no vertex moves, not even by a step (q8 px). Along lines: whether all move as if they stood still before the camera, which
+ * the triangle faces in the middle of the exposure. */
 static bool is_static(const struct path_batch *b, const struct smear_path_bounds *bounds, const int32_t *const record[3])
 {
     enum { ALIKE = 384 };           /* q8 px */
@@ -237,7 +238,9 @@ static bool is_static(const struct path_batch *b, const struct smear_path_bounds
         if (max_i32(abs_i32(close[PATH_X] - open[PATH_X] - still[0]), abs_i32(close[PATH_Y] - open[PATH_Y] - still[1])) > ALIKE)
             return false;
     }
-    return true;
+    const int32_t *a = record[0], *c = record[1], *e = record[2];
+    return (int64_t)(c[VERTEX_X] - a[VERTEX_X]) * (e[VERTEX_Y] - a[VERTEX_Y])
+         > (int64_t)(e[VERTEX_X] - a[VERTEX_X]) * (c[VERTEX_Y] - a[VERTEX_Y]);
 }
 
 /* Whether the next part of the triangle has been added already. */
