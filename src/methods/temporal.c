@@ -463,10 +463,10 @@ static void end_row(struct smear_temporal *self, const struct smear_rows *rows)
     add_shares(self, rows->jobs.workers);
 }
 
-static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+/* Draws and finishes a row whose tiles are listed. Not part of what calls it: listing needs the stack, too. */
+static SMEAR_NOINLINE int draw_listed(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     struct smear_damage_run run = { 0, 0 };
-    begin_row(self, rows, row);
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     while (next_run(self, rows, row, &run)) {
@@ -478,6 +478,15 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
         if (result != SMEAR_OK)
             return result;
     }
+    return SMEAR_OK;
+}
+
+static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
+    begin_row(self, rows, row);
+    const int result = draw_listed(self, rows, row, end);
+    if (result != SMEAR_OK)
+        return result;
     end_row(self, rows);
     if (SMEAR_WITH_DAMAGE)
         smear_damage_row_sent(self->damage, rows, row);
@@ -500,13 +509,12 @@ static void lines_job(void *argument, int job, int worker)
         smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
 }
 
-/* Blurs a row along lines, as far as it stands still, and finishes it. */
-static int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+/* Blurs a row whose tiles are listed along lines, as far as it stands still, and finishes it. */
+static SMEAR_NOINLINE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     const struct smear_window *w = &rows->window;
     const struct smear_damage_run all = { 0, (int)w->columns };
     struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
-    begin_row(self, rows, row);
     smear_row_target(rows, row, &finish.background);
     const uint32_t start = stage_start(rows);
     smear_jobs_run(&rows->jobs, lines_job, &finish, rows->jobs.workers);
@@ -514,9 +522,7 @@ static int finish_along_lines(struct smear_temporal *self, struct smear_rows *ro
     finish.background.color = self->lines->row;
     finish.background.depth = self->lines->depth;
     finish.background.color_rows = finish.background.window_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
-    const int result = finish_run(self, &finish, end, &all);
-    end_row(self, rows);
-    return result;
+    return finish_run(self, &finish, end, &all);
 }
 
 static void mix_job(void *argument, int job, int worker)
@@ -549,20 +555,30 @@ static void draw_second(struct smear_temporal *self, struct finish *f)
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
-static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+/* Draws a row's pictures. Not part of what calls it: what it keeps is gone before the row above is finished. */
+static SMEAR_NOINLINE void draw_pictures(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
-    int result = SMEAR_OK;
     struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     draw_run(self, &finish);
     if (self->lines->pictures > 1)
         draw_second(self, &finish);
-    if (row > 0)
-        result = finish_along_lines(self, rows, row - 1, end);
-    if (row == rows->window.rows - 1 && result == SMEAR_OK)
-        result = finish_along_lines(self, rows, row, end);
-    return result;
+}
+
+/* Draws a row; finishes the one above it, and the last itself. */
+static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+{
+    draw_pictures(self, rows, row);
+    const int last = row == rows->window.rows - 1 ? row : row - 1;
+    for (int above = max_i32(row - 1, 0); above <= last; above++) {
+        begin_row(self, rows, above);
+        const int result = finish_along_lines(self, rows, above, end);
+        if (result != SMEAR_OK)
+            return result;
+        end_row(self, rows);
+    }
+    return SMEAR_OK;
 }
 #else
 static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
@@ -574,7 +590,7 @@ static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows
 /* ------------------------------------------------------------------ parts of a frame */
 
 /* Returns the error that tile rows [first, end) may have, for their share of the frame's budget. */
-static int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
+static SMEAR_NOINLINE int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
     const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
     struct smear_travel_areas areas = { { 0 } };

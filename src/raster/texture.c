@@ -7,7 +7,7 @@
 #include "kernels/texel_light.h"
 
 /* A loop of its own for wraps: a third of the instructions, for machines that have room. */
-enum { SAMPLE_WRAPPED = SMEAR_ON_64 && !SMEAR_SMALL_FILE };
+enum { SAMPLE_WRAPPED = SMEAR_SMALL_FILE ? 0 : SMEAR_ON_64 };
 
 static int log2_exact(uint32_t x)
 {

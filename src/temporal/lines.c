@@ -89,26 +89,29 @@ static void place_taps(struct taps *t, int32_t x, int32_t y)
     t->down = max_i32(t->y[0], t->y[n - 1]);
 }
 
+/* Blurs columns [x0, x1) of rows [y0, y1), each of whose taps lies as far from the row it is of as from the next one's. */
+static void blur_rows(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
+                      int32_t y0, int32_t y1)
+{
+    const int32_t at = window_ring_row(w, y0);
+    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
+                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
+                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log };
+    for (int k = 0; k < 1 << t->log; k++)
+        b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
+    smear_line_means(&b, lines->linear);
+}
+
 /* Blurs columns [x0, x1) of rows [y0, y1), which are within a row of blocks. Taps lie in the frame and in rows that are drawn. */
 static void blur_within(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
                         int32_t y0, int32_t y1)
 {
-    const int32_t at = window_ring_row(w, y0), n = 1 << t->log;
-    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
-                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
-                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log };
-    if (at + t->up < 0 || at + y1 - y0 + t->down > w->ring) {       /* some rows lie beyond the end of the ring */
-        for (int32_t y = y0 + 1; y1 - y0 > 1 && y <= y1; y++)
-            blur_within(lines, w, t, x0, x1, y - 1, y);
-        if (y1 - y0 > 1)
-            return;
-        for (int k = 0; k < n; k++)
-            b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
-    } else {
-        for (int k = 0; k < n; k++)
-            b.offset[k] = t->y[k] * w->width + t->x[k];
+    const int32_t at = window_ring_row(w, y0);
+    const bool turns = at + t->up < 0 || at + y1 - y0 + t->down > w->ring;     /* some rows lie beyond the end of the ring */
+    for (int32_t y = y0, next; y < y1; y = next) {
+        next = turns ? y + 1 : y1;
+        blur_rows(lines, w, t, x0, x1, y, next);
     }
-    smear_line_means(&b, lines->linear);
 }
 
 /* Returns taps that lie so far aside, up and down at most. */

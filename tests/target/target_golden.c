@@ -48,6 +48,7 @@ static bool is_refused(const struct tape *tape)
     const smear_desc *d = tape->desc;
     if (!has_format(d) || (d->workers > 1 && !SMEAR_WITH_WORKERS) || ((d->methods & SETS_OF_SUMS) != 0 && !SMEAR_WITH_ACCUMULATE)
         || ((d->methods & SMEAR_SET_TEMPORAL) != 0 && !SMEAR_WITH_SUBFRAMES)
+        || ((d->methods & SMEAR_SET_SKETCH) != 0 && !SMEAR_WITH_LINES)
         || ((d->methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0 && !SMEAR_WITH_TIMEMASK)
         || ((d->methods & SMEAR_SET_LAYERS) != 0 && !SMEAR_WITH_LAYERS)
         || ((d->methods & SMEAR_SET(SMEAR_RECONSTRUCT)) != 0 && !SMEAR_WITH_RECONSTRUCT)
