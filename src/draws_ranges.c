@@ -11,7 +11,7 @@
 static uint32_t cut_ranges(const struct smear_context *c, struct smear_bins *g)
 {
     enum { PATHS_SHIFT = 5, STILL_SHIFT = 7, POOL_PART = 8 };       /* triangles without a path cost less than to begin a range */
-    const uint32_t most = g->pool_words / POOL_PART;
+    const uint32_t most = (g->pool_words - POOL_WORDS_LEAST) / POOL_PART;
     uint32_t n = c->draw_count;
     for (g->range_shift = assembler_keeps_paths(&c->assembler) ? PATHS_SHIFT : STILL_SHIFT; c->draw_count <= most; g->range_shift++) {
         n = 0;

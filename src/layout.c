@@ -18,13 +18,12 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SM
 SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
 
-/* Returns words for triangles and vertices: at least a few triangles with every attribute can be kept at any
- * capacity. */
+/* Returns words for triangles and vertices. */
 static uint32_t pool_words(const smear_desc *d)
 {
-    const uint32_t least = 64, bytes = has_lines(d) ? 2 * SMEAR_TRIANGLE_BYTES
-                                     : is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES;
-    return max_u32(d->max_triangles * (bytes / 4), least);
+    const uint32_t bytes = has_lines(d) ? 2 * SMEAR_TRIANGLE_BYTES
+                         : is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES;
+    return max_u32(d->max_triangles * (bytes / 4), POOL_WORDS_LEAST);
 }
 
 static void lay_out_window(struct smear_window *w, struct smear_arena *a, const smear_desc *d)

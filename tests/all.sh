@@ -91,7 +91,7 @@ sanitized_briefly() {
 # Frames of the generator: what other workers, room, bands, caches and displays that keep their picture draw is the same.
 frames() {
     suite frames-valid build/host/frames valid 1 2000
-    suite frames-parts build/host/frames parts 1 590
+    suite frames-parts build/host/frames parts 1 600
     suite frames-threads build/host/frames threads 1 250
     suite frames-many build/host/frames many 1 150
     suite frames-wild build/host/frames wild 1 1500

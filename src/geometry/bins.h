@@ -119,6 +119,9 @@ enum { VERTEX_X, VERTEX_Y, VERTEX_DEPTH, VERTEX_BASE_WORDS };
  * behind the eye; a pixel's place in the pose is the quotient of the interpolated words (velocity.c). */
 enum { MOTION_DX, MOTION_DY, MOTION_RATIO, MOTION_WORDS };      /* q8 px, q8 px, q20 */
 
+/* In so many words of the pool any triangle finds room that no other is in. */
+enum { POOL_WORDS_LEAST = 64 };
+
 struct smear_bins {
     uint32_t *pool;
     uint32_t pool_words;

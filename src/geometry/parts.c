@@ -8,7 +8,7 @@
 #if SMEAR_WITH_WORKERS
 
 enum {
-    POOL_WORDS_LEAST = 1024,
+    APART_WORDS_LEAST = 1024,
     PART_CACHE = 64,                /* vertices */
     PART_DRAW = 12                  /* triangles: what a draw takes on a Cortex-M0+ with a flash cache */
 };
@@ -68,7 +68,7 @@ bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, voi
     p->bins.segment = arena_take(&arena, a->bins->segment_limit, sizeof *p->bins.segment);
     p->as.cache = arena_take(&arena, a->cache_mask + 1u, sizeof *p->as.cache);
     p->as.serial = 0;
-    if (arena.used + POOL_WORDS_LEAST * 4 > bytes)
+    if (arena.used + APART_WORDS_LEAST * 4 > bytes)
         return false;
     smear_assembler_reset(&p->as);
     for (size_t i = 0; i < 3 * rows; i++)
