@@ -625,11 +625,7 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
 /* Adds triangles [begin, end): by fours where the pool has room for where vertices are. */
 static bool assemble_run(struct batch *b, uint32_t begin, uint32_t end)
 {
-    const struct smear_assembler *a = b->a;
-    const struct smear_bins *g = a->bins;
-    const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
-    struct places r = { .setup = { pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided, bins_margin(g),
-                                   b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 } };
+    struct places r = { .setup = places_setup(b) };
     for (uint32_t i = begin; i < end;) {
         const uint32_t last = smear_places_open(&r, b, i, end);
         uint32_t reached = last != i ? add_by_fours(b, &r, i, last) : i;

@@ -33,6 +33,16 @@ static inline bool places_have_room(const struct places *r, const struct smear_b
         && r->top + PLACES_MARGIN <= g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
 }
 
+/* Returns how the triangles of a draw are looked at. */
+static inline struct triangles_setup places_setup(const struct batch *b)
+{
+    const struct smear_assembler *a = b->a;
+    const struct smear_bins *g = a->bins;
+    const int32_t top = g->row_first * g->row_px, bottom = min_i32(a->viewport.height, g->row_end * g->row_px);
+    return (struct triangles_setup){ pair_of(0, top), pair_of(a->viewport.width, bottom), b->double_sided, bins_margin(g),
+                                     b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 };
+}
+
 /* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none, for those of
  * `triangle`. */
 static inline bool segment_has_room(struct batch *b, uint32_t triangle)
