@@ -15,19 +15,6 @@ mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
 
 render() { works render "$@"; }
 
-fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject, and no file
-    status=$1
-    subject=$2
-    shift 2
-    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
-    run "$@"
-    left=$(ls -A "$base/empty")
-    cd "$base/work" || return 1
-    has_failed "$status" "$subject" || return 1
-    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
-
 usage() { # SUBJECT ARGUMENTS...
     claim "bad usage: smear $(shift; echo "$*")" fails 2 "$@"
 }

@@ -98,6 +98,20 @@ has_failed() {
     case $(cat "$base/err") in "smear: "$2": "*) ;; *) cat "$base/err"; return 1 ;; esac
 }
 
+# fails STATUS SUBJECT ARGUMENTS...: the program does, in an empty folder, with that status, one line about the subject, and no file
+fails() {
+    status=$1
+    subject=$2
+    shift 2
+    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
+    run "$@"
+    left=$(ls -A "$base/empty")
+    cd "$base/work" || return 1
+    has_failed "$status" "$subject" || return 1
+    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
+    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
+}
+
 # ---------------------------------------------------------------------- the library
 
 # Linker options that keep all functions of the interface.

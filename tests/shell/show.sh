@@ -15,19 +15,6 @@ mkdir "$base/in" "$base/work" && cd "$base/work" || exit 1
 show() { works show "$@"; }
 out_has() { has "$base/out" "$1"; }
 
-fails() { # STATUS SUBJECT ARGUMENTS...: that status, one line about the subject, and no file
-    status=$1
-    subject=$2
-    shift 2
-    rm -rf "$base/empty" && mkdir "$base/empty" && cd "$base/empty" || return 1
-    run "$@"
-    left=$(ls -A "$base/empty")
-    cd "$base/work" || return 1
-    has_failed "$status" "$subject" || return 1
-    [ ! -s "$base/out" ] || { echo "standard output: $(cat "$base/out")"; return 1; }
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
-
 # ------------------------------------------------------------------ models
 
 # A plate of 2 x 2. In half a second "slide" moves it by 1, "rise" by 2; "rest" does not. -1 is 000 000 200 277, 1 is 000 000 200 077,

@@ -197,9 +197,6 @@ static void break_arena(void)
         set(kind_find("arena"), (const char *[]){ "auto draft", "auto balanced", "auto fine" }[i],
             4.1, 0.4, 1.0);
 }
-static void break_filter(void) { for_group(GROUP_CAMERA, "reconstruct 8", 3.5, 5.0); }
-static void break_filter_reach(void) { for_group(GROUP_OBJECT, "reconstruct 8", 7.0, 0.4); }
-static void break_worst_filter(void) { set(kind_find("pan"), "reconstruct 8", 1.1, 5.0, 6.0); }
 static void break_none(void) { set(kind_find("cubic"), "auto draft", 1.2, 10.1, 3.0); }
 static void break_paying(void) { set(kind_find("roll"), "auto fine", 2.5, 1.2, 0.4); }
 static void break_fine(void) { set(kind_find("long"), "auto fine", 2.5, 1.6, 0.4); }
@@ -208,19 +205,12 @@ static void break_teleport(void)
 {
     set(kind_find("teleport"), "auto fine", 1.2, 0.45, 0.4);
 }
-static void break_any_target(void) { for_group(GROUP_OBJECT, "auto balanced", 7.5, 1.15); }
-static void break_any_fine_target(void) { for_group(GROUP_CAMERA, "auto balanced", 40.0, 1.15); }
 static void break_flicker(void)
 {
     for (int k = 0; k < KINDS; k++)
         value(kinds[k].name, "auto fine")->flicker = 0.6;
 }
 static void break_frontier(void) { for_group(GROUP_CAMERA, "accumulate 8", 1.5, 1.05); }
-
-static void break_layered_error(void) { for_group(GROUP_OBJECT, "layered 8", 6.0, 3.5); }
-static void break_layered_cost(void) { for_group(GROUP_OBJECT, "layered 8", 7.1, 3.0); }
-static void break_object_method(void) { set(kind_find("long"), "object", 1.5, 2.5, 3.0); }
-static void break_object_method_cost(void) { set(kind_find("fence_obj"), "object", 2.2, 1.7, 3.0); }
 
 static const struct {
     void (*spoil)(void);
@@ -232,12 +222,7 @@ static const struct {
     { break_object_cost, "object scenes, auto fine: cost" },
     { break_camera_error, "camera scenes, auto fine: error" },
     { break_camera_cost, "camera scenes, auto balanced: cost" },
-    { break_any_target, "object scenes, auto where it has 1.2 codes: cost" },
-    { break_any_fine_target, "camera scenes, auto where it has 1.2 codes: cost" },
     { break_arena, "a typical game frame (arena)" },
-    { break_filter, "cheaper than reconstruct at its error, camera" },
-    { break_filter_reach, "cheaper than reconstruct at its error, object" },
-    { break_worst_filter, "the same, worst scene" },
     { break_none, "error above that of none" },
     { break_paying, "error added by paying more" },
     { break_fine, "auto fine, worst scene" },
@@ -245,10 +230,6 @@ static const struct {
     { break_teleport, "a jump (teleport)" },
     { break_flicker, "flicker of scenes with motion, auto fine" },
     { break_frontier, "settings of auto above the frontier, camera" },
-    { break_layered_error, "layered 8 over reconstruct 8, object scenes: error" },
-    { break_layered_cost, "layered 8 over reconstruct 8, object scenes: cost" },
-    { break_object_method, "object, each thing along one velocity: error" },
-    { break_object_method_cost, "object, each thing along one velocity: cost" },
 };
 
 static void test_every_bar_can_be_missed(void)

@@ -24,11 +24,6 @@ static bool is_auto(int setting)
     return strncmp(chart_settings[setting].name, "auto", 4) == 0;
 }
 
-static bool is_reconstruct(int setting)
-{
-    return strncmp(chart_settings[setting].name, "reconstruct", 11) == 0;
-}
-
 static double rmse_of(const struct bars *b, int kind, int setting)
 {
     return b->chart->value[CHART_MAIN][kind][setting].rmse;
@@ -82,78 +77,6 @@ static void bar_mean(struct bars *b, const char *what, enum chart_set set, int p
     bar(b, text, mean.known ? mean.cost : NAN, AT_MOST, cost, "x", "");
 }
 
-/* What auto costs that has this error, by whatever target: on a line in logarithms between its two settings whose
- * errors lie next to it. */
-static double auto_mean_at(const struct bars *b, enum chart_set set, double rmse)
-{
-    struct chart_mean above = { .known = false }, below = { .known = false };
-    for (int i = 0; i < chart_setting_count; i++) {
-        if (!is_auto(i))
-            continue;
-        struct chart_mean mean = chart_mean_of(b->chart, CHART_MAIN, set, i);
-        if (mean.known && mean.rmse > rmse && (!above.known || mean.rmse < above.rmse))
-            above = mean;
-        if (mean.known && mean.rmse <= rmse && (!below.known || mean.rmse > below.rmse))
-            below = mean;
-    }
-    if (!below.known)
-        return NAN;
-    if (!above.known)           /* the coarsest is finer than that */
-        return below.cost;
-    return above.cost * pow(below.cost / above.cost, log(rmse / above.rmse) / log(below.rmse / above.rmse));
-}
-
-/* What a sharp frame cost when those bars were set, in parts of which they are (commit 4cc3f2b): instructions
- * at 320x240 in the main condition, counted by `valgrind --tool=callgrind --toggle-collect=bench_frame`. */
-static const struct {
-    const char *kind;
-    double instructions;
-} sharp_before[] = {
-    { "translate", 2547230 }, { "propeller", 2476306 }, { "cross", 3025895 }, { "fence_obj", 4153452 },
-    { "enter", 2836930 },     { "near", 3689257 },      { "long", 2926018 },  { "skin", 3759759 },
-    { "swarm", 8464969 },     { "teleport", 2183954 },  { "morph", 3704660 }, { "cubic", 2527234 },
-    { "pan", 3966084 },       { "dolly", 4073007 },     { "roll", 4760362 },  { "fence_fg", 5236124 },
-    { "textured", 5589628 },  { "arena", 2727921 },     { "subpixel", 1816359 },
-};
-enum { SHARP_BEFORE = sizeof sharp_before / sizeof *sharp_before };
-
-/* Returns today's sharp frames in parts of those, in the geometric mean of a set. */
-static double sharp_since(const struct bars *b, enum chart_set set)
-{
-    double each[SHARP_BEFORE];
-    int n = 0;
-    for (int i = 0; i < SHARP_BEFORE; i++) {
-        const int kind = kind_find(sharp_before[i].kind);
-        if (!chart_set_has(set, kind))
-            continue;
-        const struct chart_value *sharp = &b->chart->value[CHART_MAIN][kind][chart_none];
-        if (!sharp->known)
-            return NAN;
-        each[n++] = sharp->instructions / sharp_before[i].instructions;
-    }
-    return geometric_mean(each, n);
-}
-
-static void bars_of_any_target(struct bars *b)
-{
-    static const struct {
-        enum chart_set set;
-        const char *what;
-        double rmse, cost;
-    } each[] = {
-        { SET_OBJECT, "object scenes", 1.2, 2.0 }, { SET_OBJECT, "object scenes", 0.6, 3.2 },
-        { SET_CAMERA, "camera scenes", 2.0, 3.5 }, { SET_CAMERA, "camera scenes", 1.2, 8.0 },
-    };
-    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
-        char text[80], note[80] = "";
-        const double cost = auto_mean_at(b, each[i].set, each[i].rmse);
-        snprintf(text, sizeof text, "%s, auto where it has %.1f codes: cost", each[i].what, each[i].rmse);
-        if (!isnan(cost))
-            snprintf(note, sizeof note, "(of the sharp frame when bars were set; %.2fx of today's)", cost);
-        bar(b, text, cost * sharp_since(b, each[i].set), AT_MOST, each[i].cost, "x", note);
-    }
-}
-
 /* By the preset that comes closest to both. */
 static void bar_scene(struct bars *b, const char *what, const char *name, double rmse, double cost)
 {
@@ -197,94 +120,6 @@ static void bars_of_still(struct bars *b)
     double different = known - same;
     bar(b, "still scene: settings whose picture differs from none", known > 0 ? different : NAN,
         AT_MOST, 0.0, "", "");
-}
-
-/* ------------------------------------------------------------------ against the filter */
-
-/* The setting of the filter with the least error; among those within 2 % of it, the cheapest. */
-static int best_filter(const struct bars *b, enum chart_set set)
-{
-    struct chart_mean least = { .known = false }, best = { .known = false };
-    int found = -1;
-    for (int s = 0; s < chart_setting_count; s++) {
-        struct chart_mean mean = chart_mean_of(b->chart, CHART_MAIN, set, s);
-        if (is_reconstruct(s) && mean.known && (!least.known || mean.rmse < least.rmse))
-            least = mean;
-    }
-    for (int s = 0; s < chart_setting_count; s++) {
-        struct chart_mean mean = chart_mean_of(b->chart, CHART_MAIN, set, s);
-        if (is_reconstruct(s) && mean.known && mean.rmse <= 1.02 * least.rmse
-            && (!best.known || mean.cost < best.cost)) {
-            best = mean;
-            found = s;
-        }
-    }
-    return found;
-}
-
-/* Cost of the cheapest setting of auto that is as right; 0 when there is none. */
-static double auto_cost_at(const struct bars *b, int kind, double rmse)
-{
-    double best = 0.0;
-    for (int s = 0; s < chart_setting_count; s++) {
-        double cost = cost_of(b, kind, s);
-        if (is_auto(s) && cost > 0.0 && rmse_of(b, kind, s) <= rmse
-            && (best == 0.0 || cost < best))
-            best = cost;
-    }
-    return best;
-}
-
-static bool has_auto(const struct bars *b, int kind)
-{
-    return auto_cost_at(b, kind, INFINITY) > 0.0;
-}
-
-/* The filter's cost against that of auto at no greater error. Where no setting of auto is as right
- * the ratio is 0. Beside it the same for what blur adds to the sharp frame; that counts as a
- * thousandth of it at least. */
-static void bars_of_filter(struct bars *b, enum chart_set set, const char *what, double limit,
-                           double *worst, int *worst_kind)
-{
-    double ratio[KINDS], added[KINDS];
-    int n = 0, filter = best_filter(b, set), never = -1;
-    bool known = filter >= 0;
-    char text[80], note[96] = "";
-    for (int k = 0; k < KINDS && known; k++) {
-        if (!chart_set_has(set, k))
-            continue;
-        known = has_auto(b, k);
-        double cost = auto_cost_at(b, k, rmse_of(b, k, filter));
-        double r = cost > 0.0 ? cost_of(b, k, filter) / cost : 0.0;
-        if (r == 0.0)
-            never = k;
-        if (isnan(*worst) || r < *worst) {
-            *worst = r;
-            *worst_kind = k;
-        }
-        added[n] = fmax(cost_of(b, k, filter) - 1.0, 1e-3) / fmax(cost - 1.0, 1e-3);
-        ratio[n++] = r;
-    }
-    if (known && never >= 0)
-        snprintf(note, sizeof note, "(never as right on %s)", kinds[never].name);
-    else if (known)
-        snprintf(note, sizeof note, "(%s; what blur adds: %.2fx)", chart_settings[filter].name,
-                 geometric_mean(added, n));
-    snprintf(text, sizeof text, "cheaper than reconstruct at its error, %s", what);
-    bar(b, text, !known ? NAN : never >= 0 ? 0.0 : geometric_mean(ratio, n), AT_LEAST, limit, "x",
-        note);
-}
-
-static void bars_of_filters(struct bars *b)
-{
-    double worst = NAN;
-    int kind = 0;
-    char note[32] = "";
-    bars_of_filter(b, SET_OBJECT, "object scenes", 5.0, &worst, &kind);
-    bars_of_filter(b, SET_CAMERA, "camera scenes", 3.0, &worst, &kind);
-    if (!isnan(worst))
-        snprintf(note, sizeof note, "(%s)", kinds[kind].name);
-    bar(b, "the same, worst scene", worst, AT_LEAST, 1.0, "x", note);
 }
 
 /* ------------------------------------------------------------------ every scene */
@@ -345,46 +180,6 @@ static void bar_flicker(struct bars *b, int preset, double limit)
         mean = chart_mean_of(b->chart, CHART_MAIN, SET_MOVING, setting);
     snprintf(text, sizeof text, "flicker of scenes with motion, %s", presets[preset]);
     bar(b, text, mean.known ? mean.flicker : NAN, AT_MOST, limit, "", "");
-}
-
-/* ------------------------------------------------------------------ layers */
-
-/* `object` where each thing has one velocity, means of these scenes. */
-static void bars_of_object(struct bars *b)
-{
-    static const char *const names[] = { "translate", "cross", "fence_obj", "enter", "long" };
-    enum { SCENES = sizeof names / sizeof *names };
-    const int setting = chart_find_setting("object");
-    double rmse[SCENES], cost[SCENES];
-    bool known = true;
-    for (int i = 0; i < SCENES; i++) {
-        int kind = kind_find(names[i]);
-        cost[i] = cost_of(b, kind, setting);
-        rmse[i] = rmse_of(b, kind, setting);
-        known = known && cost[i] > 0.0;
-    }
-    bar(b, "object, each thing along one velocity: error", known ? geometric_mean(rmse, SCENES) : NAN,
-        AT_MOST, 1.8, "", known ? "(translate, cross, fence_obj, enter, long)" : "");
-    bar(b, "object, each thing along one velocity: cost", known ? geometric_mean(cost, SCENES) : NAN, AT_MOST,
-        1.6, "x", "");
-}
-
-static void bars_of_layers(struct bars *b)
-{
-    struct chart_mean layered = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT,
-                                              chart_find_setting("layered 8"));
-    struct chart_mean filter = chart_mean_of(b->chart, CHART_MAIN, SET_OBJECT,
-                                             chart_find_setting("reconstruct 8"));
-    bool known = layered.known && filter.known;
-    char note[64] = "";
-    if (known)
-        snprintf(note, sizeof note, "(%.2f and %.2f; %.2fx and %.2fx)", layered.rmse, filter.rmse,
-                 layered.cost, filter.cost);
-    bar(b, "layered 8 over reconstruct 8, object scenes: error", known ? layered.rmse / filter.rmse : NAN,
-        AT_MOST, 2.0 / 3, "", note);
-    bar(b, "layered 8 over reconstruct 8, object scenes: cost", known ? layered.cost / filter.cost : NAN,
-        AT_MOST, 1.0, "", "");
-    bars_of_object(b);
 }
 
 /* ------------------------------------------------------------------ the frontier */
@@ -488,14 +283,11 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
     bar_mean(&b, "object scenes", SET_OBJECT, FINE, 0.6, 2.6);
     bar_mean(&b, "camera scenes", SET_CAMERA, BALANCED, 2.5, 5.0);
     bar_mean(&b, "camera scenes", SET_CAMERA, FINE, 1.2, 6.5);
-    bars_of_any_target(&b);
     bar_scene(&b, "a typical game frame", "arena", 1.2, 4.0);
-    bars_of_filters(&b);
     bars_of_every_scene(&b);
     bar_scene(&b, "a jump", "teleport", 0.5, 1.15);
     bar_scene(&b, "near plane", "near", 1.2, 8.0);
     bar_flicker(&b, BALANCED, 1.2);
     bar_flicker(&b, FINE, 0.5);
-    bars_of_layers(&b);
     bar_frontier(&b);
 }
