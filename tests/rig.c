@@ -2,6 +2,8 @@
 /* rig.c - see rig.h. */
 #include "tests/rig.h"
 
+#include "tools/player/crew.h"
+
 int take_band(void *user, const smear_band *band)
 {
     struct rig *r = user;
@@ -43,6 +45,8 @@ bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect)
         r->desc.flush = take_band;
     r->desc.debug.inspect = inspect ? take_row : NULL;
     r->desc.user = r;
+    if (r->desc.idle == NULL)
+        r->desc.idle = crew_idle;
     r->fail_at = -1;
     size_t pixels = (size_t)desc->width * (size_t)desc->height;
     r->bytes = smear_memory_size(&r->desc);
@@ -56,7 +60,10 @@ bool rig_begin(struct rig *r, const smear_desc *desc, bool inspect)
                && r->velocity != NULL))
         return false;
     memset(r->block, PATTERN, r->bytes + 2 * GUARD);
-    return CHECK(r->bytes > 0)
+    struct failure f;
+    if (desc->workers > 1)
+        r->crew = crew_start(desc->workers, &f);
+    return CHECK(r->bytes > 0) && CHECK(desc->workers <= 1 || r->crew != NULL)
         && CHECK_EQ(smear_init(&r->ctx, &r->desc, r->block + GUARD, r->bytes), SMEAR_OK);
 }
 
@@ -81,6 +88,7 @@ bool guards_intact(const struct rig *r)
 
 void rig_end(struct rig *r)
 {
+    crew_stop(r->crew);
     if (r->block != NULL)
         CHECK(guards_intact(r));
     free(r->block);
@@ -104,7 +112,7 @@ int rig_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, i
     int result = smear_begin(r->ctx, frame);
     for (int i = 0; i < count && result == SMEAR_OK; i++)
         result = smear_submit(r->ctx, &draw[i]);
-    return result != SMEAR_OK ? result : smear_render(r->ctx);
+    return result != SMEAR_OK ? result : crew_render(r->crew, r->ctx);
 }
 
 uint8_t *rig_copy(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count)

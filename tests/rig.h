@@ -28,6 +28,7 @@ struct rig {
     uint16_t *depth;
     int32_t *velocity;
     int inspected;
+    struct crew *crew;          /* the workers but one, where the desc has several */
 };
 
 /* The flush of a rig. */

@@ -6,10 +6,9 @@
 #include "tests/host.h"
 
 #include "filter/probe.h"
+#include "tools/player/crew.h"
 
 #include <dirent.h>
-#include <pthread.h>
-#include <sched.h>
 #include <stdarg.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -343,41 +342,6 @@ static void look_at_row(void *user, int y, const uint32_t *color, const uint16_t
     }
 }
 
-static void yield(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
-struct helper {
-    smear_context *ctx;
-    int worker;
-    pthread_t thread;
-};
-
-static void *help(void *argument)
-{
-    struct helper *helper = argument;
-    smear_work(helper->ctx, helper->worker);
-    return NULL;
-}
-
-/* smear_render with its other workers on threads. */
-static int render(smear_context *ctx, int workers)
-{
-    struct helper helper[SMEAR_WORKERS_MAX];
-    int started = 1;
-    for (; started < workers; started++) {
-        helper[started] = (struct helper){.ctx = ctx, .worker = started};
-        if (pthread_create(&helper[started].thread, NULL, help, &helper[started]) != 0)
-            abort();            /* the others wait for it for ever */
-    }
-    int result = smear_render(ctx);
-    for (int i = 1; i < started; i++)
-        pthread_join(helper[i].thread, NULL);
-    return result;
-}
-
 static bool shot_alloc(struct shot *shot, int width, int height, bool look)
 {
     size_t n = (size_t)width * (size_t)height;
@@ -412,13 +376,15 @@ static bool draw_presented(const struct presented *p, smear_desc *desc, struct t
     void *memory = bytes != 0 ? malloc(bytes) : NULL;
     if (memory == NULL)
         return fail(f, "the library has no such frame (%d x %d)", desc->width, desc->height);
+    struct crew *crew = crew_start(desc->workers, f);
     int result = smear_init(&taking->ctx, desc, memory, bytes);
     if (result == SMEAR_OK)
         result = presented_submit(p, taking->ctx);
     if (result == SMEAR_OK)
-        result = render(taking->ctx, desc->workers);
+        result = crew_render(crew, taking->ctx);
     if (result == SMEAR_OK)
         smear_get_stats(taking->ctx, &taking->shot->stats);
+    crew_stop(crew);
     free(memory);
     return result == SMEAR_OK || fail(f, "the library refuses the frame: %s", smear_error_text(result));
 }
@@ -446,7 +412,7 @@ bool shot_take(struct subject *s, const struct present_options *present,
         desc.methods |= SMEAR_SET_SKETCH;
     desc.flush = take_band;
     desc.debug.inspect = o->look ? look_at_row : NULL;
-    desc.idle = yield;
+    desc.idle = crew_idle;
     desc.user = &taking;
     /* A full list costs time only, but for a single row of tiles that does not fit it. */
     desc.max_triangles = o->triangles != 0 ? (uint32_t)o->triangles : 5 * desc.max_triangles;

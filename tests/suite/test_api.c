@@ -354,12 +354,6 @@ static int hand_to_slow_display(void *user, const smear_band *band)
     return result;
 }
 
-static void yield(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
 static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void)
 {
     static const uint8_t method[] = { SMEAR_NONE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_AUTO };
@@ -368,7 +362,6 @@ static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void
     smear_desc twice = desc;
     twice.bands = 2;
     twice.flush = hand_to_slow_display;
-    twice.idle = yield;
     RIG(one, &desc, false);
     RIG(two, &twice, false);
     memset(&display, 0, sizeof display);
@@ -389,19 +382,6 @@ static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void
 
 /* ------------------------------------------------------------------ workers */
 
-struct helper {
-    smear_context *ctx;
-    int worker, frames;
-};
-
-static void *help(void *argument)
-{
-    struct helper *h = argument;
-    for (int i = 0; i < h->frames; i++)
-        smear_work(h->ctx, h->worker);
-    return NULL;
-}
-
 /* Sharp frames of which nothing is blended: cores draw their rows apart where there is memory of temporal methods. */
 static int render_opaque(struct rig *r, double t)
 {
@@ -420,16 +400,9 @@ static void test_a_negative_answer_of_flush_ends_the_frame_of_several_workers(vo
         desc.bands = (uint8_t)(1 + k % 2);
         smear_desc shared = desc;
         shared.workers = (uint8_t)(2 + k / 2);
-        shared.idle = yield;
         RIG(r, &shared, false);
         RIG(fresh, &desc, false);
-        pthread_t thread[8];
-        struct helper helper[8];
         r.reports_sent = fresh.reports_sent = desc.bands == 2;
-        for (int i = 1; i < shared.workers; i++) {
-            helper[i] = (struct helper){ r.ctx, i, FRAMES };
-            CHECK_EQ(pthread_create(&thread[i], NULL, help, &helper[i]), 0);
-        }
         for (int i = 0; i < FRAMES; i++) {
             CHECK_EQ(render_opaque(&fresh, 0.1 * i), SMEAR_OK);
             CHECK(fresh.bands > 2);
@@ -441,8 +414,6 @@ static void test_a_negative_answer_of_flush_ends_the_frame_of_several_workers(vo
             else
                 CHECK_EQ(r.bands, r.fail_at + 1);
         }
-        for (int i = 1; i < shared.workers; i++)
-            pthread_join(thread[i], NULL);
     }
 }
 

@@ -6,9 +6,6 @@
 
 #include "tests/rig.h"
 
-#include <pthread.h>
-#include <sched.h>
-
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 24 };
 
 static const uint16_t all_methods = SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS | SMEAR_SET_FILTERS | SMEAR_SET(SMEAR_NONE)
@@ -147,12 +144,6 @@ static void make_points(smear_point point[POINTS], double t)
                                   .fade = (uint8_t)(i * 5), .mode = (uint8_t)(i % 3 == 0) };
     }
 }
-
-struct helper {
-    smear_context *ctx;
-    int worker;
-    pthread_t thread;
-};
 
 static int differing(const uint8_t *a, const uint8_t *b)
 {

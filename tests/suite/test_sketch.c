@@ -8,8 +8,6 @@
 #include "smear_overlay.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <sched.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -215,43 +213,16 @@ static void test_a_frame_in_parts_and_in_refilled_rows_is_the_same(void)
     CHECK(parts);
 }
 
-struct core {
-    smear_context *ctx;
-    int worker;
-    pthread_t thread;
-};
-
-static void *help(void *argument)
+/* The third frame by all workers. */
+static bool draw_by_all(struct rig *r, enum kind kind)
 {
-    struct core *core = argument;
-    for (int i = 0; i < 3; i++)
-        smear_work(core->ctx, core->worker);
-    return NULL;
-}
-
-static void yield(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
-/* The third frame by so many workers. */
-static bool draw_by_all(struct rig *r, enum kind kind, int workers)
-{
-    struct core core[8];
     struct world w;
     bool ok = true;
-    for (int i = 1; i < workers; i++) {
-        core[i] = (struct core){ .ctx = r->ctx, .worker = i };
-        CHECK(pthread_create(&core[i].thread, NULL, help, &core[i]) == 0);
-    }
     for (int i = 0; i < 3; i++) {
         make_world(&w, kind, i);
         rig_forget_output(r);
         ok = CHECK_EQ(rig_frame(r, &w.frame, w.draw, DRAWS), SMEAR_OK) && ok;
     }
-    for (int i = 1; i < workers; i++)
-        pthread_join(core[i].thread, NULL);
     return ok;
 }
 
@@ -266,9 +237,8 @@ static void test_eight_workers_draw_what_one_does(void)
         for (int workers = 2 + kind % 3; workers <= 8; workers += 3) {
             struct rig r;
             desc.workers = (uint8_t)workers;
-            desc.idle = yield;
             desc.max_triangles = workers % 3 == 0 ? 20 : 600;
-            if (rig_begin(&r, &desc, false) && draw_by_all(&r, (enum kind)kind, workers))
+            if (rig_begin(&r, &desc, false) && draw_by_all(&r, (enum kind)kind))
                 CHECK(want != NULL && same_picture(&r, want));
             rig_end(&r);
         }

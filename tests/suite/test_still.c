@@ -6,9 +6,6 @@
 
 #include "smear_overlay.h"
 
-#include <pthread.h>
-#include <sched.h>
-
 enum { WIDTH = 70, HEIGHT = 52, FLOOR = 0, POST, PANE, MOVER, DRAWS, BYTES = WIDTH * HEIGHT * 4 };
 
 /* A floor and a post, which stand still, as does a pane of glass before them; a cube that goes by between them. */
@@ -476,28 +473,6 @@ static smear_mesh grid_of(smear_transform *pose)
                          .triangle_count = SQUARES * SQUARES * 2 };
 }
 
-enum { CORE_FRAMES = 14 };
-
-struct core {
-    smear_context *ctx;
-    int number;
-    pthread_t thread;
-};
-
-static void *core_main(void *argument)
-{
-    const struct core *core = argument;
-    for (int i = 0; i < CORE_FRAMES; i++)
-        smear_work(core->ctx, core->number);
-    return NULL;
-}
-
-static void yield(void *user)
-{
-    (void)user;
-    sched_yield();
-}
-
 /* ------------------------------------------------------------------ sharp frames alone */
 
 static smear_desc sharp_desc(uint32_t triangles)
@@ -662,18 +637,12 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
             s.mesh[FLOOR] = grid_of(&s.pose[FLOOR]);
             smear_desc desc = desc_of(workers == 5 ? 500 : 2000, true);
             desc.workers = (uint8_t)workers;
-            desc.idle = yield;
             if (methods[way] == SMEAR_NONE) {
                 desc.methods = SMEAR_SET(SMEAR_NONE);
                 find_bounds(&s);
             }
             if (display_begin(&d, desc, buffers)) {
-                struct core core[8];
-                for (int i = 1; i < workers; i++) {
-                    core[i] = (struct core){ .ctx = d.sends.ctx, .number = i };
-                    CHECK_EQ(pthread_create(&core[i].thread, NULL, core_main, &core[i]), 0);
-                }
-                for (int i = 0; i < CORE_FRAMES; i++) {
+                for (int i = 0; i < 14; i++) {
                     move_on(&s, i < 10 ? i : 9);
                     if (i == 12) {
                         s.mesh[MOVER] = grid_of(&s.pose[MOVER]);
@@ -683,8 +652,6 @@ static void test_cores_assemble_parts_of_what_a_display_is_sent(void)
                     if (i > 1 + buffers && i < 10)
                         CHECK(kept >= 8);
                 }
-                for (int i = 1; i < workers; i++)
-                    pthread_join(core[i].thread, NULL);
             }
         }
 }
