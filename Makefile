@@ -372,12 +372,10 @@ $(call objects,$(QUICK_SUITES)): HOST_CFLAGS += -O1
 $(call objects,tests/suite/test_memory.c): CFLAGS += -O0
 $(call objects,tests/suite/test_memory.c): HOST_CFLAGS += -O0
 
-ifeq ($(SAN),1)
 $(BUILD)/tests/run.o: $(BUILD)/suites
 $(BUILD)/suites: always
 	@mkdir -p $(@D)
 	@echo '$(SUITES)' | cmp -s - $@ || echo '$(SUITES)' > $@
-endif
 
 KERNEL_FAMILIES := -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
 $(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): CFLAGS += $(KERNEL_FAMILIES)
