@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_layers.c - SMEAR_OBJECT and SMEAR_LAYERED: how far they are from the truth on the scenes of the quality suite, what
- * must stay as it is bit for bit, layers with settings of their own, memory, workers. */
+ * must stay as it is bit for bit, layers with settings of their own, memory. */
 #include "layers/streak.h"
 #include "tools/bench/kinds.h"
 #include "tools/bench/take.h"
@@ -222,60 +222,6 @@ static int difference(const uint32_t *a, const uint32_t *b, int x0, int y0, int 
 
 static const smear_method both[] = { SMEAR_OBJECT, SMEAR_LAYERED };
 
-/* ------------------------------------------------------------------ streaks */
-
-/* A column of light: how much red is there, 0 .. 255, over black. */
-static void test_a_streak_is_a_ramp_over_the_way(void)
-{
-    static const double way[][2] = { { 16, 0 }, { 12, 9 }, { 0, 15 }, { -17.5, 0 }, { 7, -7 }, { 5.25, 0 }, { 0, -6.5 }, { 2, 0 } };
-    for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
-            struct mover m;
-            mover_make(&m, 0, 0, 10, 11, 9, way[i][0], way[i][1]);
-            smear_draw draw = draw_of(&m, &red);
-            smear_frame frame = frame_of(both[k]);
-            frame.clear = 0;
-            frame.samples = 32;
-            END_UNLESS(render(picture, &frame, &draw, 1));
-            double worst = 0.0, sum = 0.0, energy = 0.0;
-            for (int y = 0; y < H; y++)
-                for (int x = 0; x < W; x++) {
-                    int covered = 0;
-                    for (int t = 0; t < 256; t++) {
-                        double s = (t + 0.5) / 256 - 0.5, px = x + 0.5 - W / 2.0 - way[i][0] * s,
-                               py = H / 2.0 - y - 0.5 - way[i][1] * s;
-                        covered += px >= -11 && px < 11 && py > -9 && py <= 9;
-                    }
-                    double want = covered * 255.0 / 256, d = channel(picture[y * W + x], 16) - want;
-                    worst = fmax(worst, fabs(d));
-                    sum += d * d;
-                    energy += d;
-                }
-            CHECK(sqrt(sum / (W * H)) <= 3.5);
-            CHECK(worst <= 64.0);
-            CHECK(fabs(energy) / 255 <= 0.02 * 22 * 18);
-        }
-}
-
-/* What comes into the frame is there before it does. */
-static void test_what_enters_the_frame_is_blurred_as_within_it(void)
-{
-    static uint32_t inside[W * H];
-    for (int k = 0; k < 2; k++) {
-        struct mover m;
-        smear_frame frame = frame_of(both[k]);
-        mover_make(&m, 0, 0, 10, 8, 12, 16, 0);
-        smear_draw draw = draw_of(&m, &red);
-        END_UNLESS(render(inside, &frame, &draw, 1));
-        mover_make(&m, -W / 2.0, 0, 10, 8, 12, 16, 0);
-        END_UNLESS(render(picture, &frame, &draw, 1));
-        for (int y = 0; y < H; y++)
-            for (int x = 0; x < 20; x++)
-                /* Nodes of a line lie elsewhere on it. */
-                CHECK_NEAR(channel(picture[y * W + x], 16), channel(inside[y * W + x + W / 2], 16), k == 0 ? 26 : 1);
-    }
-}
-
 /* ------------------------------------------------------------------ what stays */
 
 /* A still plate, a mover, one that opts out, one that is attached to nothing. */
@@ -358,186 +304,22 @@ static void test_a_fence_before_a_mover_keeps_its_pixels(void)
     }
 }
 
-/* ------------------------------------------------------------------ groups */
-
-/* Each is blurred along its own way and the nearer one lies over the other, whichever is submitted first. */
-static void test_two_movers_each_have_their_way_and_their_depth(void)
+/* Blended draws come after the blur, before and behind what moves. */
+static void test_blended_draws_are_over_the_blur_and_behind_movers(void)
 {
-    struct mover far_one, near_one;
-    mover_make(&far_one, 0, 0, 30, 30, 6, 16, 0);
-    mover_make(&near_one, 0, 0, 10, 6, 24, 0, 12);
-    for (int k = 0; k < 4; k++) {
-        smear_draw draw[2] = { draw_of(&far_one, &green), draw_of(&near_one, &red) };
-        smear_frame frame = frame_of(both[k & 1]);
-        if (k & 2) {
-            smear_draw swap = draw[0];
-            draw[0] = draw[1];
-            draw[1] = swap;
-        }
-        frame.clear = 0;
-        END_UNLESS(render(picture, &frame, draw, 2));
-        CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);
-        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 8), 255, 8);
-        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 20], 16), 0, 8);
-        int left = channel(picture[H / 2 * W + W / 2 - 30], 8), up = channel(picture[(H / 2 - 24) * W + W / 2], 16);
-        CHECK_NEAR(left, 128, 24);
-        CHECK_NEAR(up, 128, 24);
-    }
-}
-
-/* What moves out of view, first or last, leaves its way to no other. */
-static void test_movers_out_of_view_change_nothing(void)
-{
-    static uint32_t alone[W * H];
-    struct mover beside, seen;
-    mover_make(&beside, 4 * W, 0, 10, 8, 8, 0, 16);
-    mover_make(&seen, 0, 0, 10, 8, 12, 16, 0);
-    const smear_draw draw[3] = { draw_of(&beside, &green), draw_of(&seen, &red), draw_of(&beside, &green) };
+    static const smear_material pane = { .color = { 255, 255, 255, 128 }, .unlit = 1, .alpha = SMEAR_BLEND };
+    struct mover ball, before, behind;
+    mover_make(&ball, 0, 0, 20, 12, 12, 8, 0);
+    mover_make(&before, -20, 0, 10, 20, 5, 0, 0);
+    mover_make(&behind, 20, 0, 30, 20, 5, 0, 0);
+    smear_draw draw[3] = { draw_of(&ball, &red), draw_of(&before, &pane), draw_of(&behind, &pane) };
     for (int k = 0; k < 2; k++) {
-        const smear_frame frame = frame_of(both[k]);
-        END_UNLESS(render(alone, &frame, &draw[1], 1));
-        for (int i = 0; i < 3; i++)
-            if (render(picture, &frame, &draw[i == 2], i == 0 ? 3 : 2))
-                CHECK_EQ(difference(picture, alone, 0, 0, W, H), 0);
-    }
-}
-
-/* A tile row whose movers do not find room at once: the same picture, and as many triangles. */
-static void test_movers_of_several_fills_count_once(void)
-{
-    enum { COUNT = 6, ROW = 16 };
-    static uint32_t whole[W * H];
-    struct mover mover[COUNT];
-    smear_draw draw[COUNT];
-    for (int i = 0; i < COUNT; i++) {
-        mover_make(&mover[i], 10 * i - 30, 0, 10 + 5 * i, 6, 4, i & 1 ? 8 : -6, 0);
-        draw[i] = draw_of(&mover[i], i & 1 ? &green : &red);
-    }
-    for (int k = 0; k < 2; k++) {
-        const smear_frame frame = frame_of(both[k]);
-        smear_desc desc = desc_of(whole);
-        desc.height = ROW;
-        END_UNLESS(render_with(&desc, &frame, draw, COUNT));
-        const smear_stats once = stats;
-        desc.user = picture;
-        desc.max_triangles = 4;
-        END_UNLESS(render_with(&desc, &frame, draw, COUNT));
-        CHECK(stats.parts_added != 0);
-        CHECK_EQ(stats.triangles_drawn, once.triangles_drawn);
-        CHECK_EQ(once.triangles_drawn, 2 * COUNT);
-        CHECK_EQ(difference(picture, whole, 0, 0, W, ROW), 0);
-    }
-}
-
-/* Two that lean through each other: each is seen where it is nearer. */
-static void test_movers_that_pass_through_each_other_hide_each_other_pixel_by_pixel(void)
-{
-    struct mover a, b;
-    mover_make(&a, 0, 0, 50, 30, 14, 8, 0);
-    mover_make(&b, 0, 0, 50, 30, 14, -8, 0);
-    for (int i = 0; i < 3; i++) {       /* turned about y: nearer on the right, and on the left */
-        smear_transform *ta = i == 0 ? &a.now : i == 1 ? &a.open : &a.close, *tb = i == 0 ? &b.now : i == 1 ? &b.open : &b.close;
-        ta->basis[6] = 20 * SMEAR_BASIS_ONE;
-        tb->basis[6] = -20 * SMEAR_BASIS_ONE;
-    }
-    smear_draw draw[2] = { draw_of(&a, &green), draw_of(&b, &red) };
-    smear_frame frame = frame_of(SMEAR_OBJECT);
-    END_UNLESS(render(picture, &frame, draw, 2));
-    CHECK_EQ(picture[H / 2 * W + W / 2 + 18], 0x00ff00);
-    CHECK_EQ(picture[H / 2 * W + W / 2 - 18], 0xff0000);
-}
-
-static void test_parts_of_one_thing_are_blurred_as_one(void)
-{
-    static uint32_t whole[W * H];
-    struct mover all, left, right;
-    mover_make(&all, 0, 0, 10, 16, 10, 14, 0);
-    mover_make(&left, -8, 0, 10, 8, 10, 14, 0);
-    mover_make(&right, 8, 0, 10, 8, 10, 14, 0);
-    smear_draw one = draw_of(&all, &red), two[2] = { draw_of(&left, &red), draw_of(&right, &red) };
-    smear_frame frame = frame_of(SMEAR_OBJECT);
-    if (render(whole, &frame, &one, 1) && render(picture, &frame, two, 2))
-        CHECK(difference(picture, whole, 0, 0, W, H) <= 1);
-}
-
-/* A wheel has no one velocity. */
-static void test_what_turns_is_blurred_by_its_pixels(void)
-{
-    struct mover m;
-    mover_make(&m, 0, 0, 10, 24, 3, 0, 0);
-    for (int i = 0; i < 2; i++) {
-        smear_transform *t = i == 0 ? &m.open : &m.close;
-        double angle = i == 0 ? -0.25 : 0.25;
-        t->basis[0] = (int32_t)(24 * cos(angle) * SMEAR_BASIS_ONE);
-        t->basis[1] = (int32_t)(-3 * sin(angle) * SMEAR_BASIS_ONE);
-        t->basis[3] = (int32_t)(24 * sin(angle) * SMEAR_BASIS_ONE);
-        t->basis[4] = (int32_t)(3 * cos(angle) * SMEAR_BASIS_ONE);
-    }
-    smear_draw draw = draw_of(&m, &red);
-    smear_frame frame = frame_of(SMEAR_OBJECT);
-    frame.clear = 0;
-    END_UNLESS(render(picture, &frame, &draw, 1));
-    CHECK(stats.tiles[SMEAR_LAYERED] > 0);
-    CHECK_EQ(stats.tiles[SMEAR_OBJECT], 0);
-    CHECK_EQ(picture[H / 2 * W + W / 2], 0xff0000);             /* the hub */
-    CHECK(channel(picture[(H / 2 - 5) * W + W / 2 + 20], 16) > 20);     /* the rim, above and below */
-    CHECK(channel(picture[(H / 2 + 5) * W + W / 2 + 20], 16) > 20);
-}
-
-/* Turned by so much to both sides, about its middle. */
-static void mover_turn(struct mover *m, double half_x, double half_y, double angle)
-{
-    for (int i = 0; i < 2; i++) {
-        smear_transform *t = i == 0 ? &m->open : &m->close;
-        double c = cos(angle), s = i == 0 ? -sin(angle) : sin(angle);
-        t->basis[0] = (int32_t)(half_x * c * SMEAR_BASIS_ONE);
-        t->basis[1] = (int32_t)(-half_y * s * SMEAR_BASIS_ONE);
-        t->basis[3] = (int32_t)(half_x * s * SMEAR_BASIS_ONE);
-        t->basis[4] = (int32_t)(half_y * c * SMEAR_BASIS_ONE);
-    }
-}
-
-/* What turns is one group, merged after a mover that lies between its parts. */
-static void test_what_turns_behind_a_mover_does_not_hide_it(void)
-{
-    struct mover small, wall, plate_between;
-    mover_make(&small, -36, 20, 5, 5, 3, 0, 0);
-    mover_turn(&small, 5, 3, 0.3);
-    mover_make(&wall, 0, 0, 60, 40, 28, 0, 0);
-    mover_turn(&wall, 40, 28, 0.08);
-    mover_make(&plate_between, 0, 0, 20, 12, 10, 12, 0);
-    smear_draw draw[3] = { draw_of(&small, &blue), draw_of(&wall, &green), draw_of(&plate_between, &red) };
-    for (int linear = 0; linear < 2; linear++) {
-        smear_frame frame = frame_of(SMEAR_OBJECT);
-        frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+        smear_frame frame = frame_of(both[k]);
         END_UNLESS(render(picture, &frame, draw, 3));
-        CHECK(stats.tiles[SMEAR_LAYERED] > 0);
-        for (int y = H / 2 - 8; y < H / 2 + 8; y++)
-            for (int x = W / 2 - 4; x < W / 2 + 4; x++)
-                CHECK_NEAR(channel(picture[y * W + x], 16), 255, 2);
-        const uint32_t half = picture[H / 2 * W + W / 2 - 12];      /* the middle of its ramp, over the wall alone */
-        CHECK_NEAR(channel(half, 16), linear ? 188 : 128, 16);
-        CHECK_NEAR(channel(half, 8), linear ? 188 : 128, 16);
-        CHECK(channel(half, 0) < 16);
-        CHECK_NEAR(channel(picture[(H / 2 - 20) * W + W / 2], 8), 255, 2);
+        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 - 3], 8), 128, 2);
+        CHECK_EQ(picture[H / 2 * W + W / 2 + 3], 0xff0000);
+        CHECK(channel(picture[H / 2 * W + W / 2 + 30], 8) > 128);
     }
-}
-
-/* A wall rushes by behind a plate that hardly moves: nothing shines through beside it. */
-static void test_no_halo_lies_around_what_is_before_a_fast_wall(void)
-{
-    struct mover wall, slow;
-    mover_make(&wall, 0, 0, 60, 60, 40, 14, 0);
-    mover_make(&slow, 0, 0, 20, 8, 10, 0, 1.5);
-    smear_draw draw[2] = { draw_of(&wall, &green), draw_of(&slow, &red) };
-    smear_frame frame = frame_of(SMEAR_LAYERED);
-    frame.clear = 0x0000ff;
-    END_UNLESS(render(picture, &frame, draw, 2));
-    int most = 0;
-    for (int y = 8; y < H - 8; y++)
-        for (int x = 16; x < W - 16; x++)
-            most = channel(picture[y * W + x], 0) > most ? channel(picture[y * W + x], 0) : most;
-    CHECK(most <= 4);
 }
 
 /* ------------------------------------------------------------------ layers */
@@ -759,47 +541,6 @@ static void test_a_plain_layer_has_no_dark_fringe(void)
         CHECK_NEAR(channel(picture[H / 2 * W + W / 2 + 10], 16), 128, 24);
 }
 
-static void test_the_first_frame_and_cuts_have_no_motion(void)
-{
-    static uint32_t sharp[W * H];
-    struct mover m;
-    mover_make(&m, 0, 0, 10, 10, 10, 16, 0);
-    smear_draw draw = draw_of(&m, &red);
-    smear_frame none = frame_of(SMEAR_NONE);
-    END_UNLESS(render(sharp, &none, &draw, 1));
-    for (int k = 0; k < 6; k++) {
-        smear_frame frame = frame_of(both[k & 1]);
-        smear_draw first = draw;
-        if (k < 2) {            /* the library would have kept its pose */
-            frame.shutter.poses = 0;
-            first.open = first.close = NULL;
-            first.id = 7;
-        }
-        frame.cut = k >= 4;
-        first.cut = k == 2 || k == 3;
-        if (render(picture, &frame, &first, 1))
-            CHECK_EQ(difference(picture, sharp, 0, 0, W, H), 0);
-    }
-}
-
-/* Blended draws come after the blur, before and behind what moves. */
-static void test_blended_draws_are_over_the_blur_and_behind_movers(void)
-{
-    static const smear_material pane = { .color = { 255, 255, 255, 128 }, .unlit = 1, .alpha = SMEAR_BLEND };
-    struct mover ball, before, behind;
-    mover_make(&ball, 0, 0, 20, 12, 12, 8, 0);
-    mover_make(&before, -20, 0, 10, 20, 5, 0, 0);
-    mover_make(&behind, 20, 0, 30, 20, 5, 0, 0);
-    smear_draw draw[3] = { draw_of(&ball, &red), draw_of(&before, &pane), draw_of(&behind, &pane) };
-    for (int k = 0; k < 2; k++) {
-        smear_frame frame = frame_of(both[k]);
-        END_UNLESS(render(picture, &frame, draw, 3));
-        CHECK_NEAR(channel(picture[H / 2 * W + W / 2 - 3], 8), 128, 2);
-        CHECK_EQ(picture[H / 2 * W + W / 2 + 3], 0xff0000);
-        CHECK(channel(picture[H / 2 * W + W / 2 + 30], 8) > 128);
-    }
-}
-
 /* ------------------------------------------------------------------ limits */
 
 static void test_bad_layers_are_refused(void)
@@ -855,31 +596,6 @@ static void test_memory_of_layers_is_small(void)
                               .format = SMEAR_RGB565, .methods = SMEAR_SET_LAYERS, .flush = keep_band };
     const size_t need = smear_memory_size(&desc);
     CHECK(need > 0 && need <= 209u * 1024u);
-}
-
-static void test_small_frames_and_wild_velocities_are_drawn(void)
-{
-    static const int16_t size[][2] = { { 1, 1 }, { 7, 5 }, { 33, 1 }, { 1, 40 }, { 96, 17 } };
-    static const double way[] = { 0, 0.1, 3, 40, -300, 5000 };
-    for (int i = 0; i < 5 * 6 * 6 * 2; i++) {
-        struct mover m;
-        const int16_t *s = size[i % 5];
-        mover_make(&m, 0, 0, 10, 12, 9, way[i / 5 % 6], way[i / 30 % 6]);
-        smear_draw draw = draw_of(&m, &red);
-        smear_frame frame = frame_of(both[i / 180]);
-        smear_desc desc = desc_of(picture);
-        desc.width = s[0];
-        desc.height = s[1];
-        desc.tile = (int16_t)(8 << i % 4);
-        desc.reach = (int16_t)(1 + i % 8);
-        frame.light_space = (uint8_t)(i & 1 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED);
-        desc.flush = keep_band;
-        static uint32_t small[2048];
-        desc.user = small;
-        if (!render_with(&desc, &frame, &draw, 1))
-            return;
-        CHECK_EQ(stats.pixels, (uint32_t)(s[0] * s[1]));
-    }
 }
 
 #include "build/suites/layers.h"
