@@ -165,52 +165,6 @@ static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
     free(picture);
 }
 
-/* ------------------------------------------------------------------ capacity */
-
-/* A tall heap of small triangles: many rows, each with a handful. */
-
-/* A row of the busy scene, of which some draws move, some are blended or cut out: from the smallest arena upward every
- * method draws what it draws with ample room, or says that it can't. */
-static void test_a_row_that_does_not_fit_is_the_same_picture_by_every_method(void)
-{
-    static const uint16_t targets[] = { 0, 128, SMEAR_FINE };
-    static const uint32_t rooms[] = { 1, 2, 3, 5, 8, 13, 21, 60 };
-    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++) {
-        smear_desc desc = small_desc(40, 24);
-        struct rig ample, tight;
-        int refused = 0, refilled = 0;
-        desc.methods = (uint16_t)SMEAR_SET(method);
-        desc.reach = 8;
-        desc.max_triangles = 4000;
-        for (int i = 0; i < (int)(sizeof rooms / sizeof *rooms) && rig_begin(&ample, &desc, false); i++) {
-            smear_desc small = desc;
-            small.max_triangles = rooms[i];
-            small.workers = 1;
-            for (int k = 0; k < 3 && (k > 0 || rig_begin(&tight, &small, false)); k++) {
-                struct scene s;
-                smear_stats stats;
-                make_scene(&s, 0.3 * k, method);
-                s.frame.samples = 5;
-                s.frame.target = method == SMEAR_AUTO ? targets[k] : 0;
-                CHECK_EQ(rig_frame(&ample, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                const int result = rig_frame(&tight, &s.frame, s.draw, SCENE_DRAWS);
-                smear_get_stats(tight.ctx, &stats);
-                refused += result == SMEAR_ERR_ROOM;
-                refilled += stats.parts_added != 0;
-                CHECK(result == SMEAR_OK || (result == SMEAR_ERR_ROOM && method == SMEAR_TIMEMASK));
-                CHECK_EQ(stats.triangles_dropped, 0);
-                if (result == SMEAR_OK && !same_picture(&tight, ample.picture))
-                    CHECK_EQ(method * 10000 + (int)rooms[i], k);
-            }
-            rig_end(&tight);
-            rig_end(&ample);
-        }
-        CHECK((refused > 0) == (method == SMEAR_TIMEMASK));
-        CHECK(refilled > 0);
-    }
-    CHECK(strstr(smear_error_text(SMEAR_ERR_ROOM), "max_triangles") != NULL);
-}
-
 /* ------------------------------------------------------------------ wild input */
 
 static void test_an_index_out_of_range_drops_its_triangle_only(void)
@@ -585,31 +539,6 @@ static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
     rig_end(&r);
 }
 
-static void test_motion_none_writes_zero_over_what_moves_behind_it(void)
-{
-    struct rig r;
-    if (motion_open(&r)) {
-        for (int order = 0; order < 2; order++)
-            for (int k = 0; k < 2; k++) {
-                smear_transform back = pose_at(0.25 * k, 0, -8, 0, 0), front = pose_at(0, 0, -4, 0, 0);
-                for (int i = 0; i < 9; i++)
-                    back.basis[i] *= 4;
-                smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &back },
-                                    { .id = 2, .mesh = &square, .now = &front, .motion = SMEAR_MOTION_NONE } };
-                if (order == 1) {
-                    smear_draw swap = d[0];
-                    d[0] = d[1];
-                    d[1] = swap;
-                }
-                smear_frame f = { .camera = &motion_camera };
-                CHECK_EQ(rig_frame(&r, &f, d, 2), SMEAR_OK);
-                CHECK_EQ(r.velocity[2 * (32 * MOTION_W + 32)], 0);
-                CHECK_NEAR(r.velocity[2 * (32 * MOTION_W + 44)], k == 1 ? 256 : -256 * order, STEPS);
-            }
-    }
-    rig_end(&r);
-}
-
 static void test_given_poses_win_over_kept_ones(void)
 {
     struct rig r;
@@ -684,92 +613,7 @@ static void test_deformed_meshes_move_vertex_by_vertex(void)
     rig_end(&r);
 }
 
-static void test_what_was_behind_the_camera_moves_in_the_right_direction(void)
-{
-    struct rig r;
-    if (motion_open(&r)) {
-        /* A wide floor-like square at x = 1 crosses the near plane on its way in: from behind the eye to z = -2. */
-        smear_transform before = pose_at(1, 0, 0.5, 0, 0), now = pose_at(1, 0, -2, 0, 0);
-        smear_draw d = { .id = 1, .mesh = &square, .material = &motion_material, .now = &now, .open = &before };
-        smear_frame f = { .camera = &motion_camera };
-        int32_t v[2];
-        motion_frame(&r, &f, &d, 1, 48, 32, v);
-        CHECK(v[0] < -8 * 256);                 /* it came from far right */
-        CHECK(abs(v[1]) <= abs(v[0]) / 8 + 256);
-        for (int i = 0; i < MOTION_W * MOTION_H; i++)
-            CHECK(abs(r.velocity[2 * i]) <= 1 << 22 && abs(r.velocity[2 * i + 1]) <= 1 << 22);
-    }
-    rig_end(&r);
-}
-
 /* ------------------------------------------------------------------ methods */
-
-static void test_a_still_scene_is_the_same_picture_by_every_method(void)
-{
-    static const int16_t size[][2] = { { 96, 72 }, { 7, 5 }, { 1, 40 }, { 40, 1 }, { 33, 65 } };
-    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
-        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
-            smear_desc desc = small_desc(size[i][0], size[i][1]);
-            desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-            RIG(r, &desc, false);
-            struct scene s;
-            make_scene(&s, 0.2, SMEAR_NONE);
-            s.frame.light_space = (uint8_t)light;
-            uint8_t *sharp = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-            for (int n = 1; n <= 1024; n = n * 7 + 1) {
-                s.frame.method = SMEAR_RECONSTRUCT;
-                s.frame.samples = (uint16_t)n;
-                s.frame.filter.flags = (uint8_t)(n & 31);
-                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                same_picture(&r, sharp);
-                smear_stats stats;
-                smear_get_stats(r.ctx, &stats);
-                CHECK_EQ(stats.samples, 0);
-                CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
-                for (int method = SMEAR_SUBFRAMES; method <= SMEAR_AUTO; method++) {
-                    s.frame.method = (uint8_t)method;
-                    s.frame.target = (uint16_t)n;
-                    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                    same_picture(&r, sharp);
-                    smear_get_stats(r.ctx, &stats);
-                    CHECK_EQ(stats.samples, 0);
-                    CHECK_EQ(stats.tiles_complex + stats.tiles_uniform, 0);
-                    CHECK_EQ(stats.tiles[SMEAR_NONE], stats.tiles_static);
-                }
-                if (n > 100)
-                    continue;
-                s.frame.method = SMEAR_ACCUMULATE;
-                CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-                same_picture(&r, sharp);
-            }
-            free(sharp);
-        }
-}
-
-static void test_the_sharp_picture_does_not_depend_on_window_or_bands(void)
-{
-    static const int16_t rows[] = { 0, 8, 16, 24, 64, 72, 2048 - 2048 % 8 };
-    smear_desc desc = small_desc(100, 70);
-    desc.format = SMEAR_L1_PAGES;
-    RIG(windowed, &desc, false);
-    struct scene s;
-    make_scene(&s, 0.4, SMEAR_NONE);
-    uint8_t *picture = rig_copy(&windowed, &s.frame, s.draw, SCENE_DRAWS);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        for (int tile = 8; tile <= 64; tile *= 2) {
-            smear_desc sharp = desc;
-            sharp.methods = SMEAR_SET(SMEAR_NONE);
-            sharp.band_rows = rows[i];
-            sharp.tile = (int16_t)tile;
-            sharp.max_triangles = i & 1 ? 60 : 400;
-            RIG(r, &sharp, false);
-            CHECK(r.bytes < windowed.bytes || rows[i] > 16 || tile > 16);
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            CHECK(r.bands_in_order && r.next_row == 70);
-            same_picture(&r, picture);
-        }
-    free(picture);
-}
 
 /* CRC-32 bit by bit. */
 static uint32_t plain_crc(const uint8_t *bytes, size_t n)
@@ -852,17 +696,6 @@ static void test_a_clock_times_the_stages_and_changes_no_pixel(void)
 
 /* ------------------------------------------------------------------ instants */
 
-static double decode(uint32_t code)
-{
-    double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-static double encode(double l)
-{
-    return 255 * (l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055);
-}
-
 static void test_the_sharp_picture_under_a_filter_lies_at_the_middle_of_the_exposure(void)
 {
     struct rig r;
@@ -904,40 +737,6 @@ static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
     free(sharp);
 }
 
-static void test_uniform_tiles_take_plain_means_only_when_asked(void)
-{
-    smear_desc desc = small_desc(96, 72);
-    uint8_t *picture[2] = { NULL, NULL };
-    uint32_t taps[2];
-    for (int flag = 0; flag < 2; flag++) {
-        RIG(r, &desc, false);
-        for (int k = 0; k < 2; k++) {
-            /* A pan over a textured wall that fills the view. */
-            smear_transform pose = pose_at(0, 0, -2, 0, 0);
-            for (int i = 0; i < 9; i++)
-                pose.basis[i] *= 6;
-            smear_camera camera = camera_at(0.3 * k, 0, 0, 0);
-            smear_material material = { .texture = &checker_texture, .unlit = 1 };
-            make_checker();
-            smear_draw d = { .id = 1, .mesh = &square, .material = &material, .now = &pose };
-            smear_frame f = { .camera = &camera, .filter.flags = flag ? SMEAR_UNIFORM : 0, .samples = 16 };
-            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-            smear_stats stats;
-            smear_get_stats(r.ctx, &stats);
-            if (k == 1) {
-                CHECK_EQ(stats.tiles_uniform, 12 * 9);
-                taps[flag] = stats.samples;
-                picture[flag] = malloc(r.picture_room);
-                memcpy(picture[flag], r.picture, r.picture_room);
-            }
-        }
-    }
-    CHECK(taps[0] != taps[1]);
-    CHECK(memcmp(picture[0], picture[1], 96 * 72 * 4) != 0);
-    free(picture[0]);
-    free(picture[1]);
-}
-
 /* ------------------------------------------------------------------ what is drawn */
 
 static void test_the_largest_textures_are_taken(void)
@@ -960,96 +759,6 @@ static void test_the_largest_textures_are_taken(void)
         texture.height = 1;
     }
     free(texels);
-}
-
-/* The ground y = -1 under a camera that looks along -z and down by nothing: pixel (x, y) shows the point that lies in its
- * direction. Vertices are 127 units away: most is cut away by the near plane and the guard band. */
-static const int16_t ground_position[] = { -32512, 0, 32512, 32512, 0, 32512, 32512, 0, -32512, -32512, 0, -32512 };
-static const int16_t ground_uv[] = { -32512, 32512, 32512, 32512, 32512, -32512, -32512, -32512 };
-static const uint8_t ground_color[] = { 0, 255, 60, 255, 255, 255, 60, 255, 255, 0, 60, 255, 0, 0, 60, 255 };
-
-static void test_what_is_cut_keeps_its_colours_and_texels(void)
-{
-    enum { W = 96, H = 64 };
-    make_checker();
-    for (int textured = 0; textured < 2; textured++)
-        for (int light = SMEAR_LIGHT_LINEAR; light <= SMEAR_LIGHT_ENCODED; light++) {
-            struct rig r;
-            smear_desc desc = small_desc(W, H);
-            smear_mesh mesh = { .position = ground_position, .uv = ground_uv, .index = square_index,
-                                .color = textured ? NULL : ground_color, .triangle_count = 2, .vertex_count = 4,
-                                .shift = 8, .uv_shift = 11 };
-            smear_material material = { .texture = textured ? &checker_texture : NULL, .unlit = 1 };
-            if (rig_begin(&r, &desc, false)) {
-                smear_transform pose = pose_at(0, -1, 0, 0, 0);
-                smear_camera camera = camera_at(0, 0, 0, 0);
-                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-                smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)light };
-                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-                for (int y = H / 2 + 2; y < H; y++)
-                    for (int x = 0; x < W; x++) {
-                        double z = H / 2 / (y + 0.5 - H / 2), side = (x + 0.5 - W / 2) / (H / 2.0) * z;
-                        uint32_t got = pixel[y * W + x];
-                        bool ok = true;
-                        if (textured) {
-                            /* 8 texels per 2048 steps, 256 steps per unit; v runs against z. One texel or pixel off. */
-                            double reach = 0.1 + z / 32, deep = 0.1 + z * z / 32;
-                            bool found = false;
-                            for (int k = 0; k < 9; k++) {
-                                int u = (int)floor(side + reach * (k % 3 - 1)), v = (int)floor(-z + deep * (k / 3 - 1));
-                                found = found || got == (checker[(v & 7) * 8 + (u & 7)] & 0xffffffu);
-                            }
-                            ok = CHECK(found);
-                        } else {
-                            double red = (side + 127) / 254, green = (127 - z) / 254;
-                            red = light == SMEAR_LIGHT_LINEAR ? encode(red) : red * 255;
-                            green = light == SMEAR_LIGHT_LINEAR ? encode(green) : green * 255;
-                            ok = CHECK_CLOSE(got >> 16, red, 2.0) && CHECK_CLOSE(got >> 8 & 255u, green, 2.0)
-                              && CHECK_CLOSE(got & 255u, 60, 1.0);
-                        }
-                        if (!ok) {
-                            CHECK_EQ(x * 1000 + y, -1);
-                            goto done;
-                        }
-                    }
-            }
-done:
-            rig_end(&r);
-        }
-}
-
-static void test_vertex_and_face_colours_pass_unlit(void)
-{
-    enum { W = 48, H = 48 };
-    static const uint8_t color[] = { 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255, 200, 40, 90, 255 };
-    static const uint8_t face[] = { 10, 220, 130, 255, 70, 5, 250, 255 };
-    for (int kind = 0; kind < 8; kind++) {
-        smear_desc desc = small_desc(W, H);
-        smear_mesh mesh = square;
-        mesh.color = kind & 1 ? color : NULL;
-        mesh.face_color = kind & 2 ? face : NULL;
-        smear_material material = { .unlit = 1 };
-        RIG(r, &desc, false);
-        smear_transform pose = pose_at(0, 0, -1, 0, 0);
-        smear_camera camera = camera_at(0, 0, 0, 0);
-        smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-        smear_frame f = { .camera = &camera, .method = SMEAR_NONE, .light_space = (uint8_t)(kind >> 2) };
-        CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-        const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-        for (int lower = 0; lower < 2; lower++) {
-            /* Triangle 0 is below the diagonal from bottom left to top right. */
-            uint32_t got = lower ? pixel[40 * W + 40] : pixel[8 * W + 8];
-            for (int c = 0; c < 3; c++) {
-                double want = 1;
-                if (kind & 1)
-                    want *= decode(color[c]);
-                if (kind & 2)
-                    want *= decode(face[4 * !lower + c]);
-                CHECK_CLOSE(got >> (16 - 8 * c) & 255u, encode(want), 1.0);
-            }
-        }
-    }
 }
 
 /* ------------------------------------------------------------------ the filter alone */
