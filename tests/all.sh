@@ -124,7 +124,6 @@ programs() {
     suite did-you-mean sh tests/shell/did_you_mean.sh build/smear
     suite show sh tests/shell/show.sh build/smear
     suite outputs sh tests/shell/outputs.sh build/smear
-    suite arenas sh tests/shell/arenas.sh build/smear
     suite strangers sh tests/shell/strangers.sh build/smear
     suite jpeg-textures sh tests/shell/jpeg.sh build/smear build/host/jpeg-files textures
     suite view sh tests/shell/view.sh build/smear

@@ -113,69 +113,6 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
         }
 }
 
-/* Everything that the still layer depends on: after each change it is drawn once, and then kept. */
-static void test_a_change_of_anything_that_stands_still_draws_it_again(void)
-{
-    static uint32_t other_texels[8 * 8];
-    static uint8_t color[4 * 8];
-    struct pair p;
-    struct set s;
-    memset(color, 130, sizeof color);
-    set_up(&s, SMEAR_AUTO);
-    enum { CHANGES = 17 };
-    if (pair_begin(&p, desc_of(400, true)))
-        for (int change = 0, frame = 0; change <= CHANGES; change++) {
-            switch (change) {
-            case 1: s.camera.focal += 2000; s.frame.cut = 1; break;
-            case 2: s.camera.near_plane += 3000; break;
-            case 3: s.camera.pose.origin[0] += 9000; s.frame.cut = 1; break;
-            case 4: s.frame.clear = 0x305081; break;
-            case 5: s.frame.light_space = SMEAR_LIGHT_ENCODED; break;
-            case 6: s.material[POST].color[1]++; break;
-            case 7: s.material[POST].unlit = 1; break;
-            case 8: s.pose[POST].origin[1] += 5000; s.draw[POST].cut = 1; break;
-            case 9: s.draw[POST].material = NULL; break;
-            case 10: s.texture.texels = other_texels; break;
-            case 11: s.texture.wrap_u = SMEAR_MIRROR; break;
-            case 12: s.material[FLOOR].bilinear = 1; break;
-            case 13: s.mesh[POST].color = color; break;
-            case 14: s.mesh[POST].scale = 2; break;
-            case 15: color[5] = 7; s.frame.refresh = 1; break;
-            case 16: s.draw[POST] = s.draw[PANE]; s.count = 3; s.draw[PANE] = s.draw[MOVER]; break;    /* one draw less */
-            case 17: s.draw[FLOOR].now = NULL; s.draw[FLOOR].cut = 1; break;
-            }
-            for (int i = 0; i < 3; i++) {
-                move_on(&s, frame++);
-                const bool is_kept = kept(&p, &s);
-                if (i == 0)
-                    CHECK(!is_kept);
-                /* a cut makes the cube stand still, too: a frame later it does no more */
-                CHECK(i != 2 || is_kept || CHECK_EQ(change, -1));
-                s.frame.cut = s.frame.refresh = s.draw[POST].cut = s.draw[FLOOR].cut = 0;
-            }
-        }
-    pair_end(&p);
-}
-
-static void test_what_stops_and_starts_joins_and_leaves(void)
-{
-    struct pair p OWNED(pair_end);
-    struct set s;
-    set_up(&s, SMEAR_AUTO);
-    move_on(&s, 3);
-    if (pair_begin(&p, desc_of(400, true))) {
-        CHECK(!kept(&p, &s));
-        CHECK(kept(&p, &s));            /* nothing moves */
-        CHECK(kept(&p, &s));
-        move_on(&s, 4);
-        CHECK(!kept(&p, &s));           /* it leaves */
-        move_on(&s, 5);
-        CHECK(kept(&p, &s));
-        CHECK(!kept(&p, &s));           /* it has stopped */
-        CHECK(kept(&p, &s));
-    }
-}
-
 /* What does not move by a step of a 256th of a pixel is drawn among what stands still. */
 static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
 {
@@ -192,31 +129,6 @@ static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
             else if (i > 9)
                 CHECK(is_kept);
         }
-}
-
-static void test_other_methods_and_failures_between_do_no_harm(void)
-{
-    static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
-    struct pair p OWNED(pair_end);
-    struct set s;
-    set_up(&s, SMEAR_AUTO);
-    if (pair_begin(&p, desc_of(400, false)))
-        for (int i = 0; i < 20; i++) {
-            move_on(&s, i);
-            s.frame.method = i % 4 == 3 ? between[i / 4] : (uint8_t)SMEAR_AUTO;
-            CHECK_EQ(kept(&p, &s), i % 4 == 2 || (i % 4 == 1 && i > 4));
-        }
-    s.frame.method = SMEAR_AUTO;
-    for (int row = 0; row < 4; row++) {
-        p.keeps.fail_at = row;
-        p.keeps.fail_with = -9;
-        s.frame.clear++;
-        rig_forget_output(&p.keeps);
-        CHECK_EQ(rig_frame(&p.keeps, &s.frame, s.draw, s.count), -9);
-        p.keeps.fail_at = -1;
-        CHECK(!kept(&p, &s));
-        CHECK(kept(&p, &s));
-    }
 }
 
 /* ------------------------------------------------------------------ displays that keep their picture */
@@ -421,34 +333,6 @@ static void test_what_creeps_stays_behind_what_came_before_it(void)
     }
 }
 
-static void test_the_display_is_right_after_other_methods_and_failures(void)
-{
-    static const uint8_t between[] = { SMEAR_RECONSTRUCT, SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_OBJECT, SMEAR_LAYERED };
-    for (int buffers = 1; buffers <= 3; buffers++) {
-        struct display d OWNED(display_end);
-        struct set s;
-        set_up(&s, SMEAR_AUTO);
-        if (display_begin(&d, desc_of(400, false), buffers)) {
-            for (int i = 0; i < 25; i++) {
-                move_on(&s, i % 12);
-                s.frame.method = i % 5 == 4 ? between[i / 5] : (uint8_t)SMEAR_AUTO;
-                shown(&d, &s);
-            }
-            s.frame.method = SMEAR_AUTO;
-            for (int band = 0; band < 4; band++) {
-                s.frame.clear++;
-                d.sends.fail_at = band;
-                d.sends.fail_with = -9;
-                CHECK_EQ(write_frame(&d, &s), -9);
-                d.sends.fail_at = -1;
-                rig_frame(&d.all, &s.frame, s.draw, s.count);
-                for (int i = 0; i < 4; i++)
-                    CHECK_EQ(shown(&d, &s) == 0, i < buffers);
-            }
-        }
-    }
-}
-
 enum { SQUARES = 12, CORNERS = SQUARES + 1 };
 
 /* Squares beside each other, of side 1 / SQUARES of the mesh that it stands for. */
@@ -507,119 +391,6 @@ static void test_a_display_is_sent_what_it_does_not_show_of_sharp_frames(void)
                     else
                         CHECK_EQ(kept, 20);
                 }
-        }
-}
-
-/* Anything that a frame may have otherwise than the last one had it. */
-static void change(struct set *s, smear_draw *draw, smear_overlay *overlay, smear_overlay_item *item)
-{
-    const int i = between(0, DRAWS - 1);
-    s->frame.refresh = 0;
-    switch (between(0, 16)) {
-    case 0:
-        s->pose[i] = pose_at(0.1 * between(-12, 12), 0.1 * between(-12, 12), -0.1 * between(12, 60), 0.1 * between(0, 60), 0);
-        break;
-    case 1:
-        s->pose[i].origin[0] += between(-2, 2);
-        break;
-    case 2:
-        s->material[i].color[between(0, 2)] ^= 64;
-        break;
-    case 3:
-        s->material[i].alpha = (uint8_t)(s->material[i].alpha == SMEAR_BLEND ? SMEAR_OPAQUE : SMEAR_BLEND);
-        break;
-    case 4:
-        s->count = between(0, DRAWS);
-        break;
-    case 5: {
-        const smear_draw other = draw[i];
-        draw[i] = draw[0];
-        draw[0] = other;
-        break;
-    }
-    case 6:
-        s->mesh[i] = chance(2) ? cube : square;
-        if (chance(2))
-            smear_mesh_find_bounds(&s->mesh[i]);
-        break;
-    case 7:
-        s->camera.pose.origin[1] += between(-1, 1) * 2000;
-        break;
-    case 8:
-        s->frame.clear ^= chance(2) ? 0x101010u : 0u;
-        break;
-    case 9:
-        s->frame.refresh = 1;
-        break;
-    case 10:
-        item->x = (int16_t)between(-4, WIDTH);
-        item->y = (int16_t)between(-4, HEIGHT);
-        s->frame.overlay = chance(3) ? NULL : overlay;
-        break;
-    case 11:
-        s->frame.light_space = (uint8_t)(s->frame.light_space == SMEAR_LIGHT_LINEAR ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR);
-        break;
-    case 12:
-        s->pose[i].origin[2] = -between(0, 3) * 16384;      /* through the near plane, or behind the eye */
-        break;
-    case 13:
-        s->frame.method = s->frame.method == SMEAR_NONE ? s->blurred : (uint8_t)SMEAR_NONE;
-        break;
-    default:
-        break;
-    }
-}
-
-static void test_sharp_frames_are_right_whatever_changes(void)
-{
-    uint32_t kept = 0;
-    random_state = 71;
-    for (int run = 0; run < 60; run++) {
-        struct display d OWNED(display_end);
-        struct set s;
-        smear_overlay_item item = { .width = 9, .height = 7, .color = { 20, 90, 200, 255 } };
-        smear_overlay overlay = { &item, 1, NULL };
-        set_up(&s, SMEAR_NONE);
-        smear_desc desc = sharp_desc(chance(3) ? 8 : 400);
-        desc.tile = (int16_t)(8 << between(0, 2));
-        desc.format = (uint8_t)between(0, SMEAR_L1);
-        desc.vertex_cache = 16;
-        desc.display.dither = SMEAR_DITHER_ORDERED;
-        if (chance(2)) {
-            s.blurred = chance(2) ? SMEAR_AUTO : SMEAR_SUBFRAMES;
-            desc.methods |= (uint16_t)SMEAR_SET(s.blurred);
-        }
-        if (display_begin(&d, desc, between(1, 3)))
-            for (int i = 0; i < 60; i++) {
-                for (int changes = between(0, 2); changes > 0; changes--)
-                    change(&s, s.draw, &overlay, &item);
-                if (chance(16)) {
-                    d.sends.fail_at = between(0, 3);
-                    d.sends.fail_with = -9;
-                    write_frame(&d, &s);
-                    d.sends.fail_at = -1;
-                    rig_frame(&d.all, &s.frame, s.draw, s.count);       /* poses are those of one more frame */
-                }
-                kept += shown(&d, &s);
-            }
-    }
-    CHECK(kept > 20000);
-}
-
-/* Its vertices are elsewhere in every frame, at the same place in memory. */
-static void test_a_mesh_that_deforms_is_sent(void)
-{
-    struct display d OWNED(display_end);
-    struct set s;
-    int16_t corner[8 * 3];
-    set_up(&s, SMEAR_NONE);
-    memcpy(corner, cube.position, sizeof corner);
-    s.mesh[MOVER].position = s.draw[MOVER].open_position = corner;
-    move_on(&s, 4);
-    if (display_begin(&d, sharp_desc(400), 2))
-        for (int i = 0; i < 12; i++) {
-            corner[3 * (i % 8)] = (int16_t)(corner[3 * (i % 8)] / 2);
-            shown(&d, &s);
         }
 }
 
