@@ -57,6 +57,7 @@ $(TAPES)/bench.c: $(TAPES)/target_tapes
 	$(call say,GEN)
 	$(TAPES)/target_tapes bench $@
 
+$(BUILD)/tests/target/target_unit.o: $(BUILD)/suites
 $(BUILD)/tests/target/target_unit.o: CFLAGS += \
     -D'TARGET_SUITES=$(foreach suite,$(UNIT_SUITES),SUITE($(suite)))'
 
