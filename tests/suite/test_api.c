@@ -739,6 +739,48 @@ static void test_a_teleport_without_a_cut_streaks_for_one_frame_only(void)
 
 /* ------------------------------------------------------------------ what is drawn */
 
+/* A square that fills the frame, a texel per pixel: all sizes that have loops of their own, and some that have not. */
+static void test_textures_of_every_size_show_their_texels(void)
+{
+    static const uint16_t size[] = { 1, 2, 16, 32, 64, 128, 256, 512, 37, 100, 200 };
+    for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
+        for (int variant = 0; variant < 3; variant++) {
+            int width = size[i], height = variant == 0 ? width : variant == 1 ? 64 : size[(i + 3) % 11];
+            uint32_t *texels = malloc((size_t)width * (size_t)height * 4);
+            for (int k = 0; k < width * height; k++)
+                texels[k] = 0xff000000u | (uint32_t)(k / width) << 12 | (uint32_t)(k % width);
+            struct rig r;
+            smear_desc desc = small_desc(width, height);
+            desc.methods = SMEAR_SET(SMEAR_NONE);
+            if (rig_begin(&r, &desc, false)) {
+                smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
+                smear_material material = { .texture = &texture, .unlit = 1 };
+                /* Orthographic: one unit is half the height. */
+                smear_camera camera = camera_at(0, 0, 0, 0);
+                camera.half_height = 65536;
+                smear_transform pose = pose_at(0, 0, -4, 0, 0);
+                pose.basis[0] = (int32_t)((int64_t)SMEAR_BASIS_ONE * width / height);
+                int16_t uv[8];
+                for (int k = 0; k < 8; k++)             /* a whole turn: 2^14 mesh units */
+                    uv[k] = square_uv[k] != 0 ? 16384 : 0;
+                smear_mesh mesh = square;
+                mesh.uv = uv;
+                mesh.uv_shift = 14;
+                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+                for (int k = 0; k < width * height; k++)
+                    if (!CHECK_EQ(pixel[k], texels[k] & 0xffffffu)) {
+                        CHECK_EQ(width * 1000 + height, -1);
+                        break;
+                    }
+            }
+            rig_end(&r);
+            free(texels);
+        }
+}
+
 static void test_the_largest_textures_are_taken(void)
 {
     smear_desc desc = small_desc(16, 16);
