@@ -34,7 +34,7 @@ void smear_assembler_reset(struct smear_assembler *a)
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2 };
 
-#if TINY_COVER_KEEPS
+#if TINY_COVER_ARMV7EM
 /* Points from `first` on, whose weights are known, take their colour from vertices. */
 static SMEAR_RARE void color_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
                                     const struct tiny_cover *t, uint32_t first)
@@ -244,7 +244,7 @@ static void batch_start(struct batch *b)
     b->partial = b->partial || assembler_has_damage(a);
     b->points_even = segment_by_vertices(s) && !segment_flat_depth(s);
 #endif
-#if TINY_COVER_KEEPS
+#if TINY_COVER_ARMV7EM
     b->rings = (struct points_rings){ bins_triangle(g, 0), g->opaque_last, g->row_recip, &a->bins->triangle_count, smear_recip_seed };
 #endif
     if (d->shading.lit || !d->shading.white)
@@ -276,6 +276,8 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
         return smear_batch_add_clipped(b, corner, triangle);
     }
     const int32_t side = side_of(&v0->screen, &v1->screen, &v2->screen);
+    if (side > 0 && !SMEAR_SMALL_CODE && any == 0 && !b->partial)
+        return add_visible(b, v0, v1, v2, triangle, false, false);
     if (side > 0)
         return add_whole(b, v0, v1, v2, triangle, false, any != 0 || b->partial);
     return side == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
@@ -339,9 +341,6 @@ static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
                                .vertex_count = b->ready ? d->mesh->vertex_count : 0u, .width = (uint32_t)a->viewport.width << 8,
                                .height = (uint32_t)a->viewport.height << 8, .index = index + 3 * first, .end = index + 3 * end,
                                .behind = b->double_sided ? INT32_MIN : 0 };
-#if !SMEAR_HAS_MUL64
-    s.side = scan_side(s.height);
-#endif
 #if FRONT_COVERS
     struct front_cover front;
     scan_fronts(&s, b, &front);

@@ -57,7 +57,7 @@ struct batch {
 #if FRONT_COVERS
     bool points_even;                   /* that only where depths are nearly even */
 #endif
-#if TINY_COVER_KEEPS
+#if TINY_COVER_ARMV7EM
     struct points_rings rings;          /* where points go */
 #endif
 #if SMEAR_VERTEX_SETUP

@@ -7,13 +7,6 @@
 #include "geometry/vertex.h"
 #include "kernels/tiny_cover.h"
 
-#if TINY_COVER_ARMV6M
-SMEAR_INLINE void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
-                        const struct smear_screen *v2)
-{
-    tiny_cover(t, &box->x0, &v0->x, &v1->x, &v2->x);
-}
-#else
 /* Finds which centres of the box are covered: one after the other where size counts. */
 static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
                          const struct smear_screen *v2)
@@ -52,6 +45,5 @@ static inline void cover(struct tiny_cover *t, const struct box *box, const stru
             tiny_cover_keep(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
     }
 }
-#endif
 
 #endif

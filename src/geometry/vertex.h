@@ -239,7 +239,7 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
 
 /* What a draw's vertices share is made ready where that pays: compilers reload it for each of them. */
 #ifndef SMEAR_VERTEX_SETUP
-#define SMEAR_VERTEX_SETUP ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
+#define SMEAR_VERTEX_SETUP (SMEAR_ASM_ARMV7EM && !SMEAR_SMALL_CODE)
 #endif
 
 #if SMEAR_VERTEX_SETUP

@@ -8,7 +8,7 @@
 #include "kernels/tiny_cover.h"
 
 /* Boxes are looked at so where that pays. */
-#define FRONT_COVERS TINY_COVER_KEEPS
+#define FRONT_COVERS TINY_COVER_ARMV7EM
 
 #if FRONT_COVERS
 struct front_cover {

@@ -23,6 +23,27 @@ static inline void tiny_span_reference(struct tiny_span *s, const int32_t *v0, c
 }
 
 #if TINY_ASM_ARMV6M
+/* The least of A, B and C into A, the most into B; KEEP and FETCH put A into another register, and that into B. */
+#define TINY_SPAN_ORDER(A, B, C, KEEP, FETCH) \
+    "cmp " A ", " B "\n\t"      \
+    "ble 1f\n\t" KEEP           \
+    "movs " A ", " B "\n\t" FETCH \
+    "1: cmp " C ", " A "\n\t"   \
+    "bge 2f\n\t"                \
+    "movs " A ", " C "\n\t"     \
+    "b 3f\n"                    \
+    "2: cmp " C ", " B "\n\t"   \
+    "ble 3f\n\t"                \
+    "movs " B ", " C "\n"       \
+    "3: "
+
+/* Places, q8 px, become the first pixels whose centres lie behind them. */
+#define TINY_SPAN_PIXELS(A, B)  \
+    "adds " A ", #127\n\t"      \
+    "adds " B ", #127\n\t"      \
+    "asrs " A ", " A ", #8\n\t" \
+    "asrs " B ", " B ", #8\n\t"
+
 /* Two thirds of the instructions that compilers take. */
 SMEAR_INLINE void tiny_span_armv6m(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
 {

@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_TRIANGLE_SCAN_H
 
 #include "kernels/tiny_corners.h"
-#include "kernels/triangle_scan_armv6m.h"
 #include "kernels/triangle_scan_armv7em.h"
 
 /* Scans mix the colours of points, too, where triangles have none. */
@@ -67,9 +66,6 @@ struct triangle_scan {
     const uint8_t *vertex_color;    /* of vertices, where `color` is null: points mix them */
     bool even;                      /* but only where depths are nearly even (tiny_is_even) */
 #endif
-#if !SMEAR_HAS_MUL64
-    uint32_t side;                  /* a power of two: where x differs by less, areas have 32 bits (scan_side) */
-#endif
 #if FRONT_COVERS
     const struct scan_records *records;
     int32_t least;                  /* triangles that cover so many pixels or more are stored while there is room */
@@ -77,17 +73,6 @@ struct triangle_scan {
 };
 
 enum { SCAN_POINTS = 2 };
-
-#if !SMEAR_HAS_MUL64
-/* Twice an area is at most a triangle's width, less than two such sides, times the frame's height, q8 px. */
-static inline uint32_t scan_side(uint32_t height)
-{
-    uint32_t side = 1u << 15;
-    while (height != 0 && side > (1u << 30) / height)
-        side >>= 1;
-    return side;
-}
-#endif
 
 /* Finds a vertex that the cache lacks. */
 static inline enum scan_end scan_find(struct triangle_scan *s, struct scan_vertex *v, uint32_t tag)
@@ -201,14 +186,8 @@ static inline enum scan_end scan_one(struct triangle_scan *s)
         return (v0->outcode & v1->outcode & v2->outcode & SCAN_REJECT) != 0 ? SCAN_DONE : SCAN_ANY;
     const int32_t x1 = v1->screen.x - v0->screen.x, y1 = v1->screen.y - v0->screen.y;
     const int32_t x2 = v2->screen.x - v0->screen.x, y2 = v2->screen.y - v0->screen.y;
-#if SMEAR_HAS_MUL64
     const int64_t product = (int64_t)x1 * y2 - (int64_t)x2 * y1;
     const int32_t area = product > 0 ? 1 : product < 0 ? -1 : 0;
-#else
-    if ((((uint32_t)x1 + s->side) | ((uint32_t)x2 + s->side)) >= 2 * s->side)
-        return SCAN_ANY;            /* products need more than 32 bits */
-    const int32_t area = x1 * y2 - x2 * y1;
-#endif
 #if FRONT_COVERS
     if (area > 0 && s->front != NULL) {
         const int32_t covered = front_cover_reference(s->front, &v0->screen.x, &v1->screen.x, &v2->screen.x);
@@ -246,7 +225,7 @@ static inline enum scan_end triangle_scan_reference(struct triangle_scan *s)
     return SCAN_DONE;
 }
 
-#if TINY_COVER_KEEPS
+#if TINY_COVER_ARMV7EM
 SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == 40 && offsetof(struct scan_vertex, screen) == 8
                         && offsetof(struct scan_vertex, outcode) == 20 && offsetof(struct scan_vertex, now) == 24
                         && offsetof(struct triangle_scan, cache) == 16 && offsetof(struct triangle_scan, setup) == 20
@@ -259,24 +238,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, front) == 68 && offsetof(stru
                         && offsetof(struct triangle_scan, rings) == 76 && offsetof(struct triangle_scan, color) == 80
                         && offsetof(struct triangle_scan, first) == 84 && offsetof(struct triangle_scan, room) == 88,
                     "the assembly knows struct triangle_scan");
-#endif
-
-#if TINY_COVER_ARMV6M
-SMEAR_STATIC_ASSERT(offsetof(struct triangle_scan, side) == 92 && offsetof(struct triangle_scan, records) == 96
-                        && offsetof(struct triangle_scan, least) == 100 && offsetof(struct scan_records, colors) == 20,
-                    "the assembly knows struct triangle_scan");
-
-/* The next index in r10, the scan in r11, what TRIANGLE_SCAN_LOAD loads in r8, r9 and lr. Two thirds of the instructions that
- * compilers take for a triangle that faces away. */
-static inline enum scan_end triangle_scan_armv6m(struct triangle_scan *s)
-{
-    register struct triangle_scan *r0 __asm__("r0") = s;
-    __asm__ volatile(".syntax unified\n\t" TRIANGLE_SCAN_ARMV6M
-                     : "+r"(r0)
-                     :
-                     : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
-    return (enum scan_end)(uintptr_t)r0;
-}
 #endif
 
 #if TINY_COVER_ARMV7EM
@@ -321,9 +282,7 @@ static inline enum scan_end triangle_scan_armv7em(struct triangle_scan *s)
 
 static inline enum scan_end triangle_scan(struct triangle_scan *s)
 {
-#if TINY_COVER_ARMV6M
-    return triangle_scan_armv6m(s);
-#elif TINY_COVER_ARMV7EM
+#if TINY_COVER_ARMV7EM
     return triangle_scan_armv7em(s);
 #else
     return triangle_scan_reference(s);

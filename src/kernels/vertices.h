@@ -44,20 +44,12 @@ struct vertex_setup {
     struct vertex_words words;
 #endif
     struct vertex_row row[3];           /* x, y, w; |row| < 2^30 */
-#if SMEAR_ASM_ARMV6M
-    int32_t w_least;                    /* for assembly: ready for this w and w_span more */
-    uint32_t w_span;
-#endif
     int32_t zeros;                      /* leading zeros of w */
     const uint16_t *seed;               /* smear_recip_seed */
     int32_t half, down;                 /* from a high product to q8 px: 1 to 20 bits down, rounded */
     int32_t x, y;                       /* the frame's centre, q8 px */
     int32_t depth_low, depth_high;      /* halves of the mantissa, which is in [2^29, 2^30] */
     int32_t depth_half, depth_down;     /* from a high product, at most the limit, to q11, rounded */
-#if SMEAR_ASM_ARMV6M
-    int32_t plain_least;                /* for assembly: depths that need no limit, after their shift down */
-    uint32_t plain_span;
-#endif
     int32_t depth_limit, depth_up;
     int32_t depth_least, depth_most;
     int32_t depth_shift;
@@ -106,25 +98,6 @@ static inline void vertex_words_for(struct vertex_setup *v)
 }
 #endif
 
-#if SMEAR_ASM_ARMV6M
-/* The setup is ready for no w. */
-static inline void vertex_spans_make(struct vertex_setup *v)
-{
-    v->w_least = INT32_MIN;
-    v->w_span = 0;
-}
-
-static inline void vertex_spans_for(struct vertex_setup *v)
-{
-    const int32_t first = max_i32(v->near_distance, 1 << v->top), last = min_i32(v->far_distance, INT32_MAX >> (30 - v->top));
-    const bool plain = v->depth_up == 0;
-    v->w_least = first <= last ? first : INT32_MIN;
-    v->w_span = first <= last ? (uint32_t)(last - first) : 0u;
-    v->plain_least = plain ? v->depth_least : INT32_MIN;
-    v->plain_span = plain ? (uint32_t)(v->depth_most - v->depth_least) : 0u;
-}
-#endif
-
 static inline void vertex_setup_make(struct vertex_setup *v, const struct place_setup *s)
 {
     for (int r = 0; r < 3; r++) {
@@ -146,9 +119,6 @@ static inline void vertex_setup_make(struct vertex_setup *v, const struct place_
     v->depth_least = s->depth_least;
     v->depth_most = s->depth_most;
     v->depth_shift = s->depth_shift;
-#if SMEAR_ASM_ARMV6M
-    vertex_spans_make(v);
-#endif
 #if SMEAR_ASM_ARMV7EM
     vertex_words_make(v);
 #endif
@@ -160,9 +130,6 @@ static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
 {
     const int zeros = count_leading_zeros((uint32_t)w), up = v->depth_shift + zeros;
     v->top = 31;
-#if SMEAR_ASM_ARMV6M
-    vertex_spans_make(v);
-#endif
 #if SMEAR_ASM_ARMV7EM
     v->words.w_least = INT32_MIN;
     v->words.w_span = 0;
@@ -177,9 +144,6 @@ static inline bool vertex_setup_for(struct vertex_setup *v, int32_t w)
     v->depth_limit = INT32_MAX >> v->depth_up;
     v->depth_down = min_i32(max_i32(-up, 0), 31);
     v->depth_half = v->depth_down == 0 ? 0 : 1 << (v->depth_down - 1);
-#if SMEAR_ASM_ARMV6M
-    vertex_spans_for(v);
-#endif
 #if SMEAR_ASM_ARMV7EM
     vertex_words_for(v);
 #endif
@@ -211,175 +175,6 @@ static inline bool vertex_find_reference(struct smear_screen *screen, struct sme
     screen->depth = clamp_i32(depth, s->depth_least, s->depth_most);
     return true;
 }
-
-#if SMEAR_ASM_ARMV6M
-SMEAR_STATIC_ASSERT(sizeof(struct vertex_row) == 28 && offsetof(struct vertex_setup, w_least) == 84
-                        && offsetof(struct vertex_setup, zeros) == 92 && offsetof(struct vertex_setup, half) == 100
-                        && offsetof(struct vertex_setup, x) == 108 && offsetof(struct vertex_setup, depth_low) == 116
-                        && offsetof(struct vertex_setup, depth_half) == 124 && offsetof(struct vertex_setup, plain_least) == 132
-                        && offsetof(struct vertex_setup, depth_limit) == 140 && offsetof(struct vertex_setup, depth_least) == 148,
-                    "the assembly takes struct vertex_setup word by word");
-
-/* A row at r1 times the vertex in r2, r3, r4: into r0. */
-#define ARMV6M_VERTEX_ROW \
-        "ldm r1!, {r0, r5, r6, r7}\n\t" \
-        "muls r0, r2\n\t" \
-        "muls r5, r3\n\t" \
-        "muls r6, r4\n\t" \
-        "adds r0, r7\n\t" \
-        "adds r5, r6\n\t" \
-        "adds r0, r5\n\t" \
-        "ldm r1!, {r5, r6, r7}\n\t" \
-        "muls r5, r2\n\t" \
-        "muls r6, r3\n\t" \
-        "muls r7, r4\n\t" \
-        "adds r5, r6\n\t" \
-        "adds r5, r7\n\t" \
-        "asrs r5, #14\n\t" \
-        "adds r0, r5\n\t"
-
-/* The high product of r6 2^16 + r5 and r4 2^16 + r3, which are below 2^30: products that cross have a sum of 32 bits.
- * It is in r6; r5 and r7 are lost. */
-#define ARMV6M_VERTEX_MULH \
-        "movs r7, r5\n\t" \
-        "muls r7, r3\n\t" \
-        "lsrs r7, #16\n\t" \
-        "muls r5, r4\n\t" \
-        "adds r7, r5\n\t" \
-        "movs r5, r6\n\t" \
-        "muls r5, r3\n\t" \
-        "adds r7, r5\n\t" \
-        "muls r6, r4\n\t" \
-        "asrs r7, #16\n\t" \
-        "adds r6, r7\n\t"
-
-/* All rows of the vertex that r0 points to: x onto the stack at sp, y into r8, w into r0. */
-#define ARMV6M_VERTEX_ROWS \
-        "movs r2, #0\n\t" \
-        "ldrsh r2, [r0, r2]\n\t" \
-        "movs r3, #2\n\t" \
-        "ldrsh r3, [r0, r3]\n\t" \
-        "movs r4, #4\n\t" \
-        "ldrsh r4, [r0, r4]\n\t" \
-        ARMV6M_VERTEX_ROW \
-        "str r0, [sp]\n\t" \
-        ARMV6M_VERTEX_ROW \
-        "mov r8, r0\n\t" \
-        ARMV6M_VERTEX_ROW
-
-/* Stores them at r3. */
-#define ARMV6M_VERTEX_NOW \
-        "ldr r4, [sp]\n\t" \
-        "mov r5, r8\n\t" \
-        "movs r6, r0\n\t" \
-        "movs r7, r0\n\t" \
-        "stm r3!, {r4, r5, r6, r7}\n\t"
-
-/* Goes to 1 where the setup is not ready for w in r0. Else recip_norm of it: the halves into r4 and r3. */
-#define ARMV6M_VERTEX_RECIP \
-        "ldm r1!, {r2, r3, r4, r5}\n\t" \
-        "subs r2, r0, r2\n\t" \
-        "cmp r2, r3\n\t" \
-        "bhi 1f\n\t" \
-        "lsls r0, r4\n\t" \
-        "lsls r3, r0, #1\n\t" \
-        "lsrs r3, #23\n\t" \
-        "lsls r3, #1\n\t" \
-        "ldrh r3, [r5, r3]\n\t" \
-        "lsrs r0, #11\n\t" \
-        "muls r0, r3\n\t" \
-        "movs r4, #1\n\t" \
-        "lsls r4, #31\n\t" \
-        "subs r4, r0\n\t" \
-        "asrs r4, #4\n\t" \
-        "muls r4, r3\n\t" \
-        "asrs r4, #8\n\t" \
-        "lsls r3, #19\n\t" \
-        "adds r3, r4\n\t" \
-        "asrs r4, r3, #16\n\t" \
-        "uxth r3, r3\n\t"
-
-/* Divides x and y into places there. */
-#define ARMV6M_VERTEX_PLACE \
-        "ldm r1!, {r0, r2}\n\t" \
-        "ldr r5, [sp]\n\t" \
-        "asrs r6, r5, #16\n\t" \
-        "uxth r5, r5\n\t" \
-        ARMV6M_VERTEX_MULH \
-        "adds r6, r0\n\t" \
-        "asrs r6, r2\n\t" \
-        "ldm r1!, {r7}\n\t" \
-        "adds r6, r7\n\t" \
-        "str r6, [sp]\n\t" \
-        "mov r5, r8\n\t" \
-        "asrs r6, r5, #16\n\t" \
-        "uxth r5, r5\n\t" \
-        ARMV6M_VERTEX_MULH \
-        "adds r6, r0\n\t" \
-        "asrs r6, r2\n\t" \
-        "ldm r1!, {r7}\n\t" \
-        "adds r7, r6\n\t" \
-        "mov r8, r7\n\t"
-
-/* The depth from its mantissa, whose lower half comes first, into r6; those that need a limit at 2. */
-#define ARMV6M_VERTEX_DEPTH \
-        "ldm r1!, {r5, r6}\n\t" \
-        ARMV6M_VERTEX_MULH \
-        "ldm r1!, {r0, r2, r3, r4}\n\t" \
-        "adds r6, r0\n\t" \
-        "asrs r6, r2\n\t" \
-        "subs r3, r6, r3\n\t" \
-        "cmp r3, r4\n\t" \
-        "bhi 2f\n" \
-        "3: "
-
-/* Stands beside the way of ARMV6M_VERTEX_DEPTH. */
-#define ARMV6M_VERTEX_LIMIT \
-        "2: ldm r1!, {r0, r2, r3, r4}\n\t" \
-        "cmp r6, r0\n\t" \
-        "ble 4f\n\t" \
-        "movs r6, r0\n" \
-        "4: lsls r6, r2\n\t" \
-        "cmp r6, r3\n\t" \
-        "bge 4f\n\t" \
-        "movs r6, r3\n" \
-        "4: cmp r6, r4\n\t" \
-        "ble 3b\n\t" \
-        "movs r6, r4\n\t" \
-        "b 3b\n"
-
-/* The place and the depth into r4 to r6. */
-#define ARMV6M_VERTEX_FIND \
-        ARMV6M_VERTEX_RECIP ARMV6M_VERTEX_PLACE ARMV6M_VERTEX_DEPTH \
-        "ldr r4, [sp]\n\t" \
-        "mov r5, r8\n\t"
-
-/* 145 instructions, where compilers take 400. */
-SMEAR_INLINE bool vertex_find_armv6m(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
-                                     const struct vertex_setup *s)
-{
-    register const int16_t *r0 __asm__("r0") = v;
-    register const struct vertex_setup *r1 __asm__("r1") = s;
-    register struct smear_screen *r2 __asm__("r2") = screen;
-    register struct smear_homogeneous *r3 __asm__("r3") = now;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r2, r3}\n\t"
-        "mov r12, r2\n\t"
-        "mov lr, r3\n\t" ARMV6M_VERTEX_ROWS
-        "mov r3, lr\n\t" ARMV6M_VERTEX_NOW ARMV6M_VERTEX_FIND
-        "mov r7, r12\n\t"
-        "stm r7!, {r4, r5, r6}\n\t"
-        "movs r0, #1\n\t"
-        "b 5f\n" ARMV6M_VERTEX_LIMIT
-        "1: movs r0, #0\n"
-        "5: add sp, #8"
-        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
-        :
-        : "r4", "r5", "r6", "r7", "r8", "r12", "lr", "cc", "memory");
-    return r0 != NULL;
-}
-#endif
 
 #if SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(offsetof(struct vertex_setup, words) == 0 && offsetof(struct vertex_words, w_least) == 48
@@ -479,9 +274,7 @@ SMEAR_INLINE bool vertex_find_armv7em(struct smear_screen *screen, struct smear_
 SMEAR_INLINE bool vertex_find(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
                               const struct vertex_setup *s)
 {
-#if SMEAR_ASM_ARMV6M
-    return vertex_find_armv6m(screen, now, v, s);
-#elif SMEAR_ASM_ARMV7EM
+#if SMEAR_ASM_ARMV7EM
     return vertex_find_armv7em(screen, now, v, s);
 #else
     return vertex_find_reference(screen, now, v, s);

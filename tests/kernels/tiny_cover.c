@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tiny_cover.c - how check_kernels calls kernels/tiny_cover.h and tiny_points.h. */
+/* tiny_cover.c - how check_kernels calls kernels/tiny_points.h. */
 #include "kernels/tiny_points.h"
 
 #include "tests/kernels/kernels.h"
@@ -38,29 +38,6 @@ static bool make(struct tiny *t, const struct kernel_call *c)
     return area != 0;
 }
 
-static void cover_by(struct kernel_call *c, bool best)
-{
-    struct tiny t;
-    if (!make(&t, c))
-        return;
-    if (best)
-        tiny_cover(&t.cover, t.box, t.v[0], t.v[1], t.v[2]);
-    else
-        tiny_cover_reference(&t.cover, t.box, t.v[0], t.v[1], t.v[2]);
-    c->word[0] = (uint32_t)t.cover.area;
-    c->word[1] = (uint32_t)t.cover.count;
-    for (int i = 0; i < min_i32(t.cover.count, 2); i++) {
-        const struct covered *const k = &t.cover.covered[i];
-        c->word[2 + 4 * i] = (uint32_t)k->x;
-        c->word[3 + 4 * i] = (uint32_t)k->y;
-        c->word[4 + 4 * i] = (uint32_t)k->e1;
-        c->word[5 + 4 * i] = (uint32_t)k->e2;
-    }
-}
-
-static void cover_reference(struct kernel_call *c) { cover_by(c, false); }
-static void cover_best(struct kernel_call *c) { cover_by(c, true); }
-
 /* Rings are empty or have entry 0 alone. */
 static void points_by(struct kernel_call *c, bool best)
 {
@@ -91,7 +68,6 @@ static void points_best(struct kernel_call *c) { points_by(c, true); }
 
 extern const struct kernel kernels_tiny_cover[];
 const struct kernel kernels_tiny_cover[] = {
-    { .name = "tiny_cover", .most = 40, .size = { 1 }, .timed = 40, .form = { { "reference", cover_reference }, { "best", cover_best } } },
     { .name = "tiny_points", .most = 40, .size = { sizeof(struct point_entry) }, .align = { 4 }, .timed = 40,
       .form = { { "reference", points_reference }, { "best", points_best } } },
     { .name = NULL }

@@ -41,9 +41,6 @@ static void find(struct kernel_call *c, vertex_fn *form)
 }
 
 static void reference(struct kernel_call *c) { find(c, vertex_find_reference); }
-#if SMEAR_ASM_ARMV6M
-static void armv6m(struct kernel_call *c) { find(c, vertex_find_armv6m); }
-#endif
 #if SMEAR_ASM_ARMV7EM
 static void armv7em(struct kernel_call *c) { find(c, vertex_find_armv7em); }
 #endif
@@ -52,9 +49,6 @@ extern const struct kernel kernels_vertices[];
 const struct kernel kernels_vertices[] = {
     { .name = "vertex", .most = 36, .size = { 6, sizeof(struct found) }, .align = { 2, 4 }, .prepare = prepare, .timed = 36,
       .form = { { "reference", reference },
-#if SMEAR_ASM_ARMV6M
-                { "armv6m", armv6m },
-#endif
 #if SMEAR_ASM_ARMV7EM
                 { "armv7em", armv7em },
 #endif
