@@ -238,17 +238,9 @@
 #define texel_blocks texel_blocks_reference
 #endif
 
-/* Rows of narrow texels, one below the other: TEXEL_PLACE_ROWS where short ones of single places are a kernel, TEXEL_CURVE_ROWS where those
- * of polynomials are. Compilers have no registers for what rows have in common. */
-#define TEXEL_PLACE_ROWS ((SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM) && !SMEAR_SMALL_CODE)
+/* TEXEL_CURVE_ROWS where rows of narrow texels whose places are polynomials, one below the other, are a kernel: compilers have no
+ * registers for what rows have in common. */
 #define TEXEL_CURVE_ROWS (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
-#if TEXEL_PLACE_ROWS && SMEAR_ASM_ARMV6M
-#define texel_place_rows_draw texel_place_rows_armv6m
-#elif TEXEL_PLACE_ROWS
-#define texel_place_rows_draw texel_place_rows_armv7em
-#else
-#define texel_place_rows_draw texel_place_rows_reference
-#endif
 #if SMEAR_ASM_ARMV6M
 #define texel_curve_rows_draw texel_curve_rows_armv6m
 #elif SMEAR_ASM_ARMV7EM

@@ -32,109 +32,6 @@ SMEAR_INLINE uint32_t points_list_reference(const struct points_plane *p, uint32
     return head;
 }
 
-#if SMEAR_ASM_ARMV6M
-SMEAR_STATIC_ASSERT(offsetof(struct points_plane, stride) == 20 && offsetof(struct points_plane, depth) == 24
-                        && offsetof(struct points_plane, pixels) == 28 && offsetof(struct points_plane, pair) == 32
-                        && offsetof(struct points_plane, round) == 36 && sizeof(struct point_entry) == 16,
-                    "the assembly knows struct points_plane");
-
-/* A colour in r2, which is stored r4 / 2 pixels further on. */
-#define POINTS_PUT_NARROW      \
-    "ldr r5, [r0, #32]\n\t"    \
-    "ands r5, r2\n\t"          \
-    "movs r6, #249\n\t"        \
-    "muls r5, r6\n\t"          \
-    "ldr r6, [r0, #36]\n\t"    \
-    "adds r5, r5, r6\n\t"      \
-    "lsls r2, r2, #16\n\t"     \
-    "lsrs r2, r2, #24\n\t"     \
-    "movs r6, #253\n\t"        \
-    "muls r2, r6\n\t"          \
-    "adds r2, #250\n\t"        \
-    "adds r2, #255\n\t"        \
-    "lsrs r2, r2, #10\n\t"     \
-    "lsls r2, r2, #5\n\t"      \
-    "lsls r6, r5, #16\n\t"     \
-    "lsrs r6, r6, #27\n\t"     \
-    "orrs r2, r6\n\t"          \
-    "lsrs r5, r5, #27\n\t"     \
-    "lsls r5, r5, #11\n\t"     \
-    "orrs r2, r5\n\t"          \
-    "ldr r5, [r0, #28]\n\t"    \
-    "strh r2, [r5, r4]\n"
-#define POINTS_PUT_WIDE     \
-    "lsls r2, r2, #8\n\t"   \
-    "lsrs r2, r2, #8\n\t"   \
-    "lsls r4, r4, #1\n\t"   \
-    "ldr r5, [r0, #28]\n\t" \
-    "str r2, [r5, r4]\n"
-
-/* r0 points to the plane, r1 is the next entry. x0 in r8, the width in r9, y0 in r10, the height in r11, POINT_ENTRY in r12, the
- * first entry's address in lr. Half of the instructions that compilers take. */
-#define POINTS_LIST(PUT)                     \
-    __asm__ volatile(".syntax unified\n\t"   \
-                     "ldm r0!, {r2, r3, r4, r5, r6}\n\t" \
-                     "subs r0, #20\n\t"      \
-                     "mov lr, r2\n\t"        \
-                     "mov r8, r3\n\t"        \
-                     "mov r9, r4\n\t"        \
-                     "mov r10, r5\n\t"       \
-                     "mov r11, r6\n\t"       \
-                     "movs r2, #0\n\t"       \
-                     "mvns r2, r2\n\t"       \
-                     "lsrs r2, r2, #16\n\t"  \
-                     "mov r12, r2\n"         \
-                     "1: mov r2, lr\n\t"     \
-                     "lsls r3, r1, #4\n\t"   \
-                     "subs r2, r2, r3\n\t"   \
-                     "ldrh r3, [r2, #6]\n\t" \
-                     "cmp r3, r12\n\t"       \
-                     "bne 9f\n\t"            \
-                     "ldr r1, [r2, #8]\n\t"  \
-                     "ldrh r3, [r2]\n\t"     \
-                     "mov r4, r8\n\t"        \
-                     "subs r3, r3, r4\n\t"   \
-                     "cmp r3, r9\n\t"        \
-                     "bhs 8f\n\t"            \
-                     "ldrh r4, [r2, #2]\n\t" \
-                     "mov r5, r10\n\t"       \
-                     "subs r4, r4, r5\n\t"   \
-                     "cmp r4, r11\n\t"       \
-                     "bhs 8f\n\t"            \
-                     "ldr r5, [r0, #20]\n\t" \
-                     "muls r4, r5\n\t"       \
-                     "adds r3, r3, r4\n\t"   \
-                     "lsls r4, r3, #1\n\t"   \
-                     "ldr r5, [r0, #24]\n\t" \
-                     "ldrh r6, [r5, r4]\n\t" \
-                     "ldrh r7, [r2, #4]\n\t" \
-                     "cmp r6, r7\n\t"        \
-                     "bhs 8f\n\t"            \
-                     "strh r7, [r5, r4]\n\t" \
-                     "ldr r2, [r2, #12]\n\t" PUT "8: adds r3, r1, #1\n\t" \
-                     "bne 1b\n"              \
-                     "9:"                    \
-                     : "+r"(r0), "+r"(r1)    \
-                     :                       \
-                     : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
-
-static inline uint32_t points_list_armv6m(const struct points_plane *p, uint32_t head, bool narrow)
-{
-    struct points_plane k = *p;
-    register struct points_plane *r0 __asm__("r0") = &k;
-    register uint32_t r1 __asm__("r1") = head;
-    k.pair = 0xff00ffu;
-    k.round = 0x03f603f6u;
-    if (head == UINT32_MAX)
-        return head;
-    if (narrow)
-        POINTS_LIST(POINTS_PUT_NARROW);
-    else
-        POINTS_LIST(POINTS_PUT_WIDE);
-    return r1;
-}
-#endif
-
 #if SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(sizeof(struct point_entry) == 16 && offsetof(struct point_entry, depth) == 4
                         && offsetof(struct point_entry, next) == 8,
@@ -207,9 +104,7 @@ static inline uint32_t points_list_armv7em(const struct points_plane *p, uint32_
 
 static inline uint32_t points_list(const struct points_plane *p, uint32_t head, bool narrow)
 {
-#if SMEAR_ASM_ARMV6M
-    return points_list_armv6m(p, head, narrow);
-#elif SMEAR_ASM_ARMV7EM
+#if SMEAR_ASM_ARMV7EM
     return points_list_armv7em(p, head, narrow);
 #else
     return narrow ? points_list_reference(p, head, true) : points_list_reference(p, head, false);

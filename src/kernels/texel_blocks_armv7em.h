@@ -6,6 +6,7 @@
 
 #include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
+#include "kernels/texels_draw_armv7em.h"
 
 /* Draws `count` >= 0 whole blocks, then `rest` pixels that are no more than a block and the one behind them, if there are any. Of
  * the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are anything. */

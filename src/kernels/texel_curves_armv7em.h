@@ -5,6 +5,7 @@
 #define SMEAR_KERNELS_TEXEL_CURVES_ARMV7EM_H
 
 #include "kernels/texel_curve_rows.h"
+#include "kernels/texels_draw_armv7em.h"
 
 #if SMEAR_ASM_ARMV7EM
 

@@ -4,7 +4,6 @@
 #define SMEAR_KERNELS_TEXELS_DRAW_H
 
 #include "kernels/texels_draw_armv6m.h"
-#include "kernels/texels_draw_armv7em.h"
 #include "kernels/texels_lanes.h"
 
 /* Draws n >= 1 pixels of a run. Pixel i has the depth code z >> 16; where it is greater than that in memory,
@@ -134,27 +133,11 @@ SMEAR_INLINE void texels_draw_armv6m(struct texel_run *run, int32_t n, int log2_
 }
 #endif
 
-#if SMEAR_ASM_ARMV7EM
-/* Narrow texels whose sizes are constants. */
-SMEAR_INLINE void texels_draw_armv7em(struct texel_run *run, int32_t n, int log2_width, int log2_height,
-                                      enum texel_kind kind)
-{
-    if (kind != TEXELS_NARROW || !__builtin_constant_p(log2_width)) {
-        texels_draw_unrolled(run, n, log2_width, log2_height, kind);
-        return;
-    }
-    run->count = n;
-    texels_narrow_armv7em(run, log2_width, log2_height);
-}
-#endif
-
 SMEAR_INLINE void texels_draw(struct texel_run *run, int32_t n, int log2_width, int log2_height,
                               enum texel_kind kind)
 {
 #if SMEAR_ASM_ARMV6M
     texels_draw_armv6m(run, n, log2_width, log2_height, kind);
-#elif SMEAR_ASM_ARMV7EM
-    texels_draw_armv7em(run, n, log2_width, log2_height, kind);
 #elif TEXELS_LANES
     if (n >= 8 && !texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height))
         texels_draw_lanes(run, n, log2_width, log2_height, kind);

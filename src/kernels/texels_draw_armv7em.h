@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* texels_draw_armv7em.h - texels_draw in assembly for Cortex-M4 and others that have its instructions for halves of words: depths are
- * tested in pairs. Compilers use none of these, and as many registers as there are for less. */
+/* texels_draw_armv7em.h - narrow texels along a row, as texels_draw has them, of which blocks and rows are made in assembly for
+ * Cortex-M4 and others that have its instructions for halves of words: depths are tested in pairs. Compilers use none of these, and as
+ * many registers as there are for less. */
 #ifndef SMEAR_KERNELS_TEXELS_DRAW_ARMV7EM_H
 #define SMEAR_KERNELS_TEXELS_DRAW_ARMV7EM_H
 
@@ -155,32 +156,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
 #define ARMV7EM_SIZES \
         [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width), [from_u] "i"(32 - log2_width), \
         [index_v] "i"(32 - log2_height - log2_width), [mask_v] "i"(((1 << log2_height) - 1) << log2_width)
-
-/* Narrow texels that are copied: where neighbours are seen 10 1/2 instructions a pixel, 12 1/4 where changes change, of 17. The sizes are
- * constants, and the sum of their logarithms is 16 at most. On the stack lies the run. */
-static inline __attribute__((always_inline)) void texels_narrow_armv7em(struct texel_run *p, int log2_width, int log2_height)
-{
-    register struct texel_run *r0 __asm__("r0") = p;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r0}\n\t"
-        "ldm r0!, {r1, r2, r3, r4, r5, lr}\n\t"
-        "ldm r0, {r7, r8, r9, r10, r11, r12}\n\t"
-        "sub r8, r8, r7\n\t"
-        "orrs r0, r4, r5\n\t"
-        "bne 31f\n\t"
-        "add r4, r7, lr, lsl #1\n\t"
-        ARMV7EM_STRAIGHT("25f")
-        "31:\n\t"
-        ARMV7EM_BENT("25f")
-        "25: pop {r0}\n\t"
-        "add r8, r8, r7\n\t"
-        "str r7, [r0, #24]\n\t"
-        "strd r8, r9, [r0, #28]"
-        : "+r"(r0)
-        : ARMV7EM_SIZES
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
-}
 #endif
 
 #endif

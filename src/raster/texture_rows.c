@@ -9,7 +9,6 @@
 #include "raster/fog.h"
 #include "raster/texcoord.h"
 #include "raster/texture_curves.h"
-#include "raster/texture_places.h"
 #include "raster/texture_track.h"
 
 #if SMEAR_SPAN_ROWS
@@ -466,7 +465,7 @@ static bool rows_are_many(const struct span_rows *r)
     { \
         struct row_list list; \
         draw_blocks(s, r, &list, NULL, LOG2_WIDTH, LOG2_HEIGHT, KIND); \
-        if (list.count != 0 && !((KIND) == TEXELS_NARROW && rows_are_whole(s, r) && draw_whole_places(s, r))) \
+        if (list.count != 0) \
             draw_places(s, r, &list, NULL); \
     }
 #define ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \

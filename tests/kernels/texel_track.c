@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_track.c - how check_kernels calls kernels/texel_track.h: blocks one after the other, along planes of which some are like those of
- * triangles and some are anything; texel_blocks_armv7em.h, and texel_place_rows.h. */
+ * triangles and some are anything; and texel_blocks_armv7em.h. */
 #include "kernels/texel_blocks_armv7em.h"
-#include "kernels/texel_place_rows_armv6m.h"
-#include "kernels/texel_place_rows_armv7em.h"
 #include "kernels/texel_track.h"
 #include "kernels/texels_draw.h"
 
@@ -99,7 +97,7 @@ CALL(reference)
 CALL(armv6m)
 #endif
 
-#if SMEAR_ASM_ARMV7EM || TEXEL_PLACE_ROWS || TEXELS_LANES
+#if SMEAR_ASM_ARMV7EM || TEXELS_LANES
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END };       /* words from Z on */
 #endif
 
@@ -194,46 +192,6 @@ static void row_square(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDT
 static void row_square_lanes(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDTH, texels_row_lanes); }
 #endif
 
-#if TEXEL_PLACE_ROWS
-enum { STRIDE = 11 };
-
-static struct span_side sides[4];
-
-/* Rows of pixels within the stride, some of none. */
-static void places_prepare(struct kernel_call *c)
-{
-    prepare(c);
-    c->bytes[0] = c->n * 2;
-    c->bytes[2] = 2 << (LOG2_WIDTH + LOG2_HEIGHT);
-    for (int i = 0; i < 4; i++) {
-        const int32_t left = kernel_between(0, STRIDE - 1);
-        sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
-    }
-}
-
-SMEAR_INLINE void places_by(struct kernel_call *c, void draw(struct texel_place_rows *))
-{
-    int32_t plane[9];
-    set_planes(c, plane, 0, (int32_t)(c->word[KIND] & 511u));
-    struct texel_place_rows rows = {
-        sides, c->n / STRIDE, (int32_t)(c->word[KIND] & 511u), c->word[Z], c->word[COLOR_END], c->plane[1], STRIDE * 2,
-        (c->word[KIND] & 512u) != 0 ? SHORT_SPAN : INT32_MAX, c->word[DZ], { plane[0], plane[1], plane[2] },
-        { plane[3], plane[4], plane[5] }, { plane[6], plane[7], plane[8] }, smear_recip_seed, (int32_t)(c->word[KIND] >> 16 & 15u),
-        32 - LOG2_WIDTH, 32 - LOG2_HEIGHT, LOG2_WIDTH, c->plane[2], (int32_t)((uint8_t *)c->plane[0] - (uint8_t *)c->plane[1])
-    };
-    draw(&rows);
-}
-
-static void places_reference(struct kernel_call *c) { places_by(c, texel_place_rows_reference); }
-#if SMEAR_ASM_ARMV6M
-static void places_assembly(struct kernel_call *c) { places_by(c, texel_place_rows_armv6m); }
-#define PLACES "armv6m"
-#else
-static void places_assembly(struct kernel_call *c) { places_by(c, texel_place_rows_armv7em); }
-#define PLACES "armv7em"
-#endif
-#endif
-
 extern const struct kernel kernels_texel_track[];
 const struct kernel kernels_texel_track[] = {
     { .name = "texel_track", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
@@ -251,10 +209,6 @@ const struct kernel kernels_texel_track[] = {
       .form = { { "reference", row_narrow }, { "lanes", row_narrow_lanes } } },
     { .name = "texels_row (square)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
       .form = { { "reference", row_square }, { "lanes", row_square_lanes } } },
-#endif
-#if TEXEL_PLACE_ROWS
-    { .name = "texel_place_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 2 }, .prepare = places_prepare,
-      .form = { { "reference", places_reference }, { PLACES, places_assembly } } },
 #endif
     { .name = NULL }
 };

@@ -129,7 +129,6 @@ CALLS(armv6m)
 #endif
 
 #if SMEAR_ASM_ARMV7EM
-CALLS(armv7em)
 #define ARMV7EM(CALL) , { "armv7em", CALL }
 #else
 #define ARMV7EM(CALL)
@@ -172,8 +171,7 @@ static void curves_armv7em(struct kernel_call *c) { curves_by(c, texel_curve_row
 
 #define KERNEL(NAME, KIND, SIZE) \
     { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
-      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } BEST(KIND##_best) ARMV6M(KIND##_armv6m) \
-              ARMV7EM(KIND##_armv7em) } }
+      .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } BEST(KIND##_best) ARMV6M(KIND##_armv6m) } }
 
 extern const struct kernel kernels_texels_draw[];
 const struct kernel kernels_texels_draw[] = {
