@@ -7,7 +7,6 @@
 #include "geometry/assemble.h"
 
 #include "geometry/batch_cover.h"
-#include "geometry/batch_scan.h"
 #include "geometry/batch_store.h"
 #include "geometry/places.h"
 #include "geometry/ranges.h"
@@ -31,34 +30,23 @@ void smear_assembler_reset(struct smear_assembler *a)
 
 /* ------------------------------------------------------------------ whole triangles */
 
+/* Transforms and projects a vertex. */
+static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
+                               struct smear_cached_vertex *v, uint32_t tag)
+{
+#if SMEAR_FAST_STACK
+    struct smear_homogeneous passing, *now = &passing;
+#else
+    struct smear_homogeneous *now = &v->now;
+#endif
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+}
+
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2 };
 
-#if TINY_COVER_ARMV7EM
-/* Points from `first` on, whose weights are known, take their colour from vertices. */
-static SMEAR_RARE void color_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
-                                    const struct tiny_cover *t, uint32_t first)
-{
-    const struct smear_bins *g = b->a->bins;
-    const uint32_t *channels[3];
-    for (int i = 0; i < 3; i++)
-        channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + b->segment->color;
-    for (int i = 0; i < t->count; i++)
-        bins_triangle(g, first + (uint32_t)i)->color = tiny_color(channels[0], channels[1], channels[2], (uint32_t)t->covered[i].e1,
-                                                                  (uint32_t)t->covered[i].e2, shading_is_linear(&b->d->shading));
-}
-
-SMEAR_INLINE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
-                             struct tiny_cover *t)
-{
-    const bool colored = segment_colored(b->segment);
-    const uint32_t first = b->a->bins->triangle_count;
-    tiny_make_points(&b->rings, t, &v[0]->screen.depth, &v[1]->screen.depth, &v[2]->screen.depth,
-                     colored ? 0 : color_of_face(b, triangle, back));
-    if (colored)
-        color_points(b, v, triangle, back, t, first);
-}
-#else
 static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *const v[3], uint32_t triangle, bool back,
                                   const struct tiny_cover *t)
 {
@@ -86,7 +74,6 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
                                                       shading_is_linear(&b->d->shading));
     }
 }
-#endif
 
 /* Finds room for a triangle and three vertices. Returns false where there is none. */
 static SMEAR_RARE bool find_room(struct batch *b)
@@ -190,9 +177,9 @@ static inline uint32_t find_listed(const struct batch *b, struct smear_cached_ve
 }
 
 /* What the kernel leaves out does not lie in fast memory with it. */
-static SMEAR_NOINLINE void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_in_batch(b, v, tag); }
+static SMEAR_NOINLINE void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_vertex(b->a, b->d, v, tag); }
 #else
-static inline void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_in_batch(b, v, tag); }
+static inline void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_vertex(b->a, b->d, v, tag); }
 #endif
 
 /* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
@@ -224,7 +211,7 @@ static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t
     /* An entry that this triangle already uses for another vertex must not be overwritten. */
     if (v == in_use1 || v == in_use2)
         v = spare;
-    find_in_batch(b, v, tag);
+    find_vertex(b->a, b->d, v, tag);
     return v;
 }
 
@@ -240,13 +227,6 @@ static void batch_start(struct batch *b)
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
              && bins_margin(g) == 0;
     b->double_sided = d->material->double_sided;
-#if FRONT_COVERS
-    b->partial = b->partial || assembler_has_damage(a);
-    b->points_even = segment_by_vertices(s) && !segment_flat_depth(s);
-#endif
-#if TINY_COVER_ARMV7EM
-    b->rings = (struct points_rings){ bins_triangle(g, 0), g->opaque_last, g->row_recip, &a->bins->triangle_count, smear_recip_seed };
-#endif
     if (d->shading.lit || !d->shading.white)
         return;
     if (s->shade == SHADE_FLAT && mesh->color == NULL)
@@ -283,105 +263,6 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     return side == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
 }
 
-#if ASSEMBLE_SCANS
-SMEAR_STATIC_ASSERT(sizeof(struct scan_vertex) == sizeof(struct smear_cached_vertex)
-                        && offsetof(struct scan_vertex, stored) == offsetof(struct smear_cached_vertex, stored)
-                        && offsetof(struct scan_vertex, screen) == offsetof(struct smear_cached_vertex, screen)
-                        && offsetof(struct scan_vertex, outcode) == offsetof(struct smear_cached_vertex, outcode)
-                        && offsetof(struct scan_vertex, now) == offsetof(struct smear_cached_vertex, now) && SCAN_REJECT == OUT_REJECT,
-                    "vertices of the cache are scanned");
-
-static inline struct smear_cached_vertex *scanned(struct scan_vertex *v) { return (struct smear_cached_vertex *)(void *)v; }
-
-/* Adds a triangle whose vertices may not all be in the cache at once. */
-static SMEAR_NOINLINE bool add_slow(struct batch *b, const struct triangle_scan *s, uint32_t triangle)
-{
-    struct smear_cached_vertex spare[3], *v[3];
-    const uint32_t tag[3] = { s->tag | s->index[0], s->tag | s->index[s->second / 2], s->tag | s->index[s->third / 2] };
-    for (int i = 0; i < 3; i++) {
-        v[i] = &b->a->cache[tag[i] & s->mask];
-        if (v[i]->tag != tag[i])
-            v[i] = miss(b, tag[i], i > 0 ? v[0] : NULL, i > 1 ? v[1] : NULL, &spare[i]);
-    }
-    return add_triangle(b, v[0], v[1], v[2], triangle);
-}
-
-#if FRONT_COVERS
-/* Adds a triangle within the frame, all of which is being filled: the scan knows what it covers. */
-SMEAR_INLINE bool add_front(struct batch *b, const struct triangle_scan *s, uint32_t triangle)
-{
-    struct smear_cached_vertex *const v[3] = { scanned(s->v[0]), scanned(s->v[2]), scanned(s->v[1]) };
-    if (b->room != 0)
-        b->room--;
-    else if (!find_room(b))
-        return false;
-    b->a->triangles_drawn++;
-    if (s->covered <= POINTS_MAX && b->points
-        && (!b->points_even || tiny_is_even(v[0]->screen.depth, v[1]->screen.depth, v[2]->screen.depth))) {
-        add_points(b, v, triangle, false, &s->front->tiny);
-    } else {
-        const uint32_t low = s->front->low, high = s->front->high;
-        const struct box box = { (int32_t)(low & 0xffffu), (int32_t)(low >> 16), (int32_t)(high & 0xffffu), (int32_t)(high >> 16) };
-        add_stored(b, b->segment, v[0], v[1], v[2], triangle, false, &box);
-    }
-    return true;
-}
-
-SMEAR_STATIC_ASSERT((int)SCAN_POINTS == (int)POINTS_MAX, "scans know what becomes points");
-#endif
-
-/* Adds triangles [first, end), of which it looks only at those that may be seen. Returns false where there is no room. */
-static bool assemble_scanned(struct batch *b, uint32_t first, uint32_t end)
-{
-    struct smear_assembler *a = b->a;
-    const struct smear_assembly *d = b->d;
-    const uint16_t *const index = d->mesh->index;
-    struct triangle_scan s = { .second = d->mirrored ? 2 : 4, .third = d->mirrored ? 4 : 2, .tag = b->tag, .mask = a->cache_mask,
-                               .cache = (struct scan_vertex *)(void *)a->cache, .setup = &b->setup, .position = d->at.position,
-                               .vertex_count = b->ready ? d->mesh->vertex_count : 0u, .width = (uint32_t)a->viewport.width << 8,
-                               .height = (uint32_t)a->viewport.height << 8, .index = index + 3 * first, .end = index + 3 * end,
-                               .behind = b->double_sided ? INT32_MIN : 0 };
-#if FRONT_COVERS
-    struct front_cover front;
-    scan_fronts(&s, b, &front);
-    struct scan_records records;
-    scan_stores(&s, b, &records);
-#endif
-    for (;;) {
-        bool added = true;
-#if FRONT_COVERS
-        scan_segment(&records, b);
-#endif
-        const enum scan_end at = scan_on(&s, b);
-        if (at == SCAN_DONE)
-            return true;
-        const uint32_t next = (uint32_t)(s.index - index) * 0xaaaaaaabu;        /* a third, which is whole */
-        if (at == SCAN_FRONT && !b->partial) {
-#if FRONT_COVERS
-            added = add_front(b, &s, next - 1);
-#else
-            added = add_visible(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, false);
-#endif
-        } else if (at == SCAN_FRONT) {
-            added = add_whole(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1, false, true);
-        } else if (at == SCAN_ANY) {
-            added = add_triangle(b, scanned(s.v[0]), scanned(s.v[2]), scanned(s.v[1]), next - 1);
-        } else if (at == SCAN_OUTSIDE) {
-            s.v[0]->outcode = outcode_sides(&s.v[0]->screen, &a->viewport);
-        } else if (at == SCAN_UNREADY) {
-            find_unready(b, scanned(s.v[0]), s.missing);
-        } else {
-            added = add_slow(b, &s, next);
-            s.index += 3;
-        }
-        if (!added) {
-            a->resume = (struct smear_resume){ (uint32_t)(s.index - index) * 0xaaaaaaabu - 1, b->parts };
-            return false;
-        }
-    }
-}
-#endif
-
 /* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room. */
 static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
 {
@@ -394,9 +275,6 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         if (!SMEAR_SMALL_FILE && !SMEAR_PLACES && d->mesh->vertex_count <= a->cache_mask + 1u && first == 0 && a->ranges == NULL)
             find_all(b, b->tag);
     }
-#if ASSEMBLE_SCANS
-    return assemble_scanned(b, first, end);
-#else
     const uint32_t tag = b->tag;
     struct smear_cached_vertex spare[3];
     struct smear_cached_vertex *const cache = a->cache;
@@ -421,7 +299,6 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         }
     }
     return true;
-#endif
 }
 
 /* ------------------------------------------------------------------ triangles by fours */
@@ -650,9 +527,6 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
     if (b.segment == NULL)
         return false;
     batch_start(&b);
-#if SMEAR_VERTEX_SETUP
-    batch_make_ready(&b);
-#endif
     const struct smear_tile_box filled = ranges_filled(a, false);
     for (uint32_t first = max_u32(d->first, a->resume.triangle), end = first; end < d->end; first = end) {
         end = ranges_next(a, filled, &first, d->end);

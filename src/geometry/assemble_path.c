@@ -486,18 +486,16 @@ static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
     return cache;
 }
 
-static inline void make_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag,
-                               struct path_places *places)
+static inline void make_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
 {
-    if (!path_places_take(v, places, tag))
-        find_vertex(v, a, d, tag);
+    find_vertex(v, a, d, tag);
     find_kind(v, is_orthographic(&d->at.now));
 }
 
 static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,
                                    const struct smear_assembly *d, uint32_t tag,
                                    const struct path_vertex *in_use1, const struct path_vertex *in_use2,
-                                   struct path_vertex *spare, struct path_places *places)
+                                   struct path_vertex *spare)
 {
     struct path_vertex *v = &cache[tag & mask];
     if (v->tag == tag)
@@ -508,7 +506,7 @@ static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, con
     }
     if (v == in_use1 || v == in_use2)       /* this triangle still needs it */
         v = spare;
-    make_vertex(v, a, d, tag, places);
+    make_vertex(v, a, d, tag);
     return v;
 }
 
@@ -553,22 +551,20 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     uint32_t mask;
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
-    struct path_places places;
-    path_places_open(&places, a, d);
     uint32_t first = max_u32(d->first, a->resume.triangle);
     /* One after the other they cost less. */
     if (!SMEAR_SMALL_FILE && d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
         for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
-            make_vertex(&cache[i], a, d, tag + i, &places);
+            make_vertex(&cache[i], a, d, tag + i);
     const struct smear_tile_box filled = ranges_filled(a, !is_blend(d));
     for (uint32_t end = first; end < d->end; first = end) {
         end = ranges_next(a, filled, &first, d->end);
         const uint16_t *index = d->mesh->index + 3 * first;
         for (uint32_t i = first; i < end; i++, index += 3) {
             struct path_vertex *v[3];
-            v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0], &places);
-            v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1], &places);
-            v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2], &places);
+            v[0] = look_up(cache, mask, a, d, tag | index[0], NULL, NULL, &spare[0]);
+            v[1] = look_up(cache, mask, a, d, tag | index[1], v[0], NULL, &spare[1]);
+            v[2] = look_up(cache, mask, a, d, tag | index[2], v[0], v[1], &spare[2]);
             b.parts = 0;
             b.parts_before = (uint16_t)parts_before(a, i);
             if (!add_seen(&b, v, i)) {

@@ -5,8 +5,6 @@
 
 #include "geometry/vertex.h"
 #include "kernels/vector.h"
-#include "kernels/front_cover.h"
-#include "kernels/tiny_points.h"
 
 /* Triangles are looked at by fours, whose vertices lie in an array, where the machine has vectors. */
 #ifndef SMEAR_PLACES
@@ -46,24 +44,13 @@ struct batch {
     struct smear_segment *segment;      /* the newest */
     uint32_t tag;                       /* of its vertices in the cache; 0: none is there */
     bool shares;                        /* all faces of a vertex share its record */
-    bool partial;                       /* only a part of the frame is being filled, or triangles have a margin; with FRONT_COVERS
-                                         * also where only a part is damaged */
+    bool partial;                       /* only a part of the frame is being filled, or triangles have a margin */
     bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
     bool double_sided;
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
     uint16_t room;                      /* for so many more triangles there is room, if nothing else is added */
-#if FRONT_COVERS
-    bool points_even;                   /* that only where depths are nearly even */
-#endif
-#if TINY_COVER_ARMV7EM
-    struct points_rings rings;          /* where points go */
-#endif
-#if SMEAR_VERTEX_SETUP
-    bool ready;                         /* `setup` finds vertices */
-    struct vertex_setup setup;
-#endif
     struct smear_placement fine;        /* by which triangles are cut; without positions until there is one */
 };
 

@@ -1,11 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* batch_cover.h - which pixels a triangle covers in a box of up to TINY_BOX pixels a side (kernels/tiny_cover.h). */
+/* batch_cover.h - which pixels a triangle covers in a box of up to TINY_BOX pixels a side. */
 #ifndef SMEAR_BATCH_COVER_H
 #define SMEAR_BATCH_COVER_H
 
 #include "geometry/tiny.h"
 #include "geometry/vertex.h"
-#include "kernels/tiny_cover.h"
+
+/* A pixel that a triangle covers, and its edge functions there: twice the areas opposite to corners 1 and 2, q16. */
+struct covered {
+    int32_t x, y, e1, e2;
+};
+
+enum { TINY_BOX = 2, COVERED_KEPT = 2 };
+struct tiny_cover {
+    int32_t area;                   /* twice the area, q16 px */
+    int32_t count;                  /* centres covered */
+    struct covered covered[COVERED_KEPT];       /* the first of them, row by row */
+};
+
+/* Counts a pixel of which no edge function is negative, and keeps it while there is room. */
+SMEAR_INLINE void tiny_cover_keep(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
+{
+    if ((e0 | e1 | e2) < 0)
+        return;
+    if (t->count < COVERED_KEPT)
+        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
+    t->count++;
+}
 
 /* Finds which centres of the box are covered: one after the other where size counts. */
 static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,

@@ -5,7 +5,13 @@
 
 #include "base/fixmath.h"
 #include "geometry/matrix.h"
-#include "kernels/vertices.h"
+#include "kernels/places.h"
+
+/* Homogeneous position in a projection's scale. */
+struct smear_homogeneous {
+    int32_t x, y, w;
+    int32_t distance;       /* w for perspective */
+};
 
 /* Positions on the screen stay within 2048 px of its centre: triangles that reach further are clipped. Edges
  * are then at most 2^20 steps of q8 long, which the exact edge walk of raster.c relies on. */

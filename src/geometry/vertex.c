@@ -18,28 +18,6 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
     }
 }
 
-#if SMEAR_VERTEX_SETUP
-bool smear_vertex_setup(struct vertex_setup *setup, const struct smear_placement *p, const struct smear_viewport *viewport)
-{
-    const struct smear_depths *depths = &p->now.depths;
-    const struct place_setup s = { p->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa,
-                                   depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
-                                   viewport->width << 7, viewport->height << 7 };
-    if (depths_are_even(depths) || p->extra_count != 0)
-        return false;
-    vertex_setup_make(setup, &s);
-    return true;
-}
-
-bool smear_vertex_find_unready(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
-                               struct vertex_setup *setup)
-{
-    const int32_t w = vertex_row_of(&setup->row[2], v);
-    return w >= setup->near_distance && w <= setup->far_distance && vertex_setup_for(setup, w)
-        && vertex_find(screen, now, v, setup);
-}
-#endif
-
 /* Returns those of `sides` that all corners of the mesh's bounds lie beyond. All that is between corners does, too:
  * before they are divided by w, its places are sums of theirs. */
 static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport,

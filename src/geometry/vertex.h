@@ -237,20 +237,6 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
     return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
 }
 
-/* What a draw's vertices share is made ready where that pays: compilers reload it for each of them. */
-#ifndef SMEAR_VERTEX_SETUP
-#define SMEAR_VERTEX_SETUP (SMEAR_ASM_ARMV7EM && !SMEAR_SMALL_CODE)
-#endif
-
-#if SMEAR_VERTEX_SETUP
-/* Makes a setup for the vertices of a placement, ready for no w yet. Returns false where there is none. */
-bool smear_vertex_setup(struct vertex_setup *setup, const struct smear_placement *p, const struct smear_viewport *viewport);
-
-/* Finds a vertex for which the setup is not ready: makes it ready for others like it. Returns false where that cannot be. */
-bool smear_vertex_find_unready(struct smear_screen *screen, struct smear_homogeneous *now, const int16_t v[3],
-                               struct vertex_setup *setup);
-#endif
-
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
 
