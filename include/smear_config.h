@@ -135,11 +135,9 @@
 #endif
 
 /* Called with SMEAR_STAGE_ASSEMBLE before draws become lists of triangles, with SMEAR_STAGE_DRAW before
- * these are drawn, and then with SMEAR_STAGE_LATE before rows of a sharp frame whose pixels are written late (late_blocks.h):
- * where little memory is fast, the code that comes next may be brought there. */
+ * these are drawn: where little memory is fast, the code that comes next may be brought there. */
 #define SMEAR_STAGE_ASSEMBLE 0
 #define SMEAR_STAGE_DRAW 1
-#define SMEAR_STAGE_LATE 2
 #ifndef SMEAR_ENTER_STAGE
 #define SMEAR_ENTER_STAGE(stage) ((void)0)
 #endif

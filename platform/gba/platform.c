@@ -26,13 +26,13 @@ void gba_main(void);
 const char platform_clock_unit[] = "cycles";
 
 extern uint8_t link_fast_end[], link_warm_start[];
-extern uint8_t link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[], link_late_load[], link_late_size[];
+extern uint8_t link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[];
 
 void gba_enter_stage(int stage)
 {
     static int entered = SMEAR_STAGE_DRAW;        /* start.S */
-    static uint8_t *const load[] = { link_assemble_load, link_draw_load, link_late_load };
-    static uint8_t *const size[] = { link_assemble_size, link_draw_size, link_late_size };
+    static uint8_t *const load[] = { link_assemble_load, link_draw_load };
+    static uint8_t *const size[] = { link_assemble_size, link_draw_size };
     const uint32_t words = (uint32_t)size[stage] / 4;
     if (words == 0 || stage == entered)
         return;

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-/* Copies the functions of hot_assemble.ld or hot_draw.ld, or over some of the latter those that draw late blocks (gba.ld). */
+/* Copies the functions of hot_assemble.ld or hot_draw.ld. */
 void gba_enter_stage(int stage);
 
 #define SMEAR_ENTER_STAGE(stage) gba_enter_stage(stage)

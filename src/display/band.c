@@ -141,13 +141,6 @@ static bool convert_at_once(const struct row_job *r, const struct smear_raster_t
     for (int32_t y = box->y0, n; y < box->y1; y += n) {
         const int32_t at = target_row(&t->color_rows, t, y), left_over = t->color_rows.ring - t->color_rows.ring_row - (y - t->y0);
         n = min_i32(box->y1 - y, left_over > 0 ? left_over : left_over + t->color_rows.ring);
-#if SMEAR_LATE_BLOCKS
-        if (t->late) {
-            smear_format_rows_late(band + (uint32_t)(y - top) * stride, stride, t->color + at + box->x0, t->color_rows.stride, n,
-                                   box->x1 - box->x0, box->x0, y);
-            continue;
-        }
-#endif
         if (!smear_format_rows(band + (uint32_t)(y - top) * stride, stride, t->color + at + box->x0, t->color_rows.stride, n,
                                box->x1 - box->x0, box->x0, y, format, (smear_dither)r->rows->desc->display.dither))
             return false;

@@ -192,17 +192,3 @@ bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32
 }
 #endif
 
-#if SMEAR_LATE_BLOCKS
-bool smear_format_takes_late(smear_format format, smear_dither dither)
-{
-    return SMEAR_ROWS_AT_ONCE && SMEAR_WITH_RGB && format == SMEAR_RGB555 && SMEAR_WITH_DITHER && dither == SMEAR_DITHER_ORDERED;
-}
-
-void smear_format_rows_late(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
-                            int32_t y)
-{
-    const struct dithered_rows r = { .out = (uint16_t *)(void *)band + x, .in = in, .out_stride = (ptrdiff_t)(stride / 2),
-                                     .in_stride = in_stride, .rows = rows, .n = n, .x = x, .y = y, .late = true };
-    smear_rows_dithered_blocks(&r, ROW_555);
-}
-#endif

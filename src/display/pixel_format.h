@@ -7,7 +7,6 @@
 
 #include "base/base.h"
 #include "kernels/vector.h"
-#include "kernels/late_blocks.h"
 
 /* Whether the format was compiled in, with that dither. */
 bool smear_format_has(int format, int dither);
@@ -28,14 +27,6 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
  * row by row: then nothing is written. */
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
                        int32_t y, smear_format format, smear_dither dither);
-#endif
-
-#if SMEAR_LATE_BLOCKS
-/* Writes rows of late blocks likewise, of a format for which smear_format_takes_late says so: x, n and a stride's pixels are multiples of
- * eight, and the band lies at a multiple of four bytes. */
-bool smear_format_takes_late(smear_format format, smear_dither dither);
-void smear_format_rows_late(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
-                            int32_t y);
 #endif
 
 /* Whether the bytes of a pixel are not in this machine's order; smear_format_swap exchanges them. */

@@ -3,7 +3,6 @@
 #include "display/row.h"
 
 #include "kernels/fill.h"
-#include "kernels/late_blocks.h"
 
 #if SMEAR_RASTER_CACHE
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes)
@@ -27,9 +26,6 @@ void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, 
         .color = w->color, .color_rows = plane, .depth = w->depth, .window_rows = plane,
         .moving = w->moving, .tile_shift = (uint8_t)w->tile_shift
     };
-#if SMEAR_LATE_BLOCKS
-    t->late = rows->late;
-#endif
 }
 
 void smear_row_target(const struct smear_rows *rows, int row, struct smear_raster_target *t)
@@ -100,12 +96,6 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
         /* Whole rows lie one behind the other, but at the end of the ring. */
         for (; !SMEAR_SMALL_FILE && y + 1 < t->y1 && target_row(&t->window_rows, t, y + 1) + t->x0 == at + n; y++)
             n += width;
-#if SMEAR_LATE_BLOCKS
-        if (t->late) {
-            late_clear(t->color + at, color, n / LATE_BLOCK);
-            continue;
-        }
-#endif
         pixels_fill(t->color + at, color, n);
         pixels_clear_narrow(t->depth + at, n);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)

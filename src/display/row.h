@@ -63,9 +63,6 @@ struct smear_rows {
     bool blends;                /* some draw is blended */
     bool keeps_motion;          /* triangles that move write velocities into the window */
     uint16_t points;            /* the first listed point of the overlay's, or SMEAR_NO_POINT: points.h */
-#if SMEAR_LATE_BLOCKS
-    bool late;                  /* the window's pixels are late blocks; a word in every context, so not where there are none */
-#endif
     uint32_t clear;             /* 0x00RRGGBB */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */
     uint32_t *scratch;          /* finished pixels of a tile or strip per worker */

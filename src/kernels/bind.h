@@ -195,9 +195,6 @@
 #define SMEAR_ROWS_AT_ONCE \
     (!SMEAR_VECTORS && !SMEAR_SMALL_FILE && !SMEAR_ON_WASM && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565))
 
-/* Blocks of pixels may be written late (late_blocks.h), where assembly draws and converts them. */
-#define SMEAR_LATE_BLOCKS SMEAR_ASM_ARM
-
 /* Functions that have one copy where fast memory has no room for more. */
 #if SMEAR_ASM_ARM
 #define SMEAR_COPY SMEAR_NOINLINE

@@ -5,7 +5,7 @@
 
 #include "kernels/edge_fine.h"
 #include "kernels/flat_run.h"
-#include "kernels/late_blocks.h"
+#include "kernels/fill.h"
 
 /* Where the depth code breaks, units q11: below it they have 32 times as many codes 16.16, from it on twice. And the code there, of
  * which the half for rounding is part. */
@@ -41,9 +41,6 @@ struct flat_lines {
 #endif
     uint32_t color;                 /* twice where pixels are narrow */
     bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes */
-#if SMEAR_LATE_BLOCKS
-    bool late;                      /* rows are late blocks, of wide pixels */
-#endif
 };
 
 static inline void flat_lines_side(struct flat_lines *l, int side, const struct edge_fine *e)
@@ -119,51 +116,5 @@ SMEAR_INLINE void flat_lines_runs(struct flat_lines *l, int32_t n, bool narrow)
     flat_lines_side(l, 0, &side[0]);
     flat_lines_side(l, 1, &side[1]);
 }
-
-#if SMEAR_LATE_BLOCKS
-/* Pixels [a, b) of a block, z being the code of pixel a. A cleared block that all of them are, nearer for certain, stays late. */
-static inline void flat_late_block(uint32_t *pixels, uint16_t *depth, int32_t a, int32_t b, uint32_t z, const struct flat_lines *l,
-                                   uint32_t dz, bool sure)
-{
-    uint32_t *const block = pixels + (a & ~(LATE_BLOCK - 1));
-    if (sure && b - a == LATE_BLOCK && (*block & LATE_CLEAR) != 0) {
-        block[0] = LATE_COLOR | l->color;
-        block[1] = z;
-        block[2] = dz;
-        return;
-    }
-    late_settle(block, depth + (a & ~(LATE_BLOCK - 1)));
-    for (int32_t x = a; x < b; x++, z += dz)
-        flat_pixel(pixels, depth, x, z, l->color, false);
-}
-
-/* As flat_lines of late blocks. A row whose codes have their break within it is settled, and drawn as ever. */
-static inline void flat_lines_late_reference(struct flat_lines *l, int32_t n)
-{
-    struct edge_fine side[2];
-    flat_lines_take_sides(l, side);
-    for (; n > 0; n--) {
-        uint32_t *const pixels = (uint32_t *)(void *)((uintptr_t)l->depth * 2u + l->to_pixels);
-        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
-        const uint32_t first = l->z + l->dz * (uint32_t)a, last = first + l->dz * (uint32_t)(b - a - 1);
-        if (a < b && l->breaks && ((first ^ last) >> 31) != 0) {
-            late_settle_run(pixels, l->depth, a, b);
-            for (int32_t x = a; x < b; x++)
-                flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, true), l->color, false);
-        } else if (a < b) {
-            const uint32_t times = !l->breaks ? 1u : first >> 31 != 0 ? 32u : 2u;
-            const uint32_t z = first * times + (l->breaks ? FLAT_BREAK_CODE : 0u), dz = l->dz * times;
-            const bool sure = late_is_sure(z, dz, b - a);
-            for (int32_t x = a, end; x < b; x = end) {
-                end = min_i32((x & ~(LATE_BLOCK - 1)) + LATE_BLOCK, b);
-                flat_late_block(pixels, l->depth, x, end, z + dz * (uint32_t)(x - a), l, dz, sure);
-            }
-        }
-        flat_lines_go_down(l, side);
-    }
-    flat_lines_side(l, 0, &side[0]);
-    flat_lines_side(l, 1, &side[1]);
-}
-#endif
 
 #endif

@@ -191,9 +191,9 @@ SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blo
 #endif
 
 #if SMEAR_ASM_ARM
-static SMEAR_NOINLINE void blocks_555_arm(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool late)
+static SMEAR_NOINLINE void blocks_555_arm(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step)
 {
-    dithered_blocks_arm(out, in, blocks, step, late);
+    dithered_blocks_arm(out, in, blocks, step);
 }
 #endif
 
@@ -205,7 +205,7 @@ SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t 
 #else
 #if SMEAR_ASM_ARM
     if (is_555) {
-        blocks_555_arm(out, in, blocks, step, false);
+        blocks_555_arm(out, in, blocks, step);
         return;
     }
 #endif
@@ -285,7 +285,7 @@ void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit fo
 #endif
 #if SMEAR_ASM_ARM
         if (SMEAR_WITH_RGB && format == ROW_555) {
-            blocks_555_arm(out, in, blocks, step, r->late);
+            blocks_555_arm(out, in, blocks, step);
             continue;
         }
 #endif

@@ -8,7 +8,7 @@
 
 #include "base/pixel.h"
 #include "kernels/vector.h"
-#include "kernels/late_blocks.h"
+#include "kernels/fill.h"
 
 /* ------------------------------------------------------------------ levels */
 
@@ -143,9 +143,6 @@ struct dithered_rows {
     int32_t rows, n, x, y;
     const uint8_t *threshold;
     int32_t mask;
-#if SMEAR_LATE_BLOCKS
-    bool late;              /* pixels are late blocks, of ROW_555: smear_rows_dithered_blocks takes them */
-#endif
 };
 
 #ifndef __OPTIMIZE_SIZE__

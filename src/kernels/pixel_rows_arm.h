@@ -4,7 +4,7 @@
 #ifndef SMEAR_KERNELS_PIXEL_ROWS_ARM_H
 #define SMEAR_KERNELS_PIXEL_ROWS_ARM_H
 
-#include "kernels/late_blocks.h"
+#include "kernels/fill.h"
 
 #if SMEAR_ASM_ARM
 
@@ -98,10 +98,7 @@
         "ldr pc, [sp, #44]\n"
 
 #define ARM_DITHERED_START \
-        "sub sp, sp, #52\n\t" \
-        "cmp r12, #0\n\t" \
-        "movne r12, r2\n\t" \
-        "str r12, [sp, #48]\n\t" \
+        "sub sp, sp, #48\n\t" \
         "ldmia r3, {r4, r5, r6, r7}\n\t" \
         "mov r8, #0\n\t" \
         "mov r9, #0\n\t" \
@@ -114,58 +111,9 @@
         "mov r3, #0xf800\n\t" \
         "orr r3, r3, r3, lsl #16\n"
 
-/* Late blocks, from the one at 50 on: at 51, of another colour than the last flat one, whose words are made. */
-#define ARM_DITHERED_LATE \
-        "50: ldr r4, [r0]\n\t" \
-        "cmp r4, #0\n\t" \
-        "bpl 56f\n\t" \
-        "bic r4, r4, #0xff000000\n\t" \
-        "add r0, r0, #32\n\t" \
-        "cmp r4, r12\n\t" \
-        "bne 51f\n" \
-        "52: add lr, sp, #16\n\t" \
-        "ldmia lr, {r4, r5, r6, r7}\n\t" \
-        "ldr lr, [sp, #48]\n" \
-        "55: stmia r1!, {r4, r5, r6, r7}\n\t" \
-        "cmp r0, lr\n\t" \
-        "beq 90f\n\t" \
-        "ldr r2, [r0]\n\t" \
-        "eor r2, r2, r12\n\t" \
-        "bic r2, r2, #0x40000000\n\t" \
-        "cmp r2, #0x80000000\n\t" \
-        "addeq r0, r0, #32\n\t" \
-        "beq 55b\n\t" \
-        "b 50b\n" \
-        "51: cmp r4, r11\n\t" \
-        "beq 53f\n\t" \
-        "mov r5, r4\n\t" \
-        "bl 80b\n" \
-        "53: mov r12, r11\n\t" \
-        "mov r6, sp\n" \
-        "54: ldr r5, [r6]\n\t" \
-        "add r4, r10, r5\n\t" \
-        "add r2, r9, r5\n\t" \
-        "add r5, r8, r5\n\t" \
-        "and r4, r4, r3\n\t" \
-        "and r2, r2, r3\n\t" \
-        "and r5, r5, r3\n\t" \
-        "mov r4, r4, lsr #1\n\t" \
-        "orr r4, r4, r2, lsr #6\n\t" \
-        "orr r4, r4, r5, lsr #11\n\t" \
-        "str r4, [r6, #16]\n\t" \
-        "add r6, r6, #4\n\t" \
-        "sub r5, r6, sp\n\t" \
-        "cmp r5, #16\n\t" \
-        "bne 54b\n\t" \
-        "b 52b\n" \
-        "56: add lr, r0, #32\n\t" \
-        "str lr, [sp, #32]\n\t" \
-        "b 1b\n"
-
 /* At 21 the first half was of the flat colour. */
 #define ARM_DITHERED_BLOCKS \
         ARM_DITHERED_START \
-        "bne 50f\n" \
         "1:\n\t" \
         ARM_IS_FLAT("20") \
         ARM_IS_FLAT("21") \
@@ -205,29 +153,22 @@
         ARM_DITHERED_OTHER("", "8", "32", "42") \
         ARM_DITHERED_OTHER(ARM_SECOND_PAIR, "12", "33", "43") \
         ARM_MAKE_PAIR \
-        ARM_DITHERED_LATE \
-        "90: ldr lr, [sp, #48]\n\t" \
-        "cmp lr, #0\n\t" \
-        "cmpne r0, lr\n\t" \
-        "bne 50b\n\t" \
-        "add sp, sp, #52"
+        "90: add sp, sp, #48"
 
 /* As dithered_blocks, of 555. On the stack from sp on lie the steps, four words of pixels as the last block of one colour has
- * them, which is in r12, the end, where the input was when a pair came that was not of its block's colour, two words to keep
- * registers, and 0, or the end again where blocks may be late: the end of a block that is not then stands in its place. Black is the
- * first colour: its words are 0. */
-static inline void dithered_blocks_arm(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool late)
+ * them, which is in r12, the end, where the input was when a pair came that was not of its block's colour, and two words to keep
+ * registers. Black is the first colour: its words are 0. */
+static inline void dithered_blocks_arm(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step)
 {
     register const uint32_t *r0 __asm__("r0") = in;
     register uint16_t *r1 __asm__("r1") = out;
     register const uint32_t *r2 __asm__("r2") = in + 8 * blocks;
     register const uint32_t *r3 __asm__("r3") = step;
-    register uint32_t r12 __asm__("r12") = late;
     __asm__ volatile(
         ARM_DITHERED_BLOCKS
-        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3), "+r"(r12)
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
         :
-        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "lr", "cc", "memory");
+        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_TEXEL_RUN_H
 #define SMEAR_KERNELS_TEXEL_RUN_H
 
-#include "kernels/late_blocks.h"
+#include "kernels/fill.h"
 #include "kernels/texel_light.h"
 
 /* How texels become pixels. */
@@ -108,13 +108,6 @@ SMEAR_INLINE void texel_run_advance(struct texel_run *r, int32_t n, bool narrow)
     r->color = pixel_after(r->color, n, narrow);
 }
 
-/* Where blocks may be late, pixels have no top byte. */
-#if SMEAR_LATE_BLOCKS
-#define TEXEL_COPIED 0xffffffu
-#else
-#define TEXEL_COPIED 0xffffffffu
-#endif
-
 /* Pixel i becomes a texel. */
 SMEAR_INLINE void texel_put(void *color, int32_t i, const void *texels, struct texel_light *light, uint32_t index,
                             enum texel_kind kind)
@@ -122,7 +115,7 @@ SMEAR_INLINE void texel_put(void *color, int32_t i, const void *texels, struct t
     if (kind == TEXELS_NARROW)
         ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
     else if (kind == TEXELS_WIDE)
-        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index] & TEXEL_COPIED;
+        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
     else if (kind == TEXELS_LIT_NARROW)
         ((uint16_t *)color)[i] = (uint16_t)texel_light_pixel(light, index, true);
     else

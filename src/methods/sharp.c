@@ -102,35 +102,12 @@ static bool is_covered(const struct smear_rows *rows, int row)
         && (smear_overlay_touches(rows->overlay, &box) || smear_points_touch(rows, box.y0, box.y1));
 }
 
-#if SMEAR_LATE_BLOCKS
-/* Whether blocks of pixels of a row are written late: nothing reads them but what converts them. In narrow frames, few faces have
- * whole ones. */
-static bool may_be_late(const struct smear_rows *rows, int row)
-{
-    enum { WIDTH_LEAST = 160 };
-    const smear_desc *d = rows->desc;
-    const struct smear_window *w = &rows->window;
-    const uintptr_t places = (uintptr_t)w->depth | (uintptr_t)rows->bands.buffer[0] | (uintptr_t)rows->bands.buffer[1];
-    return w->width >= WIDTH_LEAST && w->width % LATE_BLOCK == 0 && (places & 3u) == 0 && !rows->blends && rows->refill == NULL
-        && rows->inspect == NULL && smear_format_takes_late((smear_format)d->format, (smear_dither)d->display.dither)
-        && !is_covered(rows, row);
-}
-#endif
-
 /* Draws a row by way of the window. */
 static inline int draw_window_row(struct smear_rows *rows, int row)
 {
-#if SMEAR_LATE_BLOCKS
-    rows->late = may_be_late(rows, row);
-    if (rows->late)
-        SMEAR_ENTER_STAGE(SMEAR_STAGE_LATE);
-#endif
     smear_sharp_draw_row(rows, row);
     smear_row_blend(rows, row);
     const int result = smear_band_finish_row(rows, row);
-#if SMEAR_LATE_BLOCKS
-    rows->late = false;
-#endif
     return result;
 }
 
@@ -158,16 +135,8 @@ static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage
     smear_sharp_advance_lists(rows, row);
     row_advance_blended(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
-#if SMEAR_LATE_BLOCKS
-    rows->late = may_be_late(rows, row);
-    if (rows->late)
-        SMEAR_ENTER_STAGE(SMEAR_STAGE_LATE);
-#endif
     while (result == SMEAR_OK && smear_damage_next_run(damage, rows, row, &run))
         result = draw_damaged_run(rows, row, &run);
-#if SMEAR_LATE_BLOCKS
-    rows->late = false;
-#endif
     smear_damage_row_sent(damage, rows, row);
     return result;
 }

@@ -78,7 +78,6 @@ static inline void draw_run(const struct setup *s, struct span *p, const struct 
     p->at = r->window + p->a;
     p->color = target_is_direct(t) ? (void *)(t->direct + p->at) : t->color + (r->color + p->a);
     p->depth = t->depth + p->at;
-    target_settle(t, r->window, p->a, p->b);
     p->z = code_from_units(units, slope);
     p->dz = step_from_units(s->depth.dx, slope);
     p->mask = NULL;
@@ -231,22 +230,9 @@ static inline void gather_start(struct gather *g, const struct setup *s, int32_t
     g->rows.count = 0;
 }
 
-#if SMEAR_LATE_BLOCKS
-static SMEAR_NOINLINE void gather_settle(const struct gather *g, const struct smear_raster_target *t)
-{
-    int32_t at = g->rows.at;
-    for (int32_t i = 0; i < g->rows.count; i++, at += t->window_rows.stride)
-        smear_target_settle(t, at, g->rows.side[i].left, g->rows.side[i].right);
-}
-#endif
-
 static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
 {
     g->rows.at = (g->ring_row - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
-#if SMEAR_LATE_BLOCKS
-    if (s->target->late)
-        gather_settle(g, s->target);
-#endif
     draw(s, &g->rows);
     g->rows.y += g->rows.count;
     g->rows.count = 0;

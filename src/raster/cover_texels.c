@@ -247,7 +247,6 @@ SMEAR_INLINE void draw_few(const struct setup *s, const struct few_texels *k, in
             ring_row -= t->window_rows.ring;
         int32_t at = ring_row * t->window_rows.stride + x - t->window_rows.x0;
         const int32_t end = at + (x1 - x);
-        target_settle(t, at - x, x, x1);
         do {
             const int32_t w1 = (int32_t)(tiny_weight(scale, e1) >> 1), w2 = (int32_t)(tiny_weight(scale, e2) >> 1);
             const uint32_t code = tiny_code(k->q + tiny_part(k->to_q.to1, w1) + tiny_part(k->to_q.to2, w2));

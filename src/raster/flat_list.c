@@ -105,30 +105,12 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->color = target_pixel(t, color);
     if (l->narrow)
         l->color *= 0x10001u;
-#if SMEAR_LATE_BLOCKS
-    l->late = t->late;
-#endif
     l->depth_bytes = t->window_rows.stride * 2;
     l->to_pixels = to_pixels_of(t, l->narrow);
 }
 
-#if SMEAR_LATE_BLOCKS
-static SMEAR_COPY void draw_late_lines(struct flat_lines *l, int32_t n) { flat_lines_late_arm(l, n); }
-
-void smear_target_settle(const struct smear_raster_target *t, int32_t at, int32_t a, int32_t b)
-{
-    late_settle_run(t->color + at, t->depth + at, max_i32(a, t->x0), min_i32(b, t->x1));
-}
-#endif
-
 static SMEAR_COPY void draw_lines(struct flat_lines *l, int32_t n)
 {
-#if SMEAR_LATE_BLOCKS
-    if (l->late) {
-        draw_late_lines(l, n);
-        return;
-    }
-#endif
     flat_lines(l, n, SMEAR_DIRECT && l->narrow);
 }
 

@@ -18,7 +18,7 @@ bool smear_raster_points_make(struct points_plane *p, const struct smear_raster_
     *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
                                 (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
                                 target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, 0, 0 };
-    return !SMEAR_LATE_BLOCKS && rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
+    return rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
 }
 
 uint32_t smear_raster_points(const struct points_plane *p, uint32_t head, bool narrow) { return points_list(p, head, narrow); }

@@ -18,7 +18,6 @@ static inline void draw_point(const struct smear_raster_frame *frame,
     if (ring_row >= target->window_rows.ring)
         ring_row -= target->window_rows.ring;
     int32_t at = ring_row * target->window_rows.stride + x - target->window_rows.x0;
-    target_settle(target, at - x, x, x + 1);
     if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
     target->depth[at] = t->vertex[POINT_DEPTH];

@@ -40,7 +40,6 @@ struct smear_raster_target {
     uint8_t *moving;                /* per column of tiles: set when a moving triangle was drawn there */
     bool over;                      /* triangles were drawn before the list, moving ones maybe */
     uint8_t tile_shift;             /* log2 of the tile's edge, for `moving` */
-    bool late;                      /* the window's pixels are late blocks: where there are such */
 };
 
 /* Tests and tools look at velocities. */
@@ -58,11 +57,6 @@ static inline bool target_is_direct(const struct smear_raster_target *t)
 {
     return SMEAR_DIRECT && t->direct != NULL;
 }
-
-#if SMEAR_LATE_BLOCKS
-/* What target_settle does where they are late. */
-void smear_target_settle(const struct smear_raster_target *t, int32_t at, int32_t a, int32_t b);
-#endif
 
 /* A working pixel as the target has it. */
 static inline uint32_t target_pixel(const struct smear_raster_target *t, uint32_t color)
@@ -84,20 +78,6 @@ static inline int32_t target_row(const struct smear_plane_rows *rows, const stru
 {
     int32_t ring_row = rows->ring_row + (y - t->y0);
     return (ring_row >= rows->ring ? ring_row - rows->ring : ring_row) * rows->stride - rows->x0;
-}
-
-/* Before pixels [a, b) of a row are drawn whose column 0 is at this index: they are written, where they may be late. */
-static inline void target_settle(const struct smear_raster_target *t, int32_t at, int32_t a, int32_t b)
-{
-#if SMEAR_LATE_BLOCKS
-    if (t->late)
-        smear_target_settle(t, at, a, b);
-#else
-    (void)t;
-    (void)at;
-    (void)a;
-    (void)b;
-#endif
 }
 
 /* The box of a triangle's vertices, q8. */

@@ -21,15 +21,13 @@ static SMEAR_NOINLINE void colors_in_fog(struct tiny_box *b, const struct setup 
     }
 }
 
-/* Draws n rows of a box whose first pixel is at index `at`, in column x. */
-static inline void draw_rows(struct tiny_box *b, const struct smear_raster_target *t, int32_t at, int32_t x, int32_t n)
+/* Draws n rows of a box whose first pixel is at index `at`. */
+static inline void draw_rows(struct tiny_box *b, const struct smear_raster_target *t, int32_t at, int32_t n)
 {
     const bool narrow = SMEAR_DIRECT && b->narrow;
     b->depth = t->depth + at;
     b->pixels = narrow ? (void *)(t->direct + at) : t->color + at;
     b->rows = n;
-    for (int32_t y = 0; SMEAR_LATE_BLOCKS && y < n; y++)
-        target_settle(t, at + y * b->stride - x, x, x + b->columns);
     tiny_box(b, narrow);
 }
 
@@ -57,7 +55,7 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
     for (int32_t rows = bottom - top; rows > 0;) {
         ring_row -= ring_row >= w->ring ? w->ring : 0;
         const int32_t n = min_i32(rows, w->ring - ring_row);
-        draw_rows(b, t, ring_row * w->stride - w->x0 + left, left, n);
+        draw_rows(b, t, ring_row * w->stride - w->x0 + left, n);
         ring_row += n;
         rows -= n;
     }

@@ -92,64 +92,6 @@ static void wide_across_best(struct kernel_call *c) { lines_by(c, false, true, t
 static void narrow_across(struct kernel_call *c) { lines_by(c, true, true, false); }
 static void narrow_across_best(struct kernel_call *c) { lines_by(c, true, true, true); }
 
-#if SMEAR_LATE_BLOCKS
-enum { LATE_STRIDE = 40 };
-
-/* Blocks of all kinds. Depth is often small enough that rows are nearer than nothing for certain. */
-static void late_states(struct kernel_call *c)
-{
-    static const uint32_t state[] = { 0, LATE_COLOR, LATE_COLOR | LATE_CLEAR, LATE_COLOR | LATE_CLEAR };
-    uint32_t *const pixels = c->plane[0];
-    for (int32_t i = 0; i < c->n; i += LATE_BLOCK)
-        pixels[i] = (pixels[i] & 0xffffffu) | state[kernel_random() % 4u];
-    c->word[COLOR] &= 0xffffffu;
-}
-
-static void late_prepare(struct kernel_call *c)
-{
-    rows_prepare(c);
-    late_states(c);
-    if (kernel_random() % 4u != 0) {
-        c->word[DZ] = (uint32_t)((int32_t)c->word[DZ] >> (5 + kernel_random() % 8u));
-        c->word[DZ_DOWN] = (uint32_t)((int32_t)c->word[DZ_DOWN] >> 6);
-    }
-}
-
-static void late_breaks_prepare(struct kernel_call *c)
-{
-    breaks_prepare(c);
-    late_states(c);
-}
-
-static void late_by(struct kernel_call *c, bool breaks, bool best)
-{
-    const int32_t *const left = (const int32_t *)&c->word[LEFT], *const right = (const int32_t *)&c->word[RIGHT];
-    struct flat_lines l = { .x0 = c->n % 8, .x1 = LATE_STRIDE - c->n % 3, .z = c->word[Z], .dz = c->word[DZ],
-                            .dz_down = c->word[DZ_DOWN], .depth = c->plane[1], .depth_bytes = 2 * LATE_STRIDE,
-                            .color = c->word[COLOR], .breaks = breaks, .late = true };
-    struct edge_fine e;
-    l.to_pixels = (uintptr_t)c->plane[0] - (uintptr_t)c->plane[1] * 2u;
-    edge_fine_start(&e, left, left + 2, -((left[1] + 127) >> 8));
-    flat_lines_side(&l, 0, &e);
-    edge_fine_start(&e, right, right + 2, -((right[1] + 127) >> 8));
-    flat_lines_side(&l, 1, &e);
-    for (int32_t part = 1, n = c->n / LATE_STRIDE; n > 0; n -= part, part = n) {
-        if (best)
-            flat_lines_late_arm(&l, part);
-        else
-            flat_lines_late_reference(&l, part);
-    }
-    c->word[LEFT] = l.x[0][1];
-    c->word[RIGHT] = l.x[1][0];
-    c->word[Z] = l.z;
-}
-
-static void late_lines(struct kernel_call *c) { late_by(c, false, false); }
-static void late_lines_arm(struct kernel_call *c) { late_by(c, false, true); }
-static void late_across(struct kernel_call *c) { late_by(c, true, false); }
-static void late_across_arm(struct kernel_call *c) { late_by(c, true, true); }
-#endif
-
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
     { .name = "flat_run", .least = 1, .most = 19, .size = { 4, 2 },
@@ -165,11 +107,5 @@ const struct kernel kernels_flat_run[] = {
       .form = { { "reference", wide_across }, { "best", wide_across_best } } },
     { .name = "flat_lines (across, narrow)", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2 }, .prepare = breaks_prepare,
       .form = { { "reference", narrow_across }, { "best", narrow_across_best } } },
-#if SMEAR_LATE_BLOCKS
-    { .name = "flat_lines_late", .least = LATE_STRIDE, .most = 4 * LATE_STRIDE, .size = { 4, 2 }, .align = { 4, 4 },
-      .prepare = late_prepare, .form = { { "reference", late_lines }, { "arm", late_lines_arm } } },
-    { .name = "flat_lines_late (across)", .least = LATE_STRIDE, .most = 4 * LATE_STRIDE, .size = { 4, 2 }, .align = { 4, 4 },
-      .prepare = late_breaks_prepare, .form = { { "reference", late_across }, { "arm", late_across_arm } } },
-#endif
     { .name = NULL }
 };

@@ -12,7 +12,6 @@ static void xrgb8888_reference(struct kernel_call *c) { row_xrgb8888_reference(c
 static void xrgb8888_vector(struct kernel_call *c) { row_xrgb8888_vector(c->plane[0], c->plane[1], c->n); }
 #endif
 
-
 static void prepare_nearest(struct kernel_call *c) { c->word[LAYOUT] %= 3u; }
 
 static void nearest_reference(struct kernel_call *c)
@@ -63,7 +62,6 @@ static void dithered_vector(struct kernel_call *c)
     smear_row_dithered_vector(c->plane[0], c->plane[1], c->n, (int32_t)c->word[X], thresholds(c), WIDTH - 1,
                               (enum row_16bit)c->word[LAYOUT]);
 }
-
 
 /* Thresholds of any kind, 32 of them. */
 static const uint8_t *many_thresholds(const struct kernel_call *c)
@@ -120,42 +118,6 @@ static void rows_blocks(struct kernel_call *c)
                                         (int32_t)c->word[Y] & 15, .mask = 0 };
     smear_rows_dithered_blocks(&rows, (enum row_16bit)c->word[LAYOUT]);
 }
-
-#if SMEAR_LATE_BLOCKS
-static void prepare_late(struct kernel_call *c)
-{
-    uint32_t *const in = c->plane[1];
-    prepare_rows(c);
-    c->word[LAYOUT] = ROW_555;
-    for (int32_t i = 0; i < c->n; i++) {
-        const uint32_t color = in[kernel_random() % 3u != 0 ? i & ~15 : i] & 0xffffffu;
-        const uint32_t state = i % LATE_BLOCK != 0 || kernel_random() % 3u == 0 ? 0 : LATE_COLOR | (color & LATE_CLEAR >> 24) << 24;
-        in[i] = color | state;
-    }
-}
-
-/* A block at a time. */
-static void late_rows(struct kernel_call *c)
-{
-    const int32_t width = c->n / 3;
-    for (int32_t i = 0; i < 3 * width; i += LATE_BLOCK) {
-        const int32_t y = ((int32_t)c->word[Y] & 15) + i / width;
-        const uint32_t *const in = (const uint32_t *)c->plane[1] + i;
-        uint32_t block[LATE_BLOCK];
-        for (int k = 0; k < LATE_BLOCK; k++)
-            block[k] = in[(in[0] & LATE_COLOR) != 0 ? 0 : k] & 0xffffffu;
-        row_dithered_reference((uint16_t *)c->plane[0] + i, block, LATE_BLOCK, 0, smear_dither_ordered + (y & 7) * 8, 7, ROW_555);
-    }
-}
-
-static void late_rows_blocks(struct kernel_call *c)
-{
-    const int32_t width = c->n / 3;
-    const struct dithered_rows rows = { c->plane[0], c->plane[1], width, width, 3, width, (int32_t)c->word[X],
-                                        (int32_t)c->word[Y] & 15, NULL, 0, true };
-    smear_rows_dithered_blocks(&rows, ROW_555);
-}
-#endif
 
 #endif
 
@@ -226,10 +188,6 @@ const struct kernel kernels_pixel_rows[] = {
 #ifndef __OPTIMIZE_SIZE__
     { .name = "rows_dithered_blocks", .most = 201, .size = { 2, 4 }, .align = { 4 }, .prepare = prepare_rows,
       .form = { { "reference", rows_reference }, { "blocks", rows_blocks } } },
-#if SMEAR_LATE_BLOCKS
-    { .name = "rows_dithered_blocks (late)", .most = 201, .size = { 2, 4 }, .align = { 4 }, .prepare = prepare_late,
-      .form = { { "reference", late_rows }, { "blocks", late_rows_blocks } } },
-#endif
 #endif
     { .name = "row_l4", .most = 67, .size = { 1, 4 }, .prepare = prepare_l4,
       .form = { { "reference", l4_reference },
