@@ -27,7 +27,7 @@ static inline int32_t tiny_corner_bias(int32_t dx, int32_t dy) { return (dx - dy
 /* Records begin with x and y, q8 px, and depth units; clockwise, less than 16 px apart. (x, y) is the box's first pixel, at most as far
  * from them. */
 static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int32_t *v1, const int32_t *v2, int32_t x,
-                                          int32_t y)
+                                int32_t y)
 {
     const int32_t x1 = v1[0] - v0[0], y1 = v1[1] - v0[1], x2 = v2[0] - v0[0], y2 = v2[1] - v0[1], area = x1 * y2 - x2 * y1;
     const int32_t cx = x * 256 + 128 - v0[0], cy = y * 256 + 128 - v0[1];

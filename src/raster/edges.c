@@ -4,7 +4,7 @@
 
 #include "base/fixmath.h"
 #include "kernels/fill.h"
-#include "kernels/vector.h"
+#include "kernels/pixel_steps.h"
 #include "raster/raster.h"
 
 #if SMEAR_EDGES
@@ -14,41 +14,8 @@ enum { LEAST_STEP = 16, LEAST_CHANGE = 4 };
 
 /* ------------------------------------------------------------------ where */
 
-/* Whether some channel of two pixels differs by more than `least`. */
-static inline bool is_step(uint32_t a, uint32_t b, int32_t least)
-{
-    for (int shift = 0; (a ^ b) != 0 && shift < 24; shift += 8)
-        if (abs_i32((int32_t)(a >> shift & 255u) - (int32_t)(b >> shift & 255u)) > least)
-            return true;
-    return false;
-}
-
-#if SMEAR_VECTORS
-/* Finds channels of four pixels that differ by more than `least`: all bits of their bytes. */
-static inline smear_v4u steps_of(smear_v4u a, smear_v4u b, uint8_t least)
-{
-    typedef uint8_t v16 __attribute__((vector_size(16)));
-    const v16 p = (v16)a, q = (v16)b, more = (v16)(p > q), d = ((p - q) & more) | ((q - p) & ~more);
-    return (smear_v4u)(d > least);
-}
-#endif
-
 /* Whether some of n pixels of two rows differ. */
-static inline bool differs(const uint32_t *a, const uint32_t *b, int32_t n)
-{
-    int32_t i = 0;
-#if SMEAR_VECTORS
-    for (; i + 4 <= n; i += 4)
-        if (v4u_any(steps_of(v4u_load(a + i), v4u_load(b + i), LEAST_STEP)))
-            return true;
-    if (i < n && n >= 4)            /* the last ones, with some again */
-        return v4u_any(steps_of(v4u_load(a + n - 4), v4u_load(b + n - 4), LEAST_STEP));
-#endif
-    for (; i < n; i++)
-        if (is_step(a[i], b[i], LEAST_STEP))
-            return true;
-    return false;
-}
+static inline bool differs(const uint32_t *a, const uint32_t *b, int32_t n) { return next_step(a, b, 0, n, LEAST_STEP) < n; }
 
 /* Whether there is an edge within or at the border of pixels [x0, x1) of row y, or to the row above it in the target. */
 static inline bool row_has_edge(const struct smear_raster_target *t, int32_t y, int32_t x0, int32_t x1, int32_t width)
@@ -270,23 +237,18 @@ static inline uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, b
 /* Takes the mean of pixels of a row, of which other places begin at `at` of their planes. */
 static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_planes *planes, int32_t at, bool linear)
 {
-    const uint32_t *p = planes->color[0] + at, *q = planes->color[1] + at, *r = planes->color[2] + at;
-    int32_t x = 0;
-#if SMEAR_VECTORS
-    for (; x + 4 <= n; x += 4) {
-        const smear_v4u first = v4u_load(row + x);
-        const smear_v4u other = steps_of(first, v4u_load(p + x), LEAST_CHANGE) | steps_of(first, v4u_load(q + x), LEAST_CHANGE)
-                              | steps_of(first, v4u_load(r + x), LEAST_CHANGE);
-        if (!v4u_any(other))
-            continue;
-        for (int k = 0; k < 4; k++)
-            if (other[k] != 0)
-                row[x + k] = mean_of(row[x + k], p[x + k], q[x + k], r[x + k], linear);
+    const uint32_t *other[3];
+    int32_t next[3];
+    for (int i = 0; i < 3; i++) {
+        other[i] = planes->color[i] + at;
+        next[i] = next_step(row, other[i], 0, n, LEAST_CHANGE);
     }
-#endif
-    for (; x < n; x++)
-        if (is_step(row[x], p[x], LEAST_CHANGE) || is_step(row[x], q[x], LEAST_CHANGE) || is_step(row[x], r[x], LEAST_CHANGE))
-            row[x] = mean_of(row[x], p[x], q[x], r[x], linear);
+    for (int32_t x; (x = min_i32(next[0], min_i32(next[1], next[2]))) < n;) {
+        for (int i = 0; i < 3; i++)         /* of pixels that are not taken yet */
+            if (next[i] == x)
+                next[i] = next_step(row, other[i], x + 1, n, LEAST_CHANGE);
+        row[x] = mean_of(row[x], other[0][x], other[1][x], other[2][x], linear);
+    }
 }
 
 void smear_edges_mean(const struct smear_edge_units *e, const struct smear_raster_target *t, const struct smear_edge_planes *planes,
