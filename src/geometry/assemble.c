@@ -10,7 +10,6 @@
 #include "geometry/batch_store.h"
 #include "geometry/places.h"
 #include "geometry/ranges.h"
-#include "kernels/vertex_list_arm.h"
 
 static void forget_all(struct smear_assembler *a)
 {
@@ -153,48 +152,12 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return add_visible(b, v0, v1, v2, triangle, back, cut);
 }
 
-#if VERTEX_LISTS
-SMEAR_STATIC_ASSERT(sizeof(struct listed_vertex) == sizeof(struct smear_cached_vertex)
-                        && offsetof(struct listed_vertex, stored) == offsetof(struct smear_cached_vertex, stored)
-                        && offsetof(struct listed_vertex, screen) == offsetof(struct smear_cached_vertex, screen)
-                        && offsetof(struct listed_vertex, sides) == offsetof(struct smear_cached_vertex, outcode)
-                        && (int)LISTED_LEFT == (int)OUT_LEFT && (int)LISTED_RIGHT == (int)OUT_RIGHT && (int)LISTED_TOP == (int)OUT_TOP
-                        && (int)LISTED_BOTTOM == (int)OUT_BOTTOM && (int)LISTED_GUARD == (int)OUT_GUARD
-                        && (int)LISTED_GUARD_PX == (int)SMEAR_GUARD_PX,
-                    "listed vertices are those of the cache");
-
-/* Finds vertices [tag, end), of which v is the first, up to one that the kernel leaves out. Returns which that is. */
-static inline uint32_t find_listed(const struct batch *b, struct smear_cached_vertex *v, uint32_t tag, uint32_t end)
-{
-    const struct smear_placement *const p = &b->d->at;
-    const struct smear_depths *const depths = &p->now.depths;
-    const struct smear_viewport *const viewport = &b->a->viewport;
-    const struct place_setup s = { p->now.m, depths->near_distance, depths->far_distance, depths->depth_mantissa, depths->depth_shift,
-                                   SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX, viewport->width << 7, viewport->height << 7 };
-    if (depths_are_even(depths) || p->extra_count != 0)
-        return tag;
-    return vertex_list_arm((struct listed_vertex *)(void *)v, p->position + 3 * (tag & 0xffffu), tag, end, &s);
-}
-
-/* What the kernel leaves out does not lie in fast memory with it. */
-static SMEAR_NOINLINE void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_vertex(b->a, b->d, v, tag); }
-#else
-static inline void find_unlisted(struct batch *b, struct smear_cached_vertex *v, uint32_t tag) { find_vertex(b->a, b->d, v, tag); }
-#endif
-
 /* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
 static SMEAR_NOINLINE void find_all(struct batch *b, uint32_t tag)
 {
-    struct smear_cached_vertex *const v = b->a->cache;
-    const uint32_t first = tag;
-    for (const uint32_t end = tag + b->d->mesh->vertex_count; tag != end; tag++) {
-#if VERTEX_LISTS
-        tag = find_listed(b, v + (tag - first), tag, end);
-        if (tag == end)
-            break;
-#endif
-        find_unlisted(b, v + (tag - first), tag);
-    }
+    struct smear_cached_vertex *v = b->a->cache;
+    for (const uint32_t end = tag + b->d->mesh->vertex_count; tag != end; tag++, v++)
+        find_vertex(b->a, b->d, v, tag);
 }
 
 /* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
