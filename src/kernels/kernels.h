@@ -98,7 +98,6 @@ struct points_plane {
     int32_t stride;
     uint16_t *depth;
     void *pixels;
-    uint32_t pair, round;           /* for assembly: rgb565_nearest */
 };
 
 #endif

@@ -17,8 +17,11 @@ bool smear_raster_points_make(struct points_plane *p, const struct smear_raster_
     const int32_t at = rows->ring_row * rows->stride + t->x0 - rows->x0;
     *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
                                 (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
-                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, 0, 0 };
+                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at };
     return rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
 }
 
-uint32_t smear_raster_points(const struct points_plane *p, uint32_t head, bool narrow) { return points_list(p, head, narrow); }
+uint32_t smear_raster_points(const struct points_plane *p, uint32_t head, bool narrow)
+{
+    return narrow ? points_list(p, head, true) : points_list(p, head, false);
+}
