@@ -68,8 +68,9 @@ SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log
 }
 
 #else
-/* The twelve values of the loop are as many as ARM has registers for; compilers would rather keep copies of some. */
-#if SMEAR_GNU && defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__))
+/* The twelve values of the loop are as many as ARM has registers for; compilers would rather keep copies of some. Not of Cortex-M4, whose
+ * assembly is tried in programs for Linux, too, that have fewer. */
+#if SMEAR_GNU && defined(__arm__) && defined(__OPTIMIZE__) && (defined(__thumb2__) || !defined(__thumb__)) && !SMEAR_ASM_ARMV7EM
 #define TEXELS_KEEP_ALL \
     __asm__("" : "+r"(u), "+r"(v), "+r"(du), "+r"(dv), "+r"(z), "+r"(depth), "+r"(color) \
             : "r"(ddu), "r"(ddv), "r"(dz), "r"(texels), "r"(end))
