@@ -50,14 +50,33 @@ static uint32_t light_mean(const uint32_t *in, const int32_t *offset, int32_t lo
     return pixel_make(0, smear_srgb_encode[r >> (log + 4)], smear_srgb_encode[g >> (log + 4)], smear_srgb_encode[b >> (log + 4)]);
 }
 
+static inline uint32_t mean_at(const struct line_block *b, int32_t x, int32_t y, bool linear)
+{
+    const uint32_t *in = b->in + y * b->in_stride + x;
+    return SMEAR_WITH_LINEAR && linear ? light_mean(in, b->offset, b->log) : code_mean(in, b->offset, b->log);
+}
+
+/* Writes a mean and the three between it and the next. */
+static inline void write_between(uint32_t out[LINE_SPARSE], uint32_t mean, uint32_t next)
+{
+    out[0] = mean;
+    out[2] = line_between(mean, next);
+    out[1] = line_between(mean, out[2]);
+    out[3] = line_between(out[2], next);
+}
+
 void smear_line_means_reference(const struct line_block *b, bool linear)
 {
-    for (int32_t y = 0; y < b->rows; y++)
-        for (int32_t x = 0; x < b->columns; x++) {
-            const uint32_t *in = b->in + y * b->in_stride + x;
-            b->out[y * b->out_stride + x] = SMEAR_WITH_LINEAR && linear ? light_mean(in, b->offset, b->log)
-                                                                        : code_mean(in, b->offset, b->log);
+    for (int32_t y = 0; y < b->rows; y++) {
+        uint32_t *out = b->out + y * b->out_stride, next = b->sparse ? mean_at(b, 0, y, linear) : 0;
+        for (int32_t x = 0; x < b->columns; x += b->sparse ? (int32_t)LINE_SPARSE : 1) {
+            const uint32_t mean = b->sparse ? next : mean_at(b, x, y, linear);
+            if (b->sparse)
+                write_between(out + x, mean, next = mean_at(b, x + LINE_SPARSE, y, linear));
+            else
+                out[x] = mean;
         }
+    }
 }
 
 /* Codes of a number of taps that is known. */
@@ -84,6 +103,55 @@ SMEAR_INLINE void code_means(const struct line_block *b, int32_t log)
     }
 }
 
+#if SMEAR_VECTORS
+/* Means of four pixels, so far apart. */
+SMEAR_INLINE smear_v4u sparse_means(const uint32_t *in, const int32_t *offset, int third, int last)
+{
+    smear_v4u all = { 0, 0, 0, 0 }, red_blue = { 0, 0, 0, 0 };
+    for (int k = 0; k < LINE_TAPS_MAX; k++) {
+        const uint32_t *tap = in + offset[k];
+        const smear_v4u c = { tap[0], tap[LINE_SPARSE], tap[third], tap[last] };
+        all += c;
+        red_blue += c & 0xff00ffu;
+    }
+    return ((red_blue + 0x40004u) >> 3 & 0xff00ffu) | ((((all - red_blue) >> 8) + 4) >> 3 & 0xffu) << 8;
+}
+
+/* Writes four means and what lies between each and its next one. */
+SMEAR_INLINE void write_between4(uint32_t *out, smear_v4u mean, smear_v4u next)
+{
+    const smear_v4u middle = v4u_mean8(mean, next);
+    v4i_store_columns((int32_t *)out, (smear_v4i)mean, (smear_v4i)v4u_mean8(mean, middle), (smear_v4i)middle,
+                      (smear_v4i)v4u_mean8(middle, next));
+}
+
+/* Eight taps of every fourth pixel. */
+static void sparse_code_means8(const struct line_block *b)
+{
+    enum { TWO = 2 * LINE_SPARSE, FOUR = 4 * LINE_SPARSE };
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride;
+        uint32_t *out = b->out + y * b->out_stride;
+        int32_t left = b->columns;
+        for (; left >= FOUR; left -= FOUR, in += FOUR, out += FOUR) {
+            const smear_v4u mean = sparse_means(in, b->offset, TWO, 3 * LINE_SPARSE);
+            const uint32_t end = code_mean(in + FOUR, b->offset, LINE_TAPS_LOG_MAX);
+            write_between4(out, mean, (smear_v4u){ mean[1], mean[2], mean[3], end });
+        }
+        if (left >= TWO) {
+            const smear_v4u mean = sparse_means(in, b->offset, TWO, TWO);
+            write_between(out, mean[0], mean[1]);
+            write_between(out + LINE_SPARSE, mean[1], mean[2]);
+            left -= TWO, in += TWO, out += TWO;
+        }
+        if (left > 0)
+            write_between(out, code_mean(in, b->offset, LINE_TAPS_LOG_MAX), code_mean(in + LINE_SPARSE, b->offset, LINE_TAPS_LOG_MAX));
+    }
+}
+#elif !PACKED_ASM_ARMV6M
+static void sparse_code_means8(const struct line_block *b) { smear_line_means_reference(b, false); }
+#endif
+
 #if PACKED_ASM_ARMV6M
 /* Eight taps, two pixels at once. */
 static void code_means8(const struct line_block *b)
@@ -101,14 +169,39 @@ static void code_means8(const struct line_block *b)
             out[even] = code_mean(in + even, b->offset, 3);
     }
 }
+
+static void sparse_code_means8(const struct line_block *b)
+{
+    int32_t bytes[8];
+    for (int k = 0; k < 8; k++)
+        bytes[k] = b->offset[k] * 4;
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride;
+        line_means_sparse_armv6m(b->out + y * b->out_stride, in + LINE_SPARSE, bytes, b->columns,
+                                 code_mean(in, b->offset, 3));
+    }
+}
 #else
 static void code_means8(const struct line_block *b) { code_means(b, 3); }
 #endif
 
+/* Of one tap. */
+static void copy_rows(const struct line_block *b)
+{
+    for (int32_t y = 0; y < b->rows; y++)
+        __builtin_memcpy(b->out + y * b->out_stride, b->in + y * b->in_stride + b->offset[0], (size_t)b->columns * sizeof *b->out);
+}
+
 void smear_line_means(const struct line_block *b, bool linear)
 {
-    if (SMEAR_WITH_LINEAR && linear)
+    if (b->log == 0 && !b->sparse)
+        copy_rows(b);
+    else if (SMEAR_WITH_LINEAR && linear)
         smear_line_means_reference(b, true);
+    else if (b->sparse && b->log == 3)
+        sparse_code_means8(b);
+    else if (b->sparse)
+        smear_line_means_reference(b, false);
     else if (b->log == 3)
         code_means8(b);
     else if (b->log == 2)

@@ -329,6 +329,16 @@ static inline smear_v4u v4u_mean16(smear_v4u a, smear_v4u b)
     return (a | b) - ((a ^ b) >> 1 & 0x7fff7fffu);
 #endif
 }
+
+/* And of bytes. */
+static inline smear_v4u v4u_mean8(smear_v4u a, smear_v4u b)
+{
+#ifdef __SSE2__
+    return (smear_v4u)_mm_avg_epu8((__m128i)a, (__m128i)b);
+#else
+    return (a | b) - ((a ^ b) >> 1 & 0x7f7f7f7fu);
+#endif
+}
 #endif
 
 #endif

@@ -15,6 +15,7 @@ struct taps {
     int32_t log;                    /* there are 2^log */
     int32_t x[LINE_TAPS_MAX], y[LINE_TAPS_MAX];
     int32_t left, right, up, down;
+    bool sparse;                    /* every fourth pixel tells what lies between, as the line is long and level */
 };
 
 void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear)
@@ -53,7 +54,7 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
  * and no longer along y than lines reach. */
 static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
 {
-    enum { STEP = 64 };
+    enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
     const uint16_t depth = w->depth[window_ring_row(w, y) * w->width + x];
     smear_flow_at(&lines->flow, x, y, smear_depth_units(depth), out);
@@ -73,6 +74,8 @@ static void displacement_of(int32_t out[2], const struct smear_lines *lines, con
 /* Places two taps per pixel of the way, evenly. */
 static void place_taps(struct taps *t, int32_t x, int32_t y)
 {
+    enum { LONG = 8 * 256,              /* so that what is four pixels beside each other on it is nearly alike, */
+           LEVEL_LOG2 = 1 };            /* and two lie between them across */
     const int32_t length = max_i32(abs_i32(x), abs_i32(y));
     int32_t log = 0;
     while (log < LINE_TAPS_LOG_MAX && length << 1 > 256 << log)
@@ -83,6 +86,7 @@ static void place_taps(struct taps *t, int32_t x, int32_t y)
         t->y[k] = (y * (2 * k + 1 - n) + half) >> down;
     }
     t->log = log;
+    t->sparse = length >= LONG && abs_i32(y) << LEVEL_LOG2 <= length;
     t->left = min_i32(t->x[0], t->x[n - 1]);
     t->right = max_i32(t->x[0], t->x[n - 1]);
     t->up = min_i32(t->y[0], t->y[n - 1]);
@@ -106,11 +110,21 @@ static void blur_rows(const struct smear_lines *lines, const struct smear_window
 static void blur_within(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
                         int32_t y0, int32_t y1)
 {
-    const int32_t at = window_ring_row(w, y0);
-    const bool turns = at + t->up < 0 || at + y1 - y0 + t->down > w->ring;     /* some rows lie beyond the end of the ring */
-    for (int32_t y = y0, next; y < y1; y = next) {
-        next = turns ? y + 1 : y1;
-        blur_rows(lines, w, t, x0, x1, y, next);
+    const int32_t at = window_ring_row(w, y0), n = 1 << t->log;
+    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
+                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
+                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log,
+                            .sparse = t->sparse && ((x1 - x0) & (LINE_SPARSE - 1)) == 0 };
+    if (at + t->up < 0 || at + y1 - y0 + t->down > w->ring) {       /* some rows lie beyond the end of the ring */
+        for (int32_t y = y0 + 1; y1 - y0 > 1 && y <= y1; y++)
+            blur_within(lines, w, t, x0, x1, y - 1, y);
+        if (y1 - y0 > 1)
+            return;
+        for (int k = 0; k < n; k++)
+            b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
+    } else {
+        for (int k = 0; k < n; k++)
+            b.offset[k] = t->y[k] * w->width + t->x[k];
     }
 }
 
@@ -134,12 +148,13 @@ static void blur_blocks(const struct smear_lines *lines, const struct smear_wind
     const struct taps t = taps_within(all, -w->width, w->width, -y0, end - y1);
     for (int32_t x = x0, next; x < x1; x = next) {
         next = min_i32(x + BLOCK, x1);
-        if (x + t.left < 0 || next + t.right > w->width) {
-            const struct taps inside = taps_within(&t, -x, w->width - next, -y0, end - y1);
+        if (x + t.left < 0 || next + t.right + t.sparse > w->width) {
+            struct taps inside = taps_within(&t, -x, w->width - next, -y0, end - y1);
+            inside.sparse = false;
             blur_within(lines, w, &inside, x, next, y0, y1);
             continue;
         }
-        while (next < x1 && min_i32(next + BLOCK, x1) + t.right <= w->width)
+        while (next < x1 && min_i32(next + BLOCK, x1) + t.right + t.sparse <= w->width)
             next = min_i32(next + BLOCK, x1);
         blur_within(lines, w, &t, x, next, y0, y1);
     }

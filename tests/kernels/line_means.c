@@ -8,9 +8,9 @@
 #include "kernels/vector.h"
 #include "tests/kernels/kernels.h"
 
-enum { REACH = 21 };            /* planes go on so far to either side of the pixels */
+enum { REACH = 21 };            /* planes go on so far to either side of the pixels, and of one behind them */
 enum { IN, OUT };               /* planes */
-enum { LOG, ROWS, GAP_IN, GAP_OUT, OFFSET };    /* words; of each tap from OFFSET on */
+enum { LOG, ROWS, GAP_IN, GAP_OUT, SPARSE, OFFSET };    /* words; of each tap from OFFSET on */
 
 static int32_t rows_of(const struct kernel_call *c) { return 1 + (int32_t)(c->word[ROWS] % 3u); }
 static int32_t in_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_IN] % 5u); }
@@ -20,7 +20,7 @@ static int32_t out_stride(const struct kernel_call *c) { return c->n + (int32_t)
 static void prepare(struct kernel_call *c)
 {
     uint32_t *in = c->plane[IN];
-    const int32_t rows = rows_of(c), pixels = (rows - 1) * in_stride(c) + c->n + 2 * REACH;
+    const int32_t rows = rows_of(c), pixels = (rows - 1) * in_stride(c) + c->n + 1 + 2 * REACH;
     const uint32_t alike = kernel_random() % 4u;
     for (int32_t i = 0; i < pixels; i++)
         in[i] = i > 0 && kernel_random() % 4u < alike ? in[i - 1] : in[i] & 0xffffffu;
@@ -32,30 +32,50 @@ static void call(struct kernel_call *c, void (*means)(const struct line_block *b
 {
     const uint32_t *in = c->plane[IN];
     struct line_block b = { .in = in + REACH, .out = c->plane[OUT], .in_stride = in_stride(c), .out_stride = out_stride(c),
-                            .columns = c->n, .rows = rows_of(c), .log = (int32_t)(c->word[LOG] % (LINE_TAPS_LOG_MAX + 1u)) };
+                            .columns = c->n, .rows = rows_of(c), .log = (int32_t)(c->word[LOG] % (LINE_TAPS_LOG_MAX + 1u)),
+                            .sparse = c->word[SPARSE] % 2u != 0 && c->n % LINE_SPARSE == 0 };
     for (int k = 0; k < LINE_TAPS_MAX; k++)
         b.offset[k] = (int32_t)(c->word[OFFSET + k] % (2 * REACH + 1u)) - REACH;
     means(&b, linear);
 }
 
 /* Each channel by itself. */
+static uint32_t mean_of(const uint32_t *in, const struct line_block *b, bool linear)
+{
+    uint32_t sum[3] = { 0, 0, 0 }, mean = 0, differs = 0;
+    for (int k = 0; k < 1 << b->log; k++) {
+        const uint32_t c = in[b->offset[k]];
+        differs |= c ^ in[b->offset[0]];
+        for (int channel = 0; channel < 3; channel++) {
+            const uint32_t code = c >> 8 * channel & 0xffu;
+            sum[channel] += linear ? smear_srgb_decode[code] : code;
+        }
+    }
+    for (int channel = 0; channel < 3; channel++)
+        mean |= (linear ? (uint32_t)smear_srgb_encode[sum[channel] >> b->log >> 4] : (sum[channel] + (1u << b->log) / 2) >> b->log)
+             << 8 * channel;
+    return differs != 0 ? mean : in[b->offset[0]];
+}
+
+static uint32_t between(uint32_t a, uint32_t b)
+{
+    uint32_t mean = 0;
+    for (int channel = 0; channel < 24; channel += 8)
+        mean |= ((a >> channel & 0xffu) + (b >> channel & 0xffu) + 1) / 2 << channel;
+    return mean;
+}
+
 static void one_by_one(const struct line_block *b, bool linear)
 {
     for (int32_t i = 0; i < b->rows * b->columns; i++) {
-        const int32_t x = i % b->columns, y = i / b->columns;
-        uint32_t sum[3] = { 0, 0, 0 }, mean = 0, differs = 0;
-        for (int k = 0; k < 1 << b->log; k++) {
-            const uint32_t c = b->in[y * b->in_stride + x + b->offset[k]];
-            differs |= c ^ b->in[y * b->in_stride + x + b->offset[0]];
-            for (int channel = 0; channel < 3; channel++) {
-                const uint32_t code = c >> 8 * channel & 0xffu;
-                sum[channel] += linear ? smear_srgb_decode[code] : code;
-            }
+        const int32_t x = i % b->columns, y = i / b->columns, part = b->sparse ? x % LINE_SPARSE : 0;
+        const uint32_t *in = b->in + y * b->in_stride + x - part;
+        uint32_t mean = mean_of(in, b, linear);
+        if (part != 0) {
+            const uint32_t next = mean_of(in + LINE_SPARSE, b, linear), middle = between(mean, next);
+            mean = part == 1 ? between(mean, middle) : part == 2 ? middle : between(middle, next);
         }
-        for (int channel = 0; channel < 3; channel++)
-            mean |= (linear ? (uint32_t)smear_srgb_encode[sum[channel] >> b->log >> 4] : (sum[channel] + (1u << b->log) / 2) >> b->log)
-                 << 8 * channel;
-        b->out[y * b->out_stride + x] = differs != 0 ? mean : b->in[y * b->in_stride + x + b->offset[0]];
+        b->out[y * b->out_stride + x] = mean;
     }
 }
 
@@ -70,7 +90,15 @@ static void light_best(struct kernel_call *c) { call(c, smear_line_means, true);
 static void prepare_eight(struct kernel_call *c)
 {
     c->word[LOG] = LINE_TAPS_LOG_MAX;
+    c->word[SPARSE] = 0;
     prepare(c);
+}
+
+/* And of those that are long. */
+static void prepare_sparse(struct kernel_call *c)
+{
+    prepare_eight(c);
+    c->word[SPARSE] = 1;
 }
 
 #if SMEAR_VECTORS
@@ -86,6 +114,8 @@ const struct kernel kernels_line_means[] = {
     { .name = "line_means", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
       .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
     { .name = "line_means (eight taps)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare_eight, .timed = 24,
+      .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
+    { .name = "line_means (sparse)", .least = 4, .most = 40, .size = { 4, 4 }, .prepare = prepare_sparse, .timed = 24,
       .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
     { .name = "line_means (light)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
       .form = { { "reference", light_reference }, { "one by one", light_one_by_one }, { BEST, light_best } } },
