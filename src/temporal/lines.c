@@ -50,14 +50,14 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
                      (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
-/* Finds the displacement of a block from picture to picture, q8 px, in steps, so that blocks beside each other often have the same,
- * and no longer along y than lines reach. */
-static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
+/* Finds the displacement from picture to picture of what is seen at a pixel, in whole pixels (q8), so that blocks beside each other
+ * often have the same, and no longer along y than lines reach. */
+static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y,
+                            uint32_t depth)
 {
     enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
-    const uint16_t depth = w->depth[window_ring_row(w, y) * w->width + x];
-    smear_flow_at(&lines->flow, x, y, smear_depth_units(depth), out);
+    smear_flow_at(&lines->flow, x, y, smear_depth_units((uint16_t)depth), out);
     for (int i = 0; i < 2; i++)
         out[i] >>= lines->pictures - 1;
     for (int i = 0; i < 2; i++) {
@@ -93,38 +93,27 @@ static void place_taps(struct taps *t, int32_t x, int32_t y)
     t->down = max_i32(t->y[0], t->y[n - 1]);
 }
 
-/* Blurs columns [x0, x1) of rows [y0, y1), each of whose taps lies as far from the row it is of as from the next one's. */
-static void blur_rows(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
-                      int32_t y0, int32_t y1)
-{
-    const int32_t at = window_ring_row(w, y0);
-    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
-                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
-                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log };
-    for (int k = 0; k < 1 << t->log; k++)
-        b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
-    smear_line_means(&b, lines->linear);
-}
-
-/* Blurs columns [x0, x1) of rows [y0, y1), which are within a row of blocks. Taps lie in the frame and in rows that are drawn. */
+/* Blurs columns [x0, x1) of rows [y0, y1), as many at once as no tap meets the end of the ring in. Taps lie in the frame and in rows
+ * that are drawn. */
 static void blur_within(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
                         int32_t y0, int32_t y1)
 {
-    const int32_t at = window_ring_row(w, y0), n = 1 << t->log;
-    struct line_block b = { .in = w->color + at * w->width + x0, .in_stride = w->width,
-                            .out = lines->row + (y0 & (w->tile - 1)) * w->width + x0, .out_stride = w->width,
-                            .columns = x1 - x0, .rows = y1 - y0, .log = t->log,
+    int32_t at = window_ring_row(w, y0);
+    struct line_block b = { .in_stride = w->width, .out_stride = w->width, .columns = x1 - x0, .log = t->log,
                             .sparse = t->sparse && ((x1 - x0) & (LINE_SPARSE - 1)) == 0 };
-    if (at + t->up < 0 || at + y1 - y0 + t->down > w->ring) {       /* some rows lie beyond the end of the ring */
-        for (int32_t y = y0 + 1; y1 - y0 > 1 && y <= y1; y++)
-            blur_within(lines, w, t, x0, x1, y - 1, y);
-        if (y1 - y0 > 1)
-            return;
-        for (int k = 0; k < n; k++)
-            b.offset[k] = (window_ring_row(w, y0 + t->y[k]) - at) * w->width + t->x[k];
-    } else {
-        for (int k = 0; k < n; k++)
-            b.offset[k] = t->y[k] * w->width + t->x[k];
+    for (int32_t y = y0; y < y1; y += b.rows) {
+        b.rows = min_i32(y1 - y, w->ring - at);
+        for (int k = 0; k < 1 << t->log; k++) {
+            int32_t row = at + t->y[k];
+            row += row < 0 ? w->ring : row >= w->ring ? -w->ring : 0;
+            b.rows = min_i32(b.rows, w->ring - row);
+            b.offset[k] = (row - at) * w->width + t->x[k];
+        }
+        b.in = w->color + at * w->width + x0;
+        b.out = lines->row + (y & (w->tile - 1)) * w->width + x0;
+        smear_line_means(&b, lines->linear);
+        at += b.rows;
+        at -= at == w->ring ? w->ring : 0;
     }
 }
 
@@ -165,14 +154,16 @@ void smear_lines_blur(const struct smear_lines *lines, const struct smear_window
 {
     for (int32_t y = y0; y < y1; y += BLOCK) {
         const int32_t bottom = min_i32(y + BLOCK, y1), middle = min_i32(y + BLOCK / 2, y1 - 1);
+        const uint16_t *depth = w->depth + window_ring_row(w, middle) * w->width;
         int32_t d[2], next[2];
-        displacement_of(next, lines, w, min_i32(x0 + BLOCK / 2, x1 - 1), middle);
+        displacement_of(next, lines, w, min_i32(x0 + BLOCK / 2, x1 - 1), middle, depth[min_i32(x0 + BLOCK / 2, x1 - 1)]);
         for (int32_t x = x0, right; x < x1; x = right) {
             struct taps taps;
             d[0] = next[0];
             d[1] = next[1];
             for (right = x + BLOCK; right < x1; right += BLOCK) {
-                displacement_of(next, lines, w, min_i32(right + BLOCK / 2, x1 - 1), middle);
+                const int32_t at = min_i32(right + BLOCK / 2, x1 - 1);
+                displacement_of(next, lines, w, at, middle, depth[at]);
                 if (next[0] != d[0] || next[1] != d[1])
                     break;
             }
