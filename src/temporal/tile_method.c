@@ -179,8 +179,8 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
 /* Returns how many instants a tile takes of a sketch; INSTANTS_MAX: it is to be measured, as gaps are not closed there. */
 static int32_t sketch_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    enum { WAY = 16 * 16,           /* that a gap may be wide, 1/16 px */
-           UNLIKE = 12 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
+    enum { WAY = 20 * 16,           /* that a gap may be wide, 1/16 px */
+           UNLIKE = 16 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
            STILL = 24 };            /* a way that is not seen */
     const int32_t way = reach_of(tile);
     if (!smear_tile_may_close(chooser, tile) || (tile->flags & PATH_SUBFRAMES) != 0)
