@@ -32,27 +32,33 @@ SMEAR_INLINE uint32_t code_mean(const uint32_t *in, const int32_t *offset, int32
     return mean_of(all, red_blue, log);
 }
 
-/* Most pixels of a line are alike: their light is not asked for. */
+/* Returns the root of a square of codes, to the nearest code but for one at most; of squares exactly. */
+SMEAR_INLINE uint32_t root_of(uint32_t square)
+{
+    return square < 3 ? square != 0 : square < 4092 ? (smear_sqrt_q3[(square + 1) >> 2] + 2u) >> 2
+                                                    : smear_sqrt_q3[min_u32((square + 32) >> 6, 1023)];
+}
+
+/* Light is told by the squares of codes: products are cheaper than tables, and it is within what sketches err by. */
 static uint32_t light_mean(const uint32_t *in, const int32_t *offset, int32_t log)
 {
     const uint32_t first = in[offset[0]];
     uint32_t r = 0, g = 0, b = 0, differs = 0;
     for (int k = 1; k < 1 << log; k++)
         differs |= in[offset[k]] ^ first;
-    if (differs == 0)
+    if (differs == 0)                   /* as most pixels of a line are */
         return first & 0xffffffu;
     for (int k = 0; k < 1 << log; k++) {
         const uint32_t c = in[offset[k]];
-        r += smear_srgb_decode[pixel_red(c)];
-        g += smear_srgb_decode[pixel_green(c)];
-        b += smear_srgb_decode[pixel_blue(c)];
+        r += pixel_red(c) * pixel_red(c);
+        g += pixel_green(c) * pixel_green(c);
+        b += pixel_blue(c) * pixel_blue(c);
     }
-    return pixel_make(0, smear_srgb_encode[r >> (log + 4)], smear_srgb_encode[g >> (log + 4)], smear_srgb_encode[b >> (log + 4)]);
+    return pixel_make(0, root_of(r >> log), root_of(g >> log), root_of(b >> log));
 }
 
-static inline uint32_t mean_at(const struct line_block *b, int32_t x, int32_t y, bool linear)
+static inline uint32_t mean_at(const struct line_block *b, const uint32_t *in, bool linear)
 {
-    const uint32_t *in = b->in + y * b->in_stride + x;
     return SMEAR_WITH_LINEAR && linear ? light_mean(in, b->offset, b->log) : code_mean(in, b->offset, b->log);
 }
 
@@ -68,11 +74,12 @@ static inline void write_between(uint32_t out[LINE_SPARSE], uint32_t mean, uint3
 void smear_line_means_reference(const struct line_block *b, bool linear)
 {
     for (int32_t y = 0; y < b->rows; y++) {
-        uint32_t *out = b->out + y * b->out_stride, next = b->sparse ? mean_at(b, 0, y, linear) : 0;
+        const uint32_t *in = b->in + y * b->in_stride;
+        uint32_t *out = b->out + y * b->out_stride, next = b->sparse ? mean_at(b, in, linear) : 0;
         for (int32_t x = 0; x < b->columns; x += b->sparse ? (int32_t)LINE_SPARSE : 1) {
-            const uint32_t mean = b->sparse ? next : mean_at(b, x, y, linear);
+            const uint32_t mean = b->sparse ? next : mean_at(b, in + x, linear);
             if (b->sparse)
-                write_between(out + x, mean, next = mean_at(b, x + LINE_SPARSE, y, linear));
+                write_between(out + x, mean, next = mean_at(b, in + x + LINE_SPARSE, linear));
             else
                 out[x] = mean;
         }
@@ -125,31 +132,91 @@ SMEAR_INLINE void write_between4(uint32_t *out, smear_v4u mean, smear_v4u next)
                       (smear_v4i)v4u_mean8(middle, next));
 }
 
-/* Eight taps of every fourth pixel. */
-static void sparse_code_means8(const struct line_block *b)
+#if SMEAR_WITH_LINEAR && defined(__SSE2__)
+/* Means of the light of four pixels, so far apart, which have taps in pairs. */
+SMEAR_INLINE smear_v4u light_means4(const uint32_t *in, const int32_t *offset, int32_t log, int second, int third, int last)
 {
-    enum { TWO = 2 * LINE_SPARSE, FOUR = 4 * LINE_SPARSE };
+    const __m128i zero = _mm_setzero_si128();
+    const uint32_t *first = in + offset[0];
+    const smear_v4u same = { first[0], first[second], first[third], first[last] };
+    smear_v4u differs = { 0, 0, 0, 0 };
+    for (int k = 1; k < 1 << log; k++) {
+        const uint32_t *tap = in + offset[k];
+        differs |= (smear_v4u){ tap[0], tap[second], tap[third], tap[last] } ^ same;
+    }
+    if (!v4u_any(differs))
+        return same & 0xffffffu;
+    __m128i sum[4] = { zero, zero, zero, zero };
+    uint32_t square[16], mean[4];
+    for (int k = 0; k < 1 << log; k += 2) {
+        const uint32_t *p = in + offset[k], *q = in + offset[k + 1];
+        const __m128i a = (__m128i)(smear_v4u){ p[0], p[second], p[third], p[last] },
+                      b = (__m128i)(smear_v4u){ q[0], q[second], q[third], q[last] };
+        const __m128i low = _mm_unpacklo_epi8(a, b), high = _mm_unpackhi_epi8(a, b);
+        const __m128i pixel[4] = { _mm_unpacklo_epi8(low, zero), _mm_unpackhi_epi8(low, zero), _mm_unpacklo_epi8(high, zero),
+                                   _mm_unpackhi_epi8(high, zero) };
+        for (int i = 0; i < 4; i++)
+            sum[i] = _mm_add_epi32(sum[i], _mm_madd_epi16(pixel[i], pixel[i]));
+    }
+    for (int i = 0; i < 4; i++)
+        v4u_store(square + 4 * i, (smear_v4u)_mm_srl_epi32(sum[i], _mm_cvtsi32_si128(log)));
+    for (int i = 0; i < 4; i++)
+        mean[i] = pixel_make(0, root_of(square[4 * i + 2]), root_of(square[4 * i + 1]), root_of(square[4 * i]));
+    return v4u_load(mean);
+}
+
+static void light_means(const struct line_block *b)
+{
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
+        uint32_t *out = b->out + y * b->out_stride;
+        for (; b->log != 0 && end - in >= 4; in += 4, out += 4)
+            v4u_store(out, light_means4(in, b->offset, b->log, 1, 2, 3));
+        for (; in != end; in++, out++)
+            *out = light_mean(in, b->offset, b->log);
+    }
+}
+#define LIGHT_MEANS4(in, offset, third, last) light_means4(in, offset, LINE_TAPS_LOG_MAX, LINE_SPARSE, third, last)
+#else
+static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
+#define LIGHT_MEANS4(in, offset, third, last) \
+    ((smear_v4u){ light_mean(in, offset, LINE_TAPS_LOG_MAX), light_mean((in) + LINE_SPARSE, offset, LINE_TAPS_LOG_MAX), \
+                  light_mean((in) + (third), offset, LINE_TAPS_LOG_MAX), light_mean((in) + (last), offset, LINE_TAPS_LOG_MAX) })
+#endif
+
+/* Eight taps of every fourth pixel. */
+SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
+{
+    enum { TWO = 2 * LINE_SPARSE, FOUR = 4 * LINE_SPARSE, LOG = LINE_TAPS_LOG_MAX };
     for (int32_t y = 0; y < b->rows; y++) {
         const uint32_t *in = b->in + y * b->in_stride;
         uint32_t *out = b->out + y * b->out_stride;
         int32_t left = b->columns;
         for (; left >= FOUR; left -= FOUR, in += FOUR, out += FOUR) {
-            const smear_v4u mean = sparse_means(in, b->offset, TWO, 3 * LINE_SPARSE);
-            const uint32_t end = code_mean(in + FOUR, b->offset, LINE_TAPS_LOG_MAX);
+            const smear_v4u mean = linear ? LIGHT_MEANS4(in, b->offset, TWO, 3 * LINE_SPARSE)
+                                          : sparse_means(in, b->offset, TWO, 3 * LINE_SPARSE);
+            const uint32_t end = linear ? light_mean(in + FOUR, b->offset, LOG) : code_mean(in + FOUR, b->offset, LOG);
             write_between4(out, mean, (smear_v4u){ mean[1], mean[2], mean[3], end });
         }
         if (left >= TWO) {
-            const smear_v4u mean = sparse_means(in, b->offset, TWO, TWO);
+            const smear_v4u mean = linear ? LIGHT_MEANS4(in, b->offset, TWO, TWO) : sparse_means(in, b->offset, TWO, TWO);
             write_between(out, mean[0], mean[1]);
             write_between(out + LINE_SPARSE, mean[1], mean[2]);
             left -= TWO, in += TWO, out += TWO;
         }
         if (left > 0)
-            write_between(out, code_mean(in, b->offset, LINE_TAPS_LOG_MAX), code_mean(in + LINE_SPARSE, b->offset, LINE_TAPS_LOG_MAX));
+            write_between(out, mean_at(b, in, linear), mean_at(b, in + LINE_SPARSE, linear));
     }
 }
-#elif !PACKED_ASM_ARMV6M
+
+static void sparse_code_means8(const struct line_block *b) { sparse_means8(b, false); }
+static void sparse_light_means8(const struct line_block *b) { sparse_means8(b, true); }
+#else
+#if !PACKED_ASM_ARMV6M
 static void sparse_code_means8(const struct line_block *b) { smear_line_means_reference(b, false); }
+#endif
+static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
+static void sparse_light_means8(const struct line_block *b) { smear_line_means_reference(b, true); }
 #endif
 
 #if PACKED_ASM_ARMV6M
@@ -196,8 +263,12 @@ void smear_line_means(const struct line_block *b, bool linear)
 {
     if (b->log == 0 && !b->sparse)
         copy_rows(b);
-    else if (SMEAR_WITH_LINEAR && linear)
+    else if (SMEAR_WITH_LINEAR && linear && b->sparse && b->log == 3)
+        sparse_light_means8(b);
+    else if (SMEAR_WITH_LINEAR && linear && b->sparse)
         smear_line_means_reference(b, true);
+    else if (SMEAR_WITH_LINEAR && linear)
+        light_means(b);
     else if (b->sparse && b->log == 3)
         sparse_code_means8(b);
     else if (b->sparse)

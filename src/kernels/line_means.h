@@ -24,7 +24,8 @@ enum { LINE_SPARSE = 4 };
 /* Returns the mean of two codes, rounded up. */
 static inline uint32_t line_between(uint32_t a, uint32_t b) { return (a | b) - ((a ^ b) >> 1 & 0x7f7f7fu); }
 
-/* Writes the mean of each pixel's taps; with `linear` that of their light, as a code. The fourth channel becomes 0. */
+/* Writes the mean of each pixel's taps; with `linear` that of their light, for which the squares of codes stand, as a code. The fourth
+ * channel becomes 0. */
 void smear_line_means(const struct line_block *b, bool linear);
 
 /* What all variants give. */
