@@ -397,6 +397,17 @@ static uint32_t texels_most(const struct setup *s, int axis, uint32_t change[3],
     return most;
 }
 
+/* Returns by how many bits coordinates may be made finer: planes of coarse units would leave bits unused, and their slopes be rounded
+ * by so much that textures of a surface that passes the eye shake, where vertices lie far from what is seen. */
+static int spare_bits(const struct setup *s, const struct corners *k)
+{
+    uint32_t all = 0;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 3; j++)
+            all |= (uint32_t)(k->uv[i][j] ^ k->uv[i][j] >> 31);
+    return min_i32(count_leading_zeros(all | 1u) - 17, 15 - s->draw->sampler.uv_shift);
+}
+
 /* Divides for every block. */
 static void setup_divided(struct setup *s, const struct corners *k)
 {
@@ -411,7 +422,9 @@ static void setup_divided(struct setup *s, const struct corners *k)
         q[i] = k->q[i] << up;
     plane_slopes(s, &t->q, q[1] - q[0], q[2] - q[0], INT32_MAX - 1);
     plane_place(s, &t->q, q[0]);
-    t->shift = (int8_t)(20 - s->draw->sampler.uv_shift);
+    const int spare = spare_bits(s, k);
+    t->spare = (uint8_t)spare;
+    t->shift = (int8_t)(20 - s->draw->sampler.uv_shift - spare);
     t->slope = clamp_i32(t->q.dx, -(1 << 24) + 1, (1 << 24) - 1) * 128;
 
     /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q,
@@ -419,13 +432,13 @@ static void setup_divided(struct setup *s, const struct corners *k)
     uint32_t seen_q = (uint32_t)seen.low_q << up;
     uint32_t worst = 0;             /* texels per pixel, q6 */
     for (int i = 0; i < 2; i++) {
-        const int32_t *u = k->uv[i];
+        const int32_t u[3] = { shl_wrap(k->uv[i][0], spare), shl_wrap(k->uv[i][1], spare), shl_wrap(k->uv[i][2], spare) };
         struct plane *p = &t->uv[i];
         smear_plane_make(s, p, times_q15(u[0], q[0]), times_q15(u[1], q[1]), times_q15(u[2], q[2]));
         uint32_t change[3];
         for (int j = 0; j < 3; j++)
             change[j] = magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx)));
-        worst = max_u32(worst, texels_most(s, i, change, seen_q));
+        worst = max_u32(worst, texels_most(s, i, change, seen_q) >> spare);
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);
     uint32_t change = min_u32(smear_times_over(slope_q << 4, 1u << 12, seen_q), 1u << 16);

@@ -58,6 +58,7 @@ struct texture_setup {
     uint8_t block;          /* pixels: 1, 4, 8, 16, 32 or 64 */
     uint8_t up;             /* turns: shift; texels: 0 */
     int8_t shift;           /* what planes yield is turns in 2^(32 - shift) */
+    uint8_t spare;          /* divided: they are of units 2^spare times as fine as the mesh's */
     struct plane q;         /* divided: q */
     struct plane uv[2];     /* affine: coordinates. Divided: mesh units over w */
     int32_t slope;          /* divided: how q changes per pixel, times 2^7 */

@@ -19,8 +19,8 @@ SMEAR_INLINE struct place place_at(const struct texture_setup *t, enum texture_m
     if (mode == TEXTURE_DIVIDED) {
         p = place_divided(q, u, v, t->slope, t->parabolic);
         if (!turns) {
-            p.u = smear_sampler_texel(m, 0, shl_wrap(p.u, 2));
-            p.v = smear_sampler_texel(m, 1, shl_wrap(p.v, 2));
+            p.u = smear_sampler_texel(m, 0, shl_wrap(p.u, 2) >> t->spare);
+            p.v = smear_sampler_texel(m, 1, shl_wrap(p.v, 2) >> t->spare);
         }
     }
     return p;

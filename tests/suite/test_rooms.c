@@ -132,8 +132,8 @@ static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
     qsort(error, count, sizeof error[0], by_value);
     printf("  of %u textured rooms half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f\n", (unsigned)count,
            error[count / 2], error[count * 9 / 10], error[count - 1]);
-    CHECK_CLOSE(error[count * 9 / 10], 0, 2.1);
-    CHECK_CLOSE(error[count - 1], 0, 5);
+    CHECK_CLOSE(error[count * 9 / 10], 0, 1.9);
+    CHECK_CLOSE(error[count - 1], 0, 3);
 }
 
 #include "build/suites/rooms.h"
