@@ -89,6 +89,7 @@ SMEAR_NOINLINE void smear_frame_prepare(struct smear_context *c, bool by_depth)
     for (int i = 0; i < c->rows.jobs.workers; i++)
         c->rows.samples[i] = 0;
     smear_draws_find_curves(c);
+    smear_shot_find_turn(&c->shot);
     prepare_stages(c, by_depth);
     c->has_groups = c->has_fixed = false;
     smear_draws_begin_damage(c);

@@ -111,7 +111,7 @@ static void lay_out_store(struct smear_context *c, struct smear_arena *a, const 
     const size_t rows = (size_t)c->rows.window.rows;
     g->row_px = row_px(d);
     g->row_count = c->rows.window.rows;
-    g->camera = &c->shot.camera[0];
+    g->shot = &c->shot;
     g->pool_words = pool_words(d);
     g->pool = SMEAR_PLACE(d, SMEAR_PART_TRIANGLES, arena_take(a, g->pool_words, 4), g->pool_words * 4);
     const uint32_t pictures = has_lines(d) ? 2 : 1;

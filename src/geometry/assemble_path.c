@@ -10,6 +10,7 @@
 #include "geometry/path_places.h"
 #include "geometry/ranges.h"
 #include "geometry/reproject.h"
+#include "geometry/shot.h"
 #include "geometry/space.h"
 
 #if SMEAR_WITH_SUBFRAMES
@@ -19,8 +20,8 @@
 
 /* Whether the parabola on the screen through three places holds. Of a vertex that goes straight and comes nearer by the part d
  * of its distance, as it travels T px, that leaves out about T d^2 / 5 px; and of its depth a part of d^3 / 3, which counts
- * wherever the triangle reaches. */
-static bool holds(const struct smear_screen screen[KEYS])
+ * wherever the triangle reaches. A turn of the camera by t to either side leaves out T t^2 / 15: `turned` is t^2 / 3, q30. */
+static bool holds(const struct smear_screen screen[KEYS], uint32_t turned)
 {
     enum { APART_MOST = 320, FEW = 64 << 8 };         /* T d^2, q8 px: the path errs by a quarter of a pixel */
     const int32_t depth = screen[MIDDLE].depth;
@@ -35,14 +36,21 @@ static bool holds(const struct smear_screen screen[KEYS])
         return true;
     const int down = max_i32(17 - count_leading_zeros((uint32_t)depth), 0);
     const uint32_t part = (uint32_t)(nearer >> down), whole = (uint32_t)(depth >> down);       /* 15 bits */
-    return (uint64_t)(uint32_t)travel * (part * part) <= (uint64_t)APART_MOST * (whole * whole);
+    const uint32_t turns = turned == 0 ? 0 : (uint32_t)((uint64_t)(whole * whole) * turned >> 30);
+    return (uint64_t)(uint32_t)travel * (part * part + turns) <= (uint64_t)APART_MOST * (whole * whole);
+}
+
+static uint32_t turned_by(const struct smear_assembler *a)
+{
+    const uint32_t turn = a->bins->shot->turn >> 16;        /* t = 2 pi turn / 2^16 */
+    return turn * turn * 27u >> 3;
 }
 
 /* Completes the outcodes of a vertex. */
-static inline void find_kind(struct path_vertex *v, bool orthographic)
+static inline void find_kind(struct path_vertex *v, bool orthographic, uint32_t turned)
 {
     const uint32_t any = v->outcodes | v->outcodes >> 8 | v->outcodes >> 16;
-    if ((any & OUT_CLIP) != 0 || (!orthographic && !holds(v->screen)))
+    if ((any & OUT_CLIP) != 0 || (!orthographic && !holds(v->screen, turned)))
         v->outcodes |= IN_SPACE;
 }
 
@@ -306,7 +314,7 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
 
 /* ------------------------------------------------------------------ in space */
 
-/* A parabola lies within the triangle of its ends and of the place where the lines along it there meet. */
+/* A parabola or an arc lies within the triangle of its ends and of the place where the lines along it there meet. */
 enum { HULL_POINTS = 3 * KEYS };
 
 /* What is seen of a path in space. */
@@ -396,6 +404,11 @@ static bool may_face(const struct smear_homogeneous *const place[3], int key)
     return sum >= -((int64_t)1 << (2 * BITS + 3));
 }
 
+static inline int32_t meeting(int32_t open, int32_t middle, int32_t close, int32_t bulge)
+{
+    return narrow_sat(middle + ((2 * (int64_t)middle - open - close) * bulge >> 15));
+}
+
 /* Finds the bounds of a triangle of which a vertex has a path in space. Returns false where it is never seen. */
 static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, const struct path_batch *batch,
                                                 const struct path_vertex *v0, const struct path_vertex *v1, const struct path_vertex *v2)
@@ -406,14 +419,15 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
     struct smear_space space;
     int32_t travel = 1;
     make_space(&space, batch);
+    const int32_t bulge = smear_space_bulge(&space);
     for (int i = 0; i < 3; i++) {
         for (int key = 0; key < KEYS; key++)
             point[KEYS * i + key] = place[i][key];
         struct smear_homogeneous *const meet = &point[KEYS * i + MIDDLE];
         const struct smear_homogeneous *const open = &place[i][OPEN], *const close = &place[i][CLOSE];
-        meet->x = 2 * meet->x - ((open->x + close->x) >> 1);
-        meet->y = 2 * meet->y - ((open->y + close->y) >> 1);
-        meet->distance = narrow_sat(2 * (int64_t)meet->distance - (((int64_t)open->distance + close->distance) >> 1));
+        meet->x = meeting(open->x, meet->x, close->x, bulge);
+        meet->y = meeting(open->y, meet->y, close->y, bulge);
+        meet->distance = meeting(open->distance, meet->distance, close->distance, bulge);
         if (!depths_are_even(&space.depths))
             meet->w = meet->distance;
     }
@@ -489,7 +503,7 @@ static struct path_vertex *open_cache(struct smear_assembler *a, uint32_t *mask)
 static inline void make_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
 {
     find_vertex(v, a, d, tag);
-    find_kind(v, is_orthographic(&d->at.now));
+    find_kind(v, is_orthographic(&d->at.now), turned_by(a));
 }
 
 static struct path_vertex *look_up(struct path_vertex *cache, uint32_t mask, const struct smear_assembler *a,

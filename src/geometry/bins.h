@@ -134,7 +134,7 @@ struct smear_bins {
     uint32_t parts_listed, parts_end;
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
-    const smear_camera *camera;     /* before which paths in space are cut */
+    const struct smear_shot *shot;  /* before whose camera paths in space are cut */
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
     uint32_t *second_last;          /* of opaque ones in a second picture of the frame; or null */

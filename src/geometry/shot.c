@@ -154,6 +154,32 @@ void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const sme
     }
 }
 
+void smear_shot_find_turn(struct smear_shot *shot)
+{
+    enum { LEAST = 12 * 11930465, MOST = 45 * 11930465,      /* degrees */
+           ALONG = (1 << 30) - (1 << 22) };                 /* the cosine of five degrees between axes */
+    const struct smear_shutter_order order = smear_shot_order(shot);
+    const uint8_t pose[3] = { order.open, order.middle, order.close };
+    struct smear_axes axes[3];
+    struct smear_turn turn[2];
+    int64_t cosine = 0;
+    shot->turn = 0;
+    if (!SMEAR_WITH_SUBFRAMES || !shot->camera_moves || !shot_spans_exposure(shot))
+        return;
+    for (int i = 0; i < 3; i++)
+        smear_axes_find(&axes[i], &shot->camera[pose[i]].pose);
+    for (int i = 0; i < 2; i++)
+        smear_turn_between(&turn[i], &axes[i], &axes[i + 1]);
+    if (!turn[0].turns || !turn[1].turns)
+        return;
+    for (int i = 0; i < 3; i++)
+        cosine += (int64_t)turn[0].axis[i] * turn[1].axis[i];
+    const uint32_t mean = (turn[0].angle >> 1) + (turn[1].angle >> 1);
+    const int32_t faster = abs_i32((int32_t)(turn[0].angle - turn[1].angle));
+    if (mean >= LEAST && mean <= MOST && (uint32_t)faster <= mean >> 5 && cosine >> 30 >= ALONG)
+        shot->turn = mean;
+}
+
 /* ------------------------------------------------------------------ curves */
 
 #if SMEAR_WITH_CURVES

@@ -21,6 +21,7 @@ struct smear_shot {
     int32_t half_exposure;          /* q24 frames */
     uint32_t object_scale;          /* smear_frame.scale.object as it is used */
     int32_t height;                 /* of the frame, px */
+    uint32_t turn;                  /* smear_shot_find_turn */
 };
 
 static inline bool shot_is_curved(const struct smear_shot *shot) { return SMEAR_WITH_CURVES && shot->curved; }
@@ -63,6 +64,10 @@ int32_t smear_shot_time(const struct smear_shot *shot, int pose);
 
 /* Fills in the exposure of a frame whose defaults are filled in, and brings its shutter.degrees up to date. */
 void smear_shot_expose(struct smear_shot *shot, smear_frame *frame);
+
+/* Finds how far the camera turns from shutter open to the middle of the exposure, and so from there to close, q32 turns: 0 where that
+ * is little, no even turn, or more than an eighth. */
+void smear_shot_find_turn(struct smear_shot *shot);
 
 /* Whether there is a path from one camera to the other: both have a perspective, or none has. */
 bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b);

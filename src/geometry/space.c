@@ -3,6 +3,8 @@
 #include "geometry/space.h"
 
 #include "base/fixmath.h"
+#include "geometry/arc.h"
+#include "geometry/shot.h"
 #include "geometry/vertex.h"
 
 /* An orthographic camera's x and y from the frame's centre, before they are divided by W, have four bits more than q8. */
@@ -12,13 +14,15 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
                       int32_t height)
 {
     space->segment = s;
+    space->turn = g->shot->turn;
+    space->phase = INT32_MIN;
     space->viewport = (struct smear_viewport){ width, height };
     if (segment_flat_depth(s)) {
         /* Distances are what depths lack of the largest. */
         space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX, 1 << 30, 2, true, 0 };
         return;
     }
-    smear_depths_make(&space->depths, g->camera, s->scale);
+    smear_depths_make(&space->depths, &g->shot->camera[0], s->scale);
     space->depths.coarse = (uint8_t)projection_coarse(height, false);
 }
 
@@ -69,12 +73,47 @@ static inline int32_t along(int32_t open, int32_t middle, int32_t close, int32_t
     return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(twice_bend, p)), p));
 }
 
-void smear_space_at(struct smear_homogeneous *h, const struct smear_space *space, const int32_t *record, int32_t phase)
+/* The same along an arc. */
+static inline int32_t around(int32_t open, int32_t middle, int32_t close, const struct smear_space *space)
+{
+    const int32_t bend = add_wrap(add_wrap(open, close), mul_wrap(middle, -2));
+    return add_wrap(middle, add_wrap(times_phase(sub_wrap(close, open), space->along), times_phase(bend, space->bent)));
+}
+
+static SMEAR_RARE void find_phase(struct smear_space *space, int32_t phase)
+{
+    const int32_t one = 1 << 30;
+    int32_t cosine, sine, whole_cosine, whole_sine;
+    smear_turn_cosine_sine((uint32_t)((int64_t)space->turn * phase >> 30), &cosine, &sine);
+    smear_turn_cosine_sine(space->turn, &whole_cosine, &whole_sine);
+    const int32_t part = ratio_q30(min_i32(abs_i32(sine), whole_sine), whole_sine) >> 15;
+    space->phase = phase;
+    space->along = sine < 0 ? -part : part;
+    space->bent = ratio_q30(min_i32(one - cosine, one - whole_cosine), one - whole_cosine) >> 15;
+}
+
+int32_t smear_space_bulge(const struct smear_space *space)
+{
+    int32_t cosine = 1 << 30, sine;
+    if (space->turn != 0)
+        smear_turn_cosine_sine(space->turn, &cosine, &sine);
+    return (1 << 28) / (cosine >> 16);
+}
+
+void smear_space_at(struct smear_homogeneous *h, struct smear_space *space, const int32_t *record, int32_t phase)
 {
     const int32_t *const open = record + space->segment->motion, *const close = open + PATH_POSE_WORDS, p = phase >> 15;
-    h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], p);
-    h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], p);
-    h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], p);
+    if (space->turn != 0) {
+        if (space->phase != phase)
+            find_phase(space, phase);
+        h->x = around(open[PATH_X], record[VERTEX_X], close[PATH_X], space);
+        h->y = around(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], space);
+        h->distance = around(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], space);
+    } else {
+        h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], p);
+        h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], p);
+        h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], p);
+    }
     h->w = depths_are_even(&space->depths) ? EVEN_W : h->distance;
 }
 
@@ -134,7 +173,7 @@ static void place_on_screen(struct smear_screen *screen, const struct smear_spac
     screen_clamp(screen, &space->viewport);
 }
 
-int smear_space_pose(struct path_record out[SMEAR_CLIP_MAX], const struct smear_space *space, const int32_t *const record[3],
+int smear_space_pose(struct path_record out[SMEAR_CLIP_MAX], struct smear_space *space, const int32_t *const record[3],
                      unsigned in_space, int32_t phase, const int32_t shift[2])
 {
     struct smear_homogeneous place[3];

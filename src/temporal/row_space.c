@@ -41,7 +41,7 @@ static void cross(int64_t out[3], const struct smear_homogeneous *a, const struc
     out[2] = (int64_t)a->x * b->y - (int64_t)a->y * b->x;
 }
 
-static void places_at(struct smear_homogeneous place[3], const struct smear_space *space, const int32_t *const record[3], int32_t phase)
+static void places_at(struct smear_homogeneous place[3], struct smear_space *space, const int32_t *const record[3], int32_t phase)
 {
     for (int i = 0; i < 3; i++)
         smear_space_at(&place[i], space, record[i], phase);
@@ -57,7 +57,7 @@ static void find_nearness(struct smear_plane_motion *m, const struct smear_space
     m->nearness_shift = 14 + 1 + space->depths.coarse + 93 - zeros - 32 - 29 - space->depths.depth_shift - SUM_DOWN;
 }
 
-bool smear_plane_motion_make(struct smear_plane_motion *m, const struct smear_space *space, const int32_t *const record[3],
+bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *space, const int32_t *const record[3],
                              int32_t x, int32_t y, int32_t step)
 {
     struct smear_homogeneous place[3];

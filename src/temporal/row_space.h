@@ -31,7 +31,7 @@ struct smear_place_motion {
 
 /* Finds the motion of a triangle's plane from the middle of pixel (x, y) on, in steps of `step` pixels. False where it is not
  * seen in the middle of the exposure. */
-bool smear_plane_motion_make(struct smear_plane_motion *m, const struct smear_space *space, const int32_t *const record[3],
+bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *space, const int32_t *const record[3],
                              int32_t x, int32_t y, int32_t step);
 
 /* Goes on by a step to the right, or down. */

@@ -8,6 +8,7 @@
 #include "geometry/assemble.h"
 #include "geometry/assemble_path.h"
 #include "geometry/ranges.h"
+#include "geometry/shot.h"
 #include "tests/rig.h"
 
 enum { WIDTH = 96, HEIGHT = 64, DRAWS = 12, MOST = 20000 };
@@ -242,7 +243,7 @@ struct hall {
     struct smear_assembly assembly;
     smear_material material;
     smear_transform object[3];          /* at open, close and the instant that is drawn */
-    smear_camera camera;
+    struct smear_shot shot;
 };
 
 /* Places the shape as it is at one of these. */
@@ -252,8 +253,8 @@ static void hall_place_at(struct smear_placement *at, const struct smear_assembl
     struct smear_view view;
     at->position = a->mesh->position;
     at->extra_count = 0;
-    smear_view_compose(&view, &h->object[key], a->mesh, &h->camera.pose);
-    smear_projection_make(&at->now, &view, &h->camera, HEIGHT, coarse);
+    smear_view_compose(&view, &h->object[key], a->mesh, &h->shot.camera[0].pose);
+    smear_projection_make(&at->now, &view, &h->shot.camera[0], HEIGHT, coarse);
 }
 
 static void hall_open(struct hall *h, const struct shape *s, bool path)
@@ -261,13 +262,13 @@ static void hall_open(struct hall *h, const struct shape *s, bool path)
     h->bins = (struct smear_bins){ .pool = h->pool, .pool_words = POOL_WORDS, .range_shift = (uint8_t)between(2, 7),
                                    .segment = h->segment, .segment_limit = SEGMENTS, .opaque_last = h->opaque,
                                    .blend_last = h->blend, .moving_last = h->moving, .row_px = ROW_PX, .row_count = ROWS,
-                                   .camera = &h->camera };
+                                   .shot = &h->shot };
     h->assembler = (struct smear_assembler){ .viewport = { WIDTH, HEIGHT }, .bins = &h->bins, .cache = h->cache,
                                              .cache_mask = CACHE - 1, .keep_paths = path, .path_limit = UINT32_MAX };
     h->material = (smear_material){ .double_sided = (uint8_t)chance(3), .alpha = (uint8_t)(chance(4) ? SMEAR_BLEND : SMEAR_OPAQUE) };
     h->assembly = (struct smear_assembly){ .mesh = &s->mesh, .material = &h->material, .end = s->mesh.triangle_count, .path = path,
                                            .place_fine = hall_place_at, .place_of = h, .shading = { .white = true } };
-    h->camera = camera_at(0, 0, 0, 0);
+    h->shot.camera[0] = camera_at(0, 0, 0, 0);
 }
 
 /* Places the shape before the camera, near to it now and then, at one moment. */

@@ -66,7 +66,7 @@ static void test_a_path_that_holds_is_within_half_a_pixel_of_space(void)
         struct smear_screen screen[KEYS];
         if (!keys_of(screen, &f))
             continue;
-        if (!holds(screen)) {
+        if (!holds(screen, 0)) {
             refused++;
             continue;
         }
@@ -101,7 +101,7 @@ static void test_slow_things_keep_their_path_on_the_screen(void)
         f.way[2] = f.from[2] * uniform(-0.03, 0.03);
         for (int i = 0; i < 2; i++)
             f.way[i] = f.from[i] * f.way[2] / f.from[2] + f.from[2] * uniform(-10, 10);
-        if (keys_of(screen, &f) && !CHECK(holds(screen)))
+        if (keys_of(screen, &f) && !CHECK(holds(screen, 0)))
             return;
     }
 }
@@ -111,7 +111,8 @@ static void test_slow_things_keep_their_path_on_the_screen(void)
 enum { STEPS = 6, UNIT_LOG2 = 8 };
 
 static int16_t corner[9];
-static smear_camera eye[KEYS];
+static struct smear_shot shot;
+static smear_camera *const eye = shot.camera;
 static double way[3], bend[3];      /* of the eye: way phase + bend phase^2 */
 static const smear_mesh one = { .position = corner, .vertex_count = 3, .triangle_count = 1, .shift = UNIT_LOG2 };
 
@@ -190,7 +191,7 @@ static void test_bounds_hold_all_that_is_seen_of_a_triangle_in_space(void)
     static const smear_material material = { .color = { 255, 255, 255, 255 } };
     static struct smear_assembly d;
     struct smear_segment s = { .path = 1 };
-    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .camera = eye };
+    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .shot = &shot };
     struct smear_assembler a = { .bins = &g, .viewport = { 2 * HALF_WIDTH, 2 * HALF_HEIGHT }, .path_x1 = 2 * HALF_WIDTH };
     struct path_batch batch = { .a = &a, .d = &d, .segment = &s };
     int seen = 0;
@@ -216,7 +217,7 @@ static void test_bounds_of_wild_passages_before_an_orthographic_camera_lie_in_th
     static const smear_material material = { .color = { 255, 255, 255, 255 } };
     static struct smear_assembly d;
     struct smear_segment s = { .path = 1, .flat_depth = 1 };
-    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .camera = eye };
+    struct smear_bins g = { .row_px = 16, .row_end = 2 * HALF_HEIGHT / 16, .shot = &shot };
     struct smear_assembler a = { .bins = &g, .viewport = { 2 * HALF_WIDTH, 2 * HALF_HEIGHT }, .path_x1 = 2 * HALF_WIDTH };
     struct path_batch batch = { .a = &a, .d = &d, .segment = &s };
     struct smear_path_bounds b;

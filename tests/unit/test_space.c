@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_space.c - triangles with paths in space against floating point: where they are, what is seen of them, and how their planes
  * move from pixel to pixel. */
+#include "geometry/shot.h"
 #include "geometry/space.h"
 
 #include "temporal/row_space.h"
@@ -12,6 +13,7 @@ enum { W = 70, H = 44, POOL_WORDS = 400, SCALE = 14, EVEN_SCALE = 16, CORNERS = 
 
 static uint32_t words[POOL_WORDS];
 static const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536, .far_plane = 500 * 65536 };
+static struct smear_shot shot;
 static struct smear_space space;
 
 /* A parallelogram that goes along parabolas: its corners at open, in the middle and at close, as X Y W and distance, and their
@@ -25,7 +27,8 @@ struct sheet {
 static void begin(bool is_even)
 {
     store_begin(words, POOL_WORDS, 1, W, H, false);
-    geometry.camera = &camera;
+    shot.camera[0] = camera;
+    geometry.shot = &shot;
     set_path_layout(0, false, false, true, SHADE_FLAT);
     segment[0].flat_depth = is_even;
     segment[0].scale = SCALE;
@@ -53,6 +56,48 @@ static void exact_at(double out[4], const struct smear_homogeneous key[KEYS], do
                                 { key[2].x, key[2].y, key[2].w, key[2].distance } };
     for (int i = 0; i < 4; i++)
         out[i] = k[1][i] + ((k[2][i] - k[0][i]) * p + (k[0][i] + k[2][i] - 2 * k[1][i]) * p * p) / 2;
+}
+
+/* Places on the way around an axis through the eye are exact, and the lines along it at its ends hold them between them. */
+static void test_what_a_camera_turns_past_goes_around_it(void)
+{
+    begin(false);
+    for (int n = 0; n < 2000; n++) {
+        const double turn = uniform(0.2, 0.78), scale = 1 << 24;
+        double axis[3], at[KEYS + 1][3], length = 0;
+        struct smear_homogeneous h;
+        uint32_t *const record = words;
+        for (int i = 0; i < 3; i++) {
+            axis[i] = uniform(-1, 1);
+            at[1][i] = uniform(-1, 1);
+            length += axis[i] * axis[i];
+        }
+        length = sqrt(length);
+        space.turn = (uint32_t)lrint(turn / (2 * 3.14159265358979) * 4294967296.0);
+        space.phase = INT32_MIN;
+        const double phase = uniform(-1, 1), angle[KEYS + 1] = { -turn, 0, turn, phase * turn };
+        for (int k = 0; k < KEYS + 1; k++) {        /* Rodrigues */
+            double dot = 0;
+            for (int i = 0; i < 3; i++)
+                dot += axis[i] / length * at[1][i];
+            for (int i = 0; i < 3 && k != 1; i++) {
+                const int j = (i + 1) % 3, m = (i + 2) % 3;
+                at[k][i] = at[1][i] * cos(angle[k]) + (axis[j] * at[1][m] - axis[m] * at[1][j]) / length * sin(angle[k])
+                         + axis[i] / length * dot * (1 - cos(angle[k]));
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            record[i] = (uint32_t)(int32_t)lrint(at[1][i] * scale);
+            record[segment[0].motion + i] = (uint32_t)(int32_t)lrint(at[0][i] * scale);
+            record[segment[0].motion + PATH_POSE_WORDS + i] = (uint32_t)(int32_t)lrint(at[2][i] * scale);
+        }
+        smear_space_at(&h, &space, (const int32_t *)(const void *)record, (int32_t)lrint(phase * (1 << 30)));
+        const int32_t found[3] = { h.x, h.y, h.w };
+        for (int i = 0; i < 3; i++)     /* of a phase of 16 bits */
+            if (!CHECK_CLOSE(found[i], at[3][i] * scale, 3 * scale / 32768))
+                return;
+        CHECK_CLOSE(smear_space_bulge(&space) / 16384.0, 1 / cos(turn), 0.001);
+    }
 }
 
 /* Whether a vertex goes so evenly that its path on the screen is that in space. */

@@ -6,6 +6,7 @@
 #include "temporal/tile_method.h"
 
 #include "base/pixel.h"
+#include "geometry/shot.h"
 #include "geometry/space.h"
 #include "raster/raster.h"
 #include "geometry/transform.h"
@@ -36,12 +37,15 @@ static uint32_t sum[W * H * 3];
 
 /* ------------------------------------------------------------------ scenes */
 
+static struct smear_shot shot;
+
 static void scene_begin(bool linear)
 {
     store_begin(store, POOL_WORDS, SEGMENTS, W, H, linear);
     mover_count = 0;
     in_space = 0;
-    geometry.camera = &camera;
+    shot.camera[0] = camera;
+    geometry.shot = &shot;
     still_head = still_last = blend_head = blend_last = SMEAR_NO_TRIANGLE;
     for (int i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
