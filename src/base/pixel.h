@@ -20,16 +20,8 @@ static inline uint32_t pixel_make(uint32_t a, uint32_t r, uint32_t g, uint32_t b
     return a << 24 | r << 16 | g << 8 | b;
 }
 
-/* Makes a pixel of bytes r g b a: of one word, where no compiler turns its bytes round. */
-static inline uint32_t pixel_of_bytes(const uint8_t *c)
-{
-    uint32_t word;
-    if (!SMEAR_ASM_ARMV7EM)
-        return pixel_make(c[3], c[0], c[1], c[2]);
-    __builtin_memcpy(&word, c, 4);
-    word = __builtin_bswap32(word);
-    return word >> 8 | word << 24;
-}
+/* Makes a pixel of bytes r g b a. */
+static inline uint32_t pixel_of_bytes(const uint8_t *c) { return pixel_make(c[3], c[0], c[1], c[2]); }
 
 /* Returns a b / 255 to nearest for codes a and b, exactly for all pairs. */
 static inline uint32_t code_times(uint32_t a, uint32_t b)

@@ -8,11 +8,9 @@
 #include "base/fixmath.h"
 #include "base/pixel.h"
 #include "base/tables.h"
+#include "kernels/line_means_armv6m.h"
 #include "kernels/packed_sums.h"
 #include "kernels/vector.h"
-#if PACKED_ASM_ARMV6M
-#include "kernels/line_means_armv6m.h"
-#endif
 
 /* Rounds sums of 2^log codes. */
 SMEAR_INLINE uint32_t mean_of(uint32_t all, uint32_t red_blue, int32_t log)

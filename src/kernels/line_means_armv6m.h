@@ -3,7 +3,9 @@
 #ifndef SMEAR_LINE_MEANS_ARMV6M_H
 #define SMEAR_LINE_MEANS_ARMV6M_H
 
-#include "base/base.h"
+#include "kernels/packed_sums.h"
+
+#if PACKED_ASM_ARMV6M
 
 /* clang-format off */
 /* A tap of two pixels. */
@@ -151,4 +153,5 @@ static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, c
 }
 /* clang-format on */
 
+#endif
 #endif
