@@ -98,8 +98,9 @@ static void do_quality(struct view *v, int way)
     static const int targets[COUNT] = { SMEAR_SKETCH, SMEAR_DRAFT, SMEAR_BALANCED, SMEAR_FINE };
     static const char *const names[COUNT] = { "sketch", "draft", "balanced", "fine" };
     struct render_options o = v->main.options;
+    const int target = o.target != 0 ? o.target : SMEAR_BALANCED;
     int at = 0;
-    while (at < COUNT - 1 && o.target < targets[at])
+    while (at < COUNT - 1 && target < targets[at])
         at++;
     at = (at + way + COUNT) % COUNT;
     o.target = targets[at];
