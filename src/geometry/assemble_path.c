@@ -7,13 +7,29 @@
 #include "geometry/assemble_path.h"
 
 #include "geometry/path.h"
-#include "geometry/path_places.h"
 #include "geometry/ranges.h"
 #include "geometry/reproject.h"
 #include "geometry/shot.h"
 #include "geometry/space.h"
+#include "geometry/vertex.h"
 
 #if SMEAR_WITH_SUBFRAMES
+
+enum { OPEN, CLOSE, MIDDLE, KEYS };     /* as keys of an assembly, then the instant that is drawn */
+
+/* A vertex at all three instants: an entry of a direct-mapped cache in the memory of the other one. */
+struct path_vertex {
+    uint32_t tag, stored;               /* as in struct smear_cached_vertex */
+    struct smear_screen screen[KEYS];
+    uint32_t outcodes;                  /* a byte for each instant, see code_at() */
+};
+
+static inline const struct smear_placement *placement_of(const struct smear_assembly *d, int key)
+{
+    return key == MIDDLE ? &d->at : &d->motion.key[key];
+}
+
+SMEAR_STATIC_ASSERT(sizeof(struct path_vertex) <= 2 * sizeof(struct smear_cached_vertex), "two for one");
 
 /* A bit of path_vertex.outcodes above those of the instants: the vertex has a path in space. */
 #define IN_SPACE (1u << 24)
