@@ -20,6 +20,11 @@ done
     exit 1
 }
 
+# Two programs at once: one unpacks and builds after the other, with all cores each.
+mkdir -p build/pico
+exec 9>build/pico/lock
+! command -v flock >/dev/null || flock 9
+
 sdk=${PICO_SDK_PATH:-}
 if [ -z "$sdk" ] && [ -f "$archive" ]; then
     sdk=$PWD/build/pico/sdk
