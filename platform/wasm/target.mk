@@ -18,6 +18,8 @@ LDFLAGS += --target=wasm32 -nostdlib -Wl,--no-entry -Wl,--gc-sections -Wl,--stri
 ifeq ($(PAGE),1)
 BUILD  := $(BUILD)/page
 CFLAGS += -Os -DSMEAR_WITH_ALL=0 $(foreach switch,SUBFRAMES OVERLAY RGB BOUNDS DEBUG,-DSMEAR_WITH_$(switch)=1)
+# What moves cars takes a small part of a frame.
+$(BUILD)/platform/game/%.o: CFLAGS += -Oz
 endif
 
 PLATFORM_SRC := platform/wasm/platform.c $(addprefix platform/common/,arguments.c memory.c)

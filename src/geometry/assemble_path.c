@@ -58,7 +58,7 @@ static bool holds(const struct smear_screen screen[KEYS], uint32_t turned)
 
 static uint32_t turned_by(const struct smear_assembler *a)
 {
-    const uint32_t turn = a->bins->shot->turn >> 16;        /* t = 2 pi turn / 2^16 */
+    const uint32_t turn = SMEAR_WITH_CURVES ? a->bins->shot->turn >> 16 : 0;        /* t = 2 pi turn / 2^16 */
     return turn * turn * 27u >> 3;
 }
 
@@ -435,7 +435,7 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
     struct smear_space space;
     int32_t travel = 1;
     make_space(&space, batch);
-    const int32_t bulge = smear_space_bulge(&space);
+    const int32_t bulge = SMEAR_WITH_CURVES ? smear_space_bulge(&space) : 1 << 14;
     for (int i = 0; i < 3; i++) {
         for (int key = 0; key < KEYS; key++)
             point[KEYS * i + key] = place[i][key];

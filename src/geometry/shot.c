@@ -164,7 +164,7 @@ void smear_shot_find_turn(struct smear_shot *shot)
     struct smear_turn turn[2];
     int64_t cosine = 0;
     shot->turn = 0;
-    if (!SMEAR_WITH_SUBFRAMES || !shot->camera_moves || !shot_spans_exposure(shot))
+    if (!SMEAR_WITH_SUBFRAMES || !SMEAR_WITH_CURVES || !shot->camera_moves || !shot_spans_exposure(shot))
         return;
     for (int i = 0; i < 3; i++)
         smear_axes_find(&axes[i], &shot->camera[pose[i]].pose);

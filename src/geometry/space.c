@@ -73,6 +73,8 @@ static inline int32_t along(int32_t open, int32_t middle, int32_t close, int32_t
     return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(twice_bend, p)), p));
 }
 
+static inline bool space_turns(const struct smear_space *space) { return SMEAR_WITH_CURVES && space->turn != 0; }
+
 /* The same along an arc. */
 static inline int32_t around(int32_t open, int32_t middle, int32_t close, const struct smear_space *space)
 {
@@ -89,13 +91,13 @@ static SMEAR_RARE void find_phase(struct smear_space *space, int32_t phase)
     const int32_t part = ratio_q30(min_i32(abs_i32(sine), whole_sine), whole_sine) >> 15;
     space->phase = phase;
     space->along = sine < 0 ? -part : part;
-    space->bent = ratio_q30(min_i32(one - cosine, one - whole_cosine), one - whole_cosine) >> 15;
+    space->bent = ratio_q30(clamp_i32(one - cosine, 0, one - whole_cosine), one - whole_cosine) >> 15;       /* it is rounded */
 }
 
 int32_t smear_space_bulge(const struct smear_space *space)
 {
     int32_t cosine = 1 << 30, sine;
-    if (space->turn != 0)
+    if (space_turns(space))
         smear_turn_cosine_sine(space->turn, &cosine, &sine);
     return (1 << 28) / (cosine >> 16);
 }
@@ -103,7 +105,7 @@ int32_t smear_space_bulge(const struct smear_space *space)
 void smear_space_at(struct smear_homogeneous *h, struct smear_space *space, const int32_t *record, int32_t phase)
 {
     const int32_t *const open = record + space->segment->motion, *const close = open + PATH_POSE_WORDS, p = phase >> 15;
-    if (space->turn != 0) {
+    if (space_turns(space)) {
         if (space->phase != phase)
             find_phase(space, phase);
         h->x = around(open[PATH_X], record[VERTEX_X], close[PATH_X], space);
