@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KERNEL_PLANES = 5, KERNEL_WORDS = 12, KERNEL_FORMS = 4, KERNEL_BYTES = 1024 };
+enum { KERNEL_PLANES = 5, KERNEL_WORDS = 16, KERNEL_FORMS = 4, KERNEL_BYTES = 1024 };
 
 /* One call. What it writes to planes and words is compared. */
 struct kernel_call {

@@ -11,6 +11,7 @@
 enum { REACH = 21 };            /* planes go on so far to either side of the pixels, and of one behind them */
 enum { IN, OUT };               /* planes */
 enum { LOG, ROWS, GAP_IN, GAP_OUT, SPARSE, OFFSET };    /* words; of each tap from OFFSET on */
+_Static_assert((int)OFFSET + (int)LINE_TAPS_MAX <= (int)KERNEL_WORDS, "each tap has a word");
 
 static int32_t rows_of(const struct kernel_call *c) { return 1 + (int32_t)(c->word[ROWS] % 3u); }
 static int32_t in_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_IN] % 5u); }
