@@ -153,11 +153,12 @@ static inline uint32_t rest_of(const struct subframes *f, const struct gap *gap,
     return rest >= f->instants ? rest - f->instants : rest;
 }
 
-/* Whether a sum is a whole multiple of the instants; nearly, of light of which some bits were rounded away. */
+/* Whether a sum is a whole multiple of the instants; nearly, of light of which some bits were rounded away: by thresholds that leave
+ * up to 2.25 units of the sum (of 255 instants; light_sums.h). */
 static inline bool is_multiple(const struct subframes *f, const struct gap *gap, uint32_t sum)
 {
     const uint32_t rest = rest_of(f, gap, rest_of(f, gap, sum) << gap->down);
-    return min_u32(rest, f->instants - rest) <= 3u * gap->down;
+    return min_u32(rest, f->instants - rest) <= (gap->down != 0 ? 9u << gap->down >> 2 : 0);
 }
 
 /* Whether a pixel shows the same at all instants, as its sums tell: they are multiples of what one adds. */
