@@ -218,9 +218,9 @@ void smear_depths_make(struct smear_depths *d, const smear_camera *camera, int s
     }
 }
 
-/* Bits that are left for sums of poses and for parabolas through three of them: at any instant, and in sharp frames, too, so that
- * what stands still on the screen is rounded alike in all. */
-enum { FINE_ROOM = 3 };
+/* Bits that are left for sums of poses: at any instant, and in sharp frames, too, so that what stands still on the screen is rounded
+ * alike in all. */
+enum { FINE_ROOM = 1 };
 
 void smear_projection_make(struct smear_projection *p, const struct smear_view *view,
                            const smear_camera *camera, int height_px, int coarse)
@@ -274,7 +274,7 @@ void smear_projection_weigh(struct smear_projection *const out[], const struct s
                             int count, const smear_camera *camera)
 {
     int scale = in[0]->scale, distance_scale = in[0]->distance_scale;
-    const int have = in[0]->depths.coarse != 0 ? FINE_ROOM - 2 : 0;     /* parabolas have two of them */
+    const int have = in[0]->depths.coarse != 0 ? FINE_ROOM : 0;
     int room = 1 - have;
     uint32_t all = 0;           /* q20: each is below 2^7 */
     for (int i = 0; i < count; i++) {

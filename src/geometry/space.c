@@ -58,40 +58,34 @@ void smear_space_store(uint32_t *record, const struct smear_segment *s, const st
     store(record + s->motion + PATH_POSE_WORDS, s, close);
 }
 
-/* Returns a p / 2^16 to nearest for |p| <= 2^15. */
-static inline int32_t times_phase(int32_t a, int32_t p)
-{
-    const int32_t high = mul_wrap(a >> 15, p);
-    return add_wrap(high >> 1, (((high & 1) << 15) + (a & 0x7fff) * p + 0x8000) >> 16);
-}
-
-/* Returns a coordinate at a phase, q15, of the path from open over middle to close, to nearest: a floor would move all edges.
- * Projections leave room for what lies between (smear_projection_make); wilder numbers wrap. */
-static inline int32_t along(int32_t open, int32_t middle, int32_t close, int32_t p)
-{
-    const int32_t twice_bend = mul_wrap(add_wrap(add_wrap(open, close), mul_wrap(middle, -2)), 2);
-    return add_wrap(middle, times_phase(add_wrap(sub_wrap(close, open), times_phase(twice_bend, p)), p));
-}
-
 static inline bool space_turns(const struct smear_space *space) { return SMEAR_WITH_CURVES && space->turn != 0; }
 
-/* The same along an arc. */
-static inline int32_t around(int32_t open, int32_t middle, int32_t close, const struct smear_space *space)
-{
-    const int32_t bend = add_wrap(add_wrap(open, close), mul_wrap(middle, -2));
-    return add_wrap(middle, add_wrap(times_phase(sub_wrap(close, open), space->along), times_phase(bend, space->bent)));
-}
-
+/* Finds the shares of (close - open) and of (open + close - 2 middle) at a phase: on the parabola, or on the arc. Being those of all
+ * places, they leave what stands still on the screen where it is. */
 static SMEAR_RARE void find_phase(struct smear_space *space, int32_t phase)
 {
-    const int32_t one = 1 << 30;
+    const int32_t one = 1 << 30, p = phase >> 15;       /* |p| <= 2^15 */
+    space->phase = phase;
+    space->along = p;
+    space->bent = (p * p + (1 << 14)) >> 15;
+    if (!space_turns(space))
+        return;
     int32_t cosine, sine, whole_cosine, whole_sine;
     smear_turn_cosine_sine((uint32_t)((int64_t)space->turn * phase >> 30), &cosine, &sine);
     smear_turn_cosine_sine(space->turn, &whole_cosine, &whole_sine);
     const int32_t part = ratio_q30(min_i32(abs_i32(sine), whole_sine), whole_sine) >> 15;
-    space->phase = phase;
     space->along = sine < 0 ? -part : part;
     space->bent = ratio_q30(clamp_i32(one - cosine, 0, one - whole_cosine), one - whole_cosine) >> 15;       /* it is rounded */
+}
+
+/* Returns a coordinate on the path from open over middle to close, all within 2^29, rounded once to nearest: a floor would move all
+ * edges, and at its ends it is what they are. */
+static inline int32_t along(int32_t open, int32_t middle, int32_t close, const struct smear_space *space)
+{
+    const int32_t way = sub_wrap(close, open), bend = add_wrap(add_wrap(open, close), mul_wrap(middle, -2));
+    const int32_t high = add_wrap(mul_wrap(way >> 15, space->along), mul_wrap(bend >> 15, space->bent));
+    const int32_t low = ((way & 0x7fff) * space->along >> 1) + ((bend & 0x7fff) * space->bent >> 1);
+    return add_wrap(middle, add_wrap(high >> 1, (((high & 1) << 14) + low + 0x4000) >> 15));
 }
 
 int32_t smear_space_bulge(const struct smear_space *space)
@@ -104,18 +98,12 @@ int32_t smear_space_bulge(const struct smear_space *space)
 
 void smear_space_at(struct smear_homogeneous *h, struct smear_space *space, const int32_t *record, int32_t phase)
 {
-    const int32_t *const open = record + space->segment->motion, *const close = open + PATH_POSE_WORDS, p = phase >> 15;
-    if (space_turns(space)) {
-        if (space->phase != phase)
-            find_phase(space, phase);
-        h->x = around(open[PATH_X], record[VERTEX_X], close[PATH_X], space);
-        h->y = around(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], space);
-        h->distance = around(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], space);
-    } else {
-        h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], p);
-        h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], p);
-        h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], p);
-    }
+    const int32_t *const open = record + space->segment->motion, *const close = open + PATH_POSE_WORDS;
+    if (space->phase != phase)
+        find_phase(space, phase);
+    h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], space);
+    h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], space);
+    h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], space);
     h->w = depths_are_even(&space->depths) ? EVEN_W : h->distance;
 }
 

@@ -24,7 +24,7 @@ struct smear_space {
     struct smear_depths depths;
     struct smear_viewport viewport;
     uint32_t turn;                      /* smear_shot.turn */
-    int32_t phase, along, bent;         /* of the phase that was asked for last, q15: smear_space_at */
+    int32_t phase, along, bent;         /* of the phase that was asked for last, q16: smear_space_at */
 };
 
 void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
