@@ -130,37 +130,30 @@ SMEAR_INLINE void write_between4(uint32_t *out, smear_v4u mean, smear_v4u next)
                       (smear_v4i)v4u_mean8(middle, next));
 }
 
-#if SMEAR_WITH_LINEAR && defined(__SSE2__)
-/* Means of the light of four pixels, so far apart, which have taps in pairs. */
+/* Means of the light of four pixels, so far apart. */
 SMEAR_INLINE smear_v4u light_means4(const uint32_t *in, const int32_t *offset, int32_t log, int second, int third, int last)
 {
-    const __m128i zero = _mm_setzero_si128();
     const uint32_t *first = in + offset[0];
     const smear_v4u same = { first[0], first[second], first[third], first[last] };
-    smear_v4u differs = { 0, 0, 0, 0 };
+    smear_v4u differs = { 0, 0, 0, 0 }, sum[3] = { differs, differs, differs };
     for (int k = 1; k < 1 << log; k++) {
         const uint32_t *tap = in + offset[k];
         differs |= (smear_v4u){ tap[0], tap[second], tap[third], tap[last] } ^ same;
     }
     if (!v4u_any(differs))
         return same & 0xffffffu;
-    __m128i sum[4] = { zero, zero, zero, zero };
-    uint32_t square[16], mean[4];
-    for (int k = 0; k < 1 << log; k += 2) {
-        const uint32_t *p = in + offset[k], *q = in + offset[k + 1];
-        const __m128i a = (__m128i)(smear_v4u){ p[0], p[second], p[third], p[last] },
-                      b = (__m128i)(smear_v4u){ q[0], q[second], q[third], q[last] };
-        const __m128i low = _mm_unpacklo_epi8(a, b), high = _mm_unpackhi_epi8(a, b);
-        const __m128i pixel[4] = { _mm_unpacklo_epi8(low, zero), _mm_unpackhi_epi8(low, zero), _mm_unpacklo_epi8(high, zero),
-                                   _mm_unpackhi_epi8(high, zero) };
-        for (int i = 0; i < 4; i++)
-            sum[i] = _mm_add_epi32(sum[i], _mm_madd_epi16(pixel[i], pixel[i]));
+    for (int k = 0; k < 1 << log; k++) {        /* the square of a code has 16 bits */
+        const uint32_t *tap = in + offset[k];
+        const smear_v4u c = { tap[0], tap[second], tap[third], tap[last] };
+        const smear_v4u red_blue = c & 0xff00ffu, green = c >> 8 & 0xffu, squares = v4u_mul16(red_blue, red_blue);
+        sum[0] += squares & 0xffffu;
+        sum[1] += v4u_mul16(green, green);
+        sum[2] += squares >> 16;
     }
+    smear_v4u mean;
     for (int i = 0; i < 4; i++)
-        v4u_store(square + 4 * i, (smear_v4u)_mm_srl_epi32(sum[i], _mm_cvtsi32_si128(log)));
-    for (int i = 0; i < 4; i++)
-        mean[i] = pixel_make(0, root_of(square[4 * i + 2]), root_of(square[4 * i + 1]), root_of(square[4 * i]));
-    return v4u_load(mean);
+        mean[i] = pixel_make(0, root_of(sum[2][i] >> log), root_of(sum[1][i] >> log), root_of(sum[0][i] >> log));
+    return mean;
 }
 
 static void light_means(const struct line_block *b)
@@ -168,19 +161,12 @@ static void light_means(const struct line_block *b)
     for (int32_t y = 0; y < b->rows; y++) {
         const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
         uint32_t *out = b->out + y * b->out_stride;
-        for (; b->log != 0 && end - in >= 4; in += 4, out += 4)
+        for (; end - in >= 4; in += 4, out += 4)
             v4u_store(out, light_means4(in, b->offset, b->log, 1, 2, 3));
         for (; in != end; in++, out++)
             *out = light_mean(in, b->offset, b->log);
     }
 }
-#define LIGHT_MEANS4(in, offset, third, last) light_means4(in, offset, LINE_TAPS_LOG_MAX, LINE_SPARSE, third, last)
-#else
-static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
-#define LIGHT_MEANS4(in, offset, third, last) \
-    ((smear_v4u){ light_mean(in, offset, LINE_TAPS_LOG_MAX), light_mean((in) + LINE_SPARSE, offset, LINE_TAPS_LOG_MAX), \
-                  light_mean((in) + (third), offset, LINE_TAPS_LOG_MAX), light_mean((in) + (last), offset, LINE_TAPS_LOG_MAX) })
-#endif
 
 /* Eight taps of every fourth pixel. */
 SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
@@ -191,13 +177,14 @@ SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
         uint32_t *out = b->out + y * b->out_stride;
         int32_t left = b->columns;
         for (; left >= FOUR; left -= FOUR, in += FOUR, out += FOUR) {
-            const smear_v4u mean = linear ? LIGHT_MEANS4(in, b->offset, TWO, 3 * LINE_SPARSE)
+            const smear_v4u mean = linear ? light_means4(in, b->offset, LOG, LINE_SPARSE, TWO, 3 * LINE_SPARSE)
                                           : sparse_means(in, b->offset, TWO, 3 * LINE_SPARSE);
             const uint32_t end = linear ? light_mean(in + FOUR, b->offset, LOG) : code_mean(in + FOUR, b->offset, LOG);
             write_between4(out, mean, (smear_v4u){ mean[1], mean[2], mean[3], end });
         }
         if (left >= TWO) {
-            const smear_v4u mean = linear ? LIGHT_MEANS4(in, b->offset, TWO, TWO) : sparse_means(in, b->offset, TWO, TWO);
+            const smear_v4u mean = linear ? light_means4(in, b->offset, LOG, LINE_SPARSE, TWO, TWO)
+                                          : sparse_means(in, b->offset, TWO, TWO);
             write_between(out, mean[0], mean[1]);
             write_between(out + LINE_SPARSE, mean[1], mean[2]);
             left -= TWO, in += TWO, out += TWO;
