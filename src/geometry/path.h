@@ -7,7 +7,6 @@
 #define SMEAR_PATH_H
 
 #include "geometry/bins.h"
-#include "kernels/vertex_path.h"
 
 /* Time in the exposure is q16: 0 is open, SHUTTER_CLOSE is close. */
 #define SHUTTER_CLOSE 65536
@@ -61,21 +60,12 @@ static inline int32_t path_depth(int32_t open, int32_t middle, int32_t close, in
 }
 
 /* Finds x, y and depth of a vertex at a phase; `open`: its place at open, which that at close follows. */
-static inline void path_place_reference(int32_t out[3], const int32_t *record, const int32_t *open, int32_t u)
+static inline void path_place(int32_t out[3], const int32_t *record, const int32_t *open, int32_t u)
 {
     const int32_t *close = open + PATH_POSE_WORDS;
     out[PATH_X] = path_coordinate(open[PATH_X], record[VERTEX_X], close[PATH_X], u);
     out[PATH_Y] = path_coordinate(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], u);
     out[PATH_DEPTH] = path_depth(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], u);
-}
-
-static inline void path_place(int32_t out[3], const int32_t *record, const int32_t *open, int32_t u)
-{
-#if PATH_ASM_ARMV6M
-    vertex_path_armv6m(out, record, open, u >> 15);
-#else
-    path_place_reference(out, record, open, u);
-#endif
 }
 
 /* Whether a vertex whose places at open and close are given is shifted along an axis from instant to instant, for smooth edges.
@@ -87,10 +77,15 @@ static inline bool path_is_shifted(const int32_t *open, int axis)
     return along < 512 || along < abs_i32(close[1 - axis] - open[1 - axis]);
 }
 
+/* A vertex at an instant: x, y and depth, and up to three words more. */
+struct path_record {
+    int32_t word[6];
+};
+
 /* Finds x, y and depth of three vertices at a phase, of which `vertex` has the first words from `base` on, and the box of them: the
- * least x and y, and the largest. `near`: no curvature, open + close - 2 middle, reaches 2^16 along x or y. */
-static inline void path_triangle_reference(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3],
-                                           int motion, int32_t u)
+ * least x and y, and the largest. */
+static inline void path_triangle(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3], int motion,
+                                 int32_t u)
 {
     box[0] = box[1] = INT32_MAX;
     box[2] = box[3] = INT32_MIN;
@@ -103,20 +98,6 @@ static inline void path_triangle_reference(int32_t box[4], struct path_record ou
         box[2] = max_i32(box[2], at[VERTEX_X]);
         box[3] = max_i32(box[3], at[VERTEX_Y]);
     }
-}
-
-static inline void path_triangle(int32_t box[4], struct path_record out[3], const int32_t *base, const uint16_t vertex[3], int motion,
-                                 int32_t u, bool near)
-{
-#if PATH_ASM_ARMV6M
-    if (near) {
-        triangle_path_armv6m(box, out, base, vertex, motion, u >> 15);
-        return;
-    }
-#else
-    (void)near;
-#endif
-    path_triangle_reference(box, out, base, vertex, motion, u);
 }
 
 /* Finds x, y and depth of a vertex at a time of the exposure. */

@@ -4,7 +4,6 @@
 #include "raster/fog.h"
 #include "raster/texture_rows.h"
 
-#include "kernels/colors_over_w.h"
 #include "kernels/flat_run.h"
 #include "kernels/shade_run.h"
 #include "raster/texcoord.h"
@@ -66,12 +65,8 @@ static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t 
     const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
     const int zeros = count_leading_zeros(q);
     const int32_t recip = (int32_t)recip_norm(q << zeros);
-#if COLORS_OVER_W_ARMV6M
-    colors_over_w_armv6m(out, &s->channel[0].at, x, y, zeros, recip);
-#else
     for (int i = 0; i < 3; i++)
         out[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
-#endif
 }
 
 /* The steps of colours in a block of n > 0 pixels; in fog they may have none. */

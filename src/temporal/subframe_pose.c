@@ -44,7 +44,7 @@ static SMEAR_RARE struct range keep_within(struct posed *p, int axis, int32_t lo
 }
 
 /* Makes the vertices' records, and their box in `bounds`. Between places within the guard band a parabola may leave it. */
-static inline void place(struct posed *p, const struct subframes *f, const struct smear_triangle *t, int32_t u, bool near)
+static inline void place(struct posed *p, const struct subframes *f, const struct smear_triangle *t, int32_t u)
 {
     const struct smear_raster_frame *frame = f->t->frame;
     const struct smear_segment *s = p->segment;
@@ -52,7 +52,7 @@ static inline void place(struct posed *p, const struct subframes *f, const struc
     int32_t box[4];
     for (int i = 0; i < 3; i++)
         p->v[i] = p->record[i].word;
-    path_triangle(box, p->record, bins_vertex(frame->bins, s, 0), t->vertex, s->motion, u, near);
+    path_triangle(box, p->record, bins_vertex(frame->bins, s, 0), t->vertex, s->motion, u);
     struct range along_x = { box[0], box[2] }, along_y = { box[1], box[3] };
     if (SMEAR_EDGES && f->shift[VERTEX_X] != 0)
         along_x = shift_along(p, frame->bins, t, VERTEX_X, f->shift[VERTEX_X]);
@@ -157,7 +157,6 @@ static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes
 
 bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time)
 {
-    enum { NEAR = 65536 >> 4 };
     const struct smear_bins *g = f->t->frame->bins;
     const struct smear_triangle *t = bins_triangle(g, triangle);
     const struct smear_segment *s = &g->segment[t->segment];
@@ -172,7 +171,7 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
         /* In the middle, vertices are where their records say. */
         moves = time != SHUTTER_CLOSE / 2 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0);
         if (moves)
-            place(p, f, t, path_phase(time), b->curvature < NEAR);
+            place(p, f, t, path_phase(time));
     }
     if (!moves)
         take(p, g, t);
