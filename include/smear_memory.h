@@ -50,6 +50,7 @@ static inline size_t smear_memory_needed(int result)
                                              * texture, 8 with vertex colours or normals, 12 or 24 when moving */
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36
                                              * bytes per vertex */
+#define SMEAR_FLOW_BYTES 61u                /* how it moves in sketches */
 #define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
 #define SMEAR_STRIP 128                     /* strips this wide and wider take 16 columns more */
 
@@ -87,17 +88,17 @@ static inline size_t smear_memory_needed(int result)
 #define SMEAR_ROWS_BYTES_(w, h, T, bits) \
     (SMEAR_WORKER_BYTES_(w, T) + (w) * SMEAR_MIN_(T, h) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
      + ((h) + (T) - 1u) / (T) * 12u)
-/* Sketches: at least the reach; two tile rows and the reach of colour and depth, and one more that lines have blurred; what
- * stands still may be listed twice. */
+/* Sketches: at least the reach; two tile rows and the reach of colour and depth, and one more that lines have blurred, and once more
+ * its colours where sums have no room for them; what moves by itself in its blocks. Draws have flows. */
 #define SMEAR_SKETCH_TILE_(h) ((h) <= 179 ? 8u : (h) <= 339 ? 16u : (h) <= 659 ? 32u : 64u)
 #define SMEAR_SKETCH_COLUMNS_(w, T) ((T) == 8u ? SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u) : (w) > 128u ? 144u : SMEAR_UP_(w, T))
 #define SMEAR_SKETCH_ROWS_(w, h, T, bits) \
     (SMEAR_STRIP_BYTES_(w, T, SMEAR_SKETCH_COLUMNS_(w, T)) + (w) * (3u * (T) + SMEAR_REACH_(h)) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
+     + (SMEAR_SKETCH_COLUMNS_(w, T) * (T) * 10u + 512u < (w) * (T) * 4u ? (w) * (T) * 4u : 0u) + SMEAR_UP_(w, 8u) * (T) / 8u \
      + ((h) + (T) - 1u) / (T) * 16u + 256u)
-#define SMEAR_SKETCH_TRIANGLES_(t) ((t) * (2u * SMEAR_TRIANGLE_BYTES + 8u) + (t) / 160u)
-#define SMEAR_SKETCH_TWICE_(d) (SMEAR_MIN_(d, 65536u - (d)) * SMEAR_SEGMENT_BYTES)
+#define SMEAR_SKETCH_TWICE_(d) (SMEAR_MIN_(d, 65536u - (d)) * SMEAR_SEGMENT_BYTES + (d) * SMEAR_FLOW_BYTES)
 #define SMEAR_SKETCH_OF_(w, h, t, d, f, ...) \
-    ((SMEAR_FIXED_BYTES_ + SMEAR_SKETCH_TRIANGLES_((size_t)(t) != 0 ? (size_t)(t) : 1024u) \
+    ((SMEAR_FIXED_BYTES_ + SMEAR_TRIANGLES_BYTES_((size_t)(t) != 0 ? (size_t)(t) : 1024u) \
       + ((size_t)(d) != 0 ? (size_t)(d) : 16u) * SMEAR_DRAW_BYTES_ + SMEAR_SKETCH_TWICE_((size_t)(d) != 0 ? (size_t)(d) : 16u) \
       + SMEAR_SKETCH_ROWS_((size_t)(w), (size_t)(h), SMEAR_SKETCH_TILE_(h), SMEAR_PIXEL_BITS_(f)) + 7u) / 8u)
 #elif SMEAR_WITH_RECONSTRUCT                /* SMEAR_RECONSTRUCT */

@@ -63,4 +63,11 @@ static inline bool frame_has_lines(const struct smear_context *c) { return tempo
 /* And there are two pictures of it. */
 static inline bool frame_has_pictures(const struct smear_context *c) { return frame_has_lines(c) && c->temporal.lines->pictures > 1; }
 
+/* And some of what moves by itself is drawn over it. */
+static inline bool frame_has_movers(const struct smear_context *c) { return frame_has_lines(c) && c->temporal.lines->movers != 0; }
+static inline bool draw_is_mover(const struct smear_context *c, uint32_t i)
+{
+    return frame_has_lines(c) && line_is_mover(c->temporal.lines, i);
+}
+
 #endif

@@ -57,6 +57,20 @@ static void place(struct smear_assembly *a, const struct smear_context *c, struc
     smear_draw_poses_place(&a->motion.key[1], p, &c->shot, a->mesh, &close);
 }
 
+/* Assembles a draw; that which is drawn over what lines have blurred into a list of its own. */
+static bool assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a)
+{
+    struct smear_bins *g = as->bins;
+    uint32_t *const opaque = g->opaque_last;
+    if (assembly_has_path(a))
+        return smear_assemble_path(as, a);
+    if (draw_is_mover(c, a->draw))
+        g->opaque_last = g->second_last;
+    const bool done = smear_assemble(as, a);
+    g->opaque_last = opaque;
+    return done;
+}
+
 SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
                                               struct smear_assembly *a)
 {
@@ -73,7 +87,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     a->moves = 0;
     a->path = a->has_rest = false;
     /* Fog, of which a tiny triangle has one part however the frame is cut, and velocities that are not those of the depth. */
-    a->fixed = frame_has_fog(&c->rows.raster) || draw_is_fixed(&c->raster_draw[i]);
+    a->fixed = frame_has_fog(&c->rows.raster) || draw_is_fixed(&c->raster_draw[i]) || draw_is_mover(c, i);
     const bool moves = poses_differ(&poses);
     place(a, c, &poses, moves, assembler_keeps_paths(&c->assembler) && (frame_has_lines(c) ? c->raster_draw[i].moves : moves), instant);
     /* Layers reach beyond the frame. */
@@ -122,7 +136,9 @@ static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
 {
     if (draw_is_grouped(c, i))
         return FILL_GROUP;
-    return c->raster_draw[i].alpha == SMEAR_BLEND ? FILL_BLENDED : c->raster_draw[i].moves ? FILL_MOVING : FILL_STATIC;
+    if (c->raster_draw[i].alpha == SMEAR_BLEND)
+        return FILL_BLENDED;
+    return c->raster_draw[i].moves || draw_is_mover(c, i) ? FILL_MOVING : FILL_STATIC;
 }
 
 /* Whether draw `i`, number `k` in the order, is among those that a fill still lacks. */
@@ -150,7 +166,7 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     }
     if (draw_is_grouped(c, i))
         return smear_layers_assemble(c, &a);
-    return assembly_has_path(&a) ? smear_assemble_path(as, &a) : smear_assemble(as, &a);
+    return assemble_one(c, as, &a);
 }
 
 /* Whether a sharp frame of which the display shows a part lacks a draw. */
@@ -218,9 +234,7 @@ static bool assemble_pictures(struct smear_context *c, struct smear_assembler *a
 {
     struct smear_bins *g = as->bins;
     uint32_t *const first = g->opaque_last;
-    as->twice = true;
     bool done = assemble_kind(c, as, instant, NULL, DRAWS_ALL);
-    as->twice = false;
     const uint32_t drawn = as->triangles_drawn, dropped = as->triangles_dropped, beside = c->stats.draws_beside;
     g->opaque_last = g->second_last;
     c->temporal.lines->picture = 1;
@@ -336,7 +350,7 @@ static bool assemble_range(const struct assembly_parts *all, struct smear_part *
     }
     a.first = first;
     a.end = end;
-    return assembly_has_path(&a) ? smear_assemble_path(&p->as, &a) : smear_assemble(&p->as, &a);
+    return assemble_one(all->c, &p->as, &a);
 }
 
 static void assemble_job(void *argument, int job, int worker)
@@ -377,7 +391,7 @@ static bool has_parts(struct smear_context *c)
 {
     const struct smear_bins *g = &c->rows.bins;
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    if (n == 1 || frame_has_layers(c) || frame_has_pictures(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
+    if (n == 1 || frame_has_layers(c) || frame_has_pictures(c) || frame_has_movers(c) || bins_kept(g) != 0 || static_is_cached(c->damage)
         || (damage_compares(c->damage) && assembler_has_damage(&c->assembler))
         || c->stats.triangles_in < PART_TRIANGLES_LEAST
         || (!are_apart(c)
@@ -545,13 +559,13 @@ static void begin_lists(struct smear_context *c, int top, int first)
 {
     struct smear_rows *rows = &c->rows;
     rows->opaque = rows->blend = rows->moving = SMEAR_NO_TRIANGLE;
-    if (frame_has_pictures(c))
+    if (frame_has_lines(c))
         c->temporal.lines->opaque = SMEAR_NO_TRIANGLE;
     if (SMEAR_RASTER_CACHE)
         make_cache(c);
     for (int row = top; row < first; row++) {
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-        if (frame_has_pictures(c))
+        if (frame_has_lines(c))
             c->temporal.lines->opaque = row_advance(rows, rows->bins.second_last, c->temporal.lines->opaque, row);
     }
 }
@@ -581,6 +595,8 @@ static void fill(struct smear_refill *f)
     begin_lists(c, f->row, f->row);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, SMEAR_NO_TRIANGLE, f->row);
     rows->blend = row_advance(rows, rows->bins.blend_last, SMEAR_NO_TRIANGLE, f->row);
+    if (frame_has_lines(c))
+        c->temporal.lines->opaque = row_advance(rows, rows->bins.second_last, SMEAR_NO_TRIANGLE, f->row);
     if (rows->bins.moving_last != NULL && !frame_has_layers(c))
         rows->moving = row_advance(rows, rows->bins.moving_last, SMEAR_NO_TRIANGLE, f->row);
     stage_end(rows, &c->stats.time.submit, start);

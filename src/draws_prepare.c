@@ -43,9 +43,12 @@ static void classify_draw(struct smear_context *c, uint32_t i)
         r->moves = false;
     if (frame_has_lines(c)) {
         const smear_draw *draw = &c->submitted[i].draw;
-        r->moves = moves_over_lines(&p, draw, draw->material != NULL && draw->material->alpha == SMEAR_BLEND);
+        const bool blended = draw->material != NULL && draw->material->alpha == SMEAR_BLEND;
+        c->temporal.lines->kind[i] = LINE_GOES_ALONG;
+        r->moves = moves_over_lines(&p, draw, blended)
+                && (blended || !smear_movers_take(c->temporal.lines, &p, &c->shot, &c->rows.window, draw->mesh, i));
     }
-    c->stats.draws_moved += r->moves;
+    c->stats.draws_moved += r->moves || draw_is_mover(c, i);
 }
 
 static void look_up_material(struct smear_context *c, uint32_t i)

@@ -73,7 +73,7 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     rows->clear = c->frame.clear & 0xffffffu;
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
     c->assembler.keep_paths = smear_method_is_temporal(method);
-    c->assembler.still = frame_has_lines(c) ? &c->temporal.lines->flow : NULL;
+    c->assembler.lines = frame_has_lines(c);
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;
     rows->refill = NULL;

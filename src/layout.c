@@ -14,6 +14,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_raster_draw) <= SMEAR_SAMPLER_BYTES, "SM
 SMEAR_STATIC_ASSERT(sizeof(struct smear_kept_pose) <= SMEAR_KEPT_BYTES, "SMEAR_KEPT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_older) <= SMEAR_OLDER_CAMERA_BYTES, "SMEAR_OLDER_CAMERA_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_older_pose) <= SMEAR_OLDER_BYTES, "SMEAR_OLDER_BYTES");
+SMEAR_STATIC_ASSERT(sizeof(struct smear_flow) + 1 <= SMEAR_FLOW_BYTES, "SMEAR_FLOW_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_cached_vertex) <= SMEAR_CACHE_BYTES, "SMEAR_CACHE_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_segment) <= SMEAR_SEGMENT_BYTES, "SMEAR_SEGMENT_BYTES");
 SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangle");
@@ -21,8 +22,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_triangle) == 16, "pool words per triangl
 /* Returns words for triangles and vertices. */
 static uint32_t pool_words(const smear_desc *d)
 {
-    const uint32_t bytes = has_lines(d) ? 2 * SMEAR_TRIANGLE_BYTES
-                         : is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES;
+    const uint32_t bytes = is_temporal(d) ? SMEAR_TEMPORAL_TRIANGLE_BYTES : SMEAR_TRIANGLE_BYTES;
     return max_u32(d->max_triangles * (bytes / 4), POOL_WORDS_LEAST);
 }
 
@@ -47,9 +47,15 @@ static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const
     const size_t pixels = (size_t)d->width * (size_t)d->tile;
     uint32_t *row = arena_take(a, pixels, sizeof *row);
     uint16_t *depth = arena_take(a, pixels, sizeof *depth);
+    uint32_t *over = (uint32_t *)(void *)t->work;       /* until tiles are finished, if there is room */
+    if ((size_t)d->workers * t->work_bytes < pixels * sizeof *over)
+        over = arena_take(a, pixels, sizeof *over);
+    struct smear_flow *own = arena_take(a, d->max_draws, sizeof *own);
+    uint8_t *kind = arena_take(a, d->max_draws, sizeof *kind);
+    struct smear_line_block *block = arena_take(a, (size_t)line_blocks(d->width) * (size_t)line_blocks(d->tile), sizeof *block);
     t->lines = arena_take(a, 1, sizeof *t->lines);
     if (t->lines != NULL)           /* else it is only measured */
-        *t->lines = (struct smear_lines){ .row = row, .depth = depth };
+        *t->lines = (struct smear_lines){ .row = row, .depth = depth, .kind = kind, .own = own, .block = block, .over = over };
 }
 
 static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, const smear_desc *d)

@@ -245,26 +245,10 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     return word;
 }
 
-/* Whether no vertex moves, not even by a step (q8 px). Along lines: whether all move as if they stood still before the camera, which
- * the triangle faces in the middle of the exposure. */
-static bool is_static(const struct path_batch *b, const struct smear_path_bounds *bounds, const int32_t *const record[3])
+/* Whether no vertex moves, not even by a step (q8 px); before lines, which would blur it, what stays where it is moves, too. */
+static bool is_static(const struct path_batch *b, const struct smear_path_bounds *bounds)
 {
-    enum { ALIKE = 384 };           /* q8 px */
-    const int motion = b->segment->motion;
-    if (!SMEAR_WITH_LINES || b->a->still == NULL)
-        return bounds->travel + bounds->curvature == 0;
-    if (bounds->space != 0)
-        return false;
-    for (int i = 0; i < 3; i++) {
-        const int32_t *v = record[i], *open = v + motion, *close = open + PATH_POSE_WORDS;
-        int32_t still[2];
-        smear_flow_at(b->a->still, v[VERTEX_X] >> 8, v[VERTEX_Y] >> 8, (uint32_t)v[VERTEX_DEPTH] >> 11, still);
-        if (max_i32(abs_i32(close[PATH_X] - open[PATH_X] - still[0]), abs_i32(close[PATH_Y] - open[PATH_Y] - still[1])) > ALIKE)
-            return false;
-    }
-    const int32_t *a = record[0], *c = record[1], *e = record[2];
-    return (int64_t)(c[VERTEX_X] - a[VERTEX_X]) * (e[VERTEX_Y] - a[VERTEX_Y])
-         > (int64_t)(e[VERTEX_X] - a[VERTEX_X]) * (c[VERTEX_Y] - a[VERTEX_Y]);
+    return !b->a->lines && bounds->travel + bounds->curvature == 0;
 }
 
 /* Whether the next part of the triangle has been added already. */
@@ -277,7 +261,7 @@ static bool is_added(struct path_batch *b)
 
 static bool has_room(struct path_batch *b, bool in_space)
 {
-    struct smear_segment *s = make_room(b->a, b->d, b->segment, b->a->twice ? 4 : 2, in_space ? SPACE_ROOM : 0);
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, 2, in_space ? SPACE_ROOM : 0);
     if (s == NULL || b->a->path_count == b->a->path_limit)
         return false;
     b->segment = s;
@@ -315,11 +299,9 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     uint32_t color = smear_face_color(b->d, b->segment, face);
     if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.linear))
         bounds->flags |= PATH_FLAT;
-    const bool stands = is_static(b, bounds, record);
+    const bool stands = is_static(b, bounds);
     uint32_t *list = is_blend(b->d) ? g->blend_last : stands ? g->opaque_last : g->moving_last;
     add_listed(b, list, bounds, vertex, color);
-    if (stands && b->a->twice && !is_blend(b->d))
-        add_listed(b, g->second_last, bounds, vertex, color);
     b->parts++;
     b->a->path_count++;
     b->a->path_static_count += stands;

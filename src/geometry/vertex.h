@@ -101,8 +101,7 @@ struct smear_assembler {
     bool keep_motion;               /* the method reads velocities */
     bool keep_paths;                /* the method looks at several instants */
     uint32_t path_count, path_limit;    /* triangles with a path: listed, and at most */
-    bool twice;                     /* what has a path and is listed among what is static is so in the second picture, too */
-    const struct smear_flow *still; /* along lines: how what stands still moves on the screen; else null */
+    bool lines;                     /* what stands still will be blurred along lines */
     uint32_t path_static_count;     /* those of them whose path has no length: they are listed among the static ones */
     uint32_t triangles_drawn, triangles_dropped;
     struct smear_resume resume;

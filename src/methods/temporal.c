@@ -26,7 +26,8 @@ struct finish {
     int strips;
 };
 
-enum { LISTS_PER_WORKER = 2 };      /* jobs: the more there are, the more of them look at the same triangles */
+enum { LISTS_PER_WORKER = 2,        /* jobs: the more there are, the more of them look at the same triangles */
+       SKETCHED = 2 };              /* instants of what is drawn over what lines have blurred */
 
 int32_t smear_strip_columns(int32_t strip, int32_t width)
 {
@@ -202,11 +203,11 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     }
     const struct smear_tile_plan plan = { &self->chooser, &travel[first], &self->moving.blocks, &self->before,
                                           &self->shares[worker] };
-    const bool plans = self->chooser.method == SMEAR_AUTO;
+    const bool plans = self->chooser.method == SMEAR_AUTO && self->moving.measures;
     struct smear_tile_run t = tiles_of(f, first, next, worker);
     widen(&t, f);
     refill_tiles(&t, f);
-    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
+    f->row.rows->samples[worker] += smear_subframes_tiles(&t, self->moving.measures ? instants : SKETCHED, plans ? &plan : NULL);
     hand_on(f, &t);
     return next;
 }
@@ -509,6 +510,37 @@ static void lines_job(void *argument, int job, int worker)
         smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
 }
 
+static void movers_job(void *argument, int job, int worker)
+{
+    const struct finish *f = (const struct finish *)argument;
+    const struct smear_rows *rows = f->row.rows;
+    struct smear_raster_target t = f->background;
+    (void)worker;
+    t.over = true;
+    if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
+        smear_raster_list(&rows->raster, &t, f->self->lines->opaque);
+}
+
+/* Draws what moves by itself over what lines have blurred, and blurs both. */
+static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct finish *f)
+{
+    struct smear_rows *rows = f->row.rows;
+    struct smear_lines *lines = self->lines;
+    const int32_t row = f->row.row, top = row_top(rows, row), bottom = row_bottom(rows, row);
+    if (rows->refill == NULL)
+        lines->opaque = row_advance(rows, rows->bins.second_last, lines->opaque, row);
+    if (rows->refill == NULL && lines->opaque == SMEAR_NO_TRIANGLE)
+        return;
+    smear_row_run(rows, movers_job, &f->row, FILL_MOVING);
+    smear_movers_begin(lines, &rows->window);
+    if (rows->refill == NULL)
+        smear_movers_find(lines, &rows->bins, &rows->window, lines->opaque, top, bottom);
+    else
+        for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
+            smear_movers_find(lines, &rows->bins, &rows->window, lines->opaque, top, bottom);
+    smear_movers_blur(lines, &rows->window, top, bottom);
+}
+
 /* Blurs a row whose tiles are listed along lines, as far as it stands still, and finishes it. */
 static SMEAR_NOINLINE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
@@ -522,6 +554,8 @@ static SMEAR_NOINLINE int finish_along_lines(struct smear_temporal *self, struct
     finish.background.color = self->lines->row;
     finish.background.depth = self->lines->depth;
     finish.background.color_rows = finish.background.window_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
+    if (self->lines->movers != 0)
+        draw_movers(self, &finish);
     return finish_run(self, &finish, end, &all);
 }
 
@@ -624,6 +658,7 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
                        && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
         if (self->lines->on)
             smear_lines_begin(self->lines, shot, w, target_is_sketch(frame->target) ? 1 : 2, frame_is_linear(&rows->raster));
+        self->lines->takes_movers = target_is_sketch(frame->target) && frame->edges == SMEAR_EDGES_HARD;
     }
     self->target = frame->target;
     self->budget = frame->budget;
@@ -638,7 +673,8 @@ int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, in
 #if SMEAR_WITH_WORKERS
     self->is_listed = false;
 #endif
-    self->moving.blocks.columns = plans ? block_columns(rows->window.width) : 0;
+    self->moving.measures = !temporal_has_lines(self) || self->lines->pictures != 1;
+    self->moving.blocks.columns = plans && self->moving.measures ? block_columns(rows->window.width) : 0;
     if (plans) {
         self->chooser.target = self->target;        /* the part before may have had another */
         if (self->budget != 0)

@@ -5,7 +5,7 @@
 
 #include "display/damage.h"
 #include "geometry/shutter.h"
-#include "temporal/lines.h"
+#include "temporal/line_movers.h"
 #include "temporal/row_lists.h"
 
 struct smear_temporal {

@@ -8,7 +8,7 @@
 
 #include "kernels/line_means.h"
 
-enum { BLOCK = 8 };                 /* pixels that share a displacement are so many wide and high */
+enum { BLOCK = LINE_BLOCK };
 
 /* Distances from a pixel to its taps, px, and how far they reach. */
 struct taps {
@@ -18,21 +18,28 @@ struct taps {
     bool sparse;                    /* every fourth pixel tells what lies between, as the line is long and level */
 };
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear)
+void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
+                           const smear_camera camera[3])
 {
-    enum { QUARTER = 32768 };           /* of the exposure, from its middle */
     const struct smear_shutter_order at = smear_shot_order(shot);
     const struct smear_instant middle = smear_instant_middle(shot);
     const bool spans = shot_spans_exposure(shot);
-    struct smear_reprojection camera;
+    struct smear_reprojection r;
+    smear_reproject_make(&r, &camera[at.middle], &camera[at.open], &camera[at.close], spans ? smear_instant_now.weight : middle.weight,
+                         spans, w->width, w->height);
+    smear_flow_make(flow, &r, spans ? 65536 : shot->half_exposure >> 7);
+}
+
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear)
+{
+    enum { QUARTER = 32768 };           /* of the exposure, from its middle */
     lines->linear = linear;
     lines->pictures = (uint8_t)pictures;
     lines->picture = 0;
-    lines->instant[0] = pictures == 1 ? middle : smear_instant_at(shot, -QUARTER);
+    lines->movers = 0;
+    lines->instant[0] = pictures == 1 ? smear_instant_middle(shot) : smear_instant_at(shot, -QUARTER);
     lines->instant[1] = smear_instant_at(shot, QUARTER);
-    smear_reproject_make(&camera, &shot->camera[at.middle], &shot->camera[at.open], &shot->camera[at.close],
-                         spans ? smear_instant_now.weight : middle.weight, spans, w->width, w->height);
-    smear_flow_make(&lines->flow, &camera, spans ? 65536 : shot->half_exposure >> 7);
+    smear_lines_make_flow(&lines->flow, shot, w, shot->camera);
 }
 
 void smear_lines_mix(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
@@ -50,14 +57,12 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
                      (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
-/* Finds the displacement from picture to picture of what is seen at a pixel, in whole pixels (q8), so that blocks beside each other
- * often have the same, and no longer along y than lines reach. */
-static void displacement_of(int32_t out[2], const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y,
-                            uint32_t depth)
+void smear_lines_displacement(int32_t out[2], const struct smear_lines *lines, const struct smear_flow *flow, const struct smear_window *w,
+                              int32_t x, int32_t y, uint32_t depth)
 {
     enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
-    smear_flow_at(&lines->flow, x, y, smear_depth_units((uint16_t)depth), out);
+    smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out);
     for (int i = 0; i < 2; i++)
         out[i] >>= lines->pictures - 1;
     for (int i = 0; i < 2; i++) {
@@ -130,15 +135,16 @@ static struct taps taps_within(const struct taps *all, int32_t left, int32_t rig
     return t;
 }
 
-/* Blurs the blocks of columns [x0, x1) of a row of them. Where taps of a block would lie beside the frame it takes what is inside. */
-static void blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const struct taps *all, int32_t x0, int32_t x1,
-                        int32_t y0, int32_t y1, int32_t end)
+void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const int32_t d[2], int32_t x0, int32_t x1,
+                             int32_t y0, int32_t y1, int32_t first, int32_t end)
 {
-    const struct taps t = taps_within(all, -w->width, w->width, -y0, end - y1);
+    struct taps all;
+    place_taps(&all, d[0], d[1]);
+    const struct taps t = taps_within(&all, -w->width, w->width, first - y0, end - y1);
     for (int32_t x = x0, next; x < x1; x = next) {
         next = min_i32(x + BLOCK, x1);
         if (x + t.left < 0 || next + t.right + t.sparse > w->width) {
-            struct taps inside = taps_within(&t, -x, w->width - next, -y0, end - y1);
+            struct taps inside = taps_within(&t, -x, w->width - next, first - y0, end - y1);
             inside.sparse = false;
             blur_within(lines, w, &inside, x, next, y0, y1);
             continue;
@@ -155,21 +161,20 @@ void smear_lines_blur(const struct smear_lines *lines, const struct smear_window
     for (int32_t y = y0; y < y1; y += BLOCK) {
         const int32_t bottom = min_i32(y + BLOCK, y1), middle = min_i32(y + BLOCK / 2, y1 - 1);
         const uint16_t *depth = w->depth + window_ring_row(w, middle) * w->width;
+        const int32_t from = min_i32(x0 + BLOCK / 2, x1 - 1);
         int32_t d[2], next[2];
-        displacement_of(next, lines, w, min_i32(x0 + BLOCK / 2, x1 - 1), middle, depth[min_i32(x0 + BLOCK / 2, x1 - 1)]);
+        smear_lines_displacement(next, lines, &lines->flow, w, from, middle, depth[from]);
         for (int32_t x = x0, right; x < x1; x = right) {
-            struct taps taps;
             d[0] = next[0];
             d[1] = next[1];
             for (right = x + BLOCK; right < x1; right += BLOCK) {
                 const int32_t at = min_i32(right + BLOCK / 2, x1 - 1);
-                displacement_of(next, lines, w, at, middle, depth[at]);
+                smear_lines_displacement(next, lines, &lines->flow, w, at, middle, depth[at]);
                 if (next[0] != d[0] || next[1] != d[1])
                     break;
             }
             right = min_i32(right, x1);
-            place_taps(&taps, d[0], d[1]);
-            blur_blocks(lines, w, &taps, x, right, y, bottom, end);
+            smear_lines_blur_blocks(lines, w, d, x, right, y, bottom, 0, end);
         }
     }
 }

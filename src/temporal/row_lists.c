@@ -255,10 +255,10 @@ static void add_to_tiles(const struct smear_window *window, struct smear_row_mov
         if (b == NULL)
             continue;
         tile->flags |= (uint16_t)(b->flags | TILE_MOVES);
-        if (b->space == 0 && !w->large)
+        if (r->measures && b->space == 0 && !w->large)
             add_displacement(tile, w->x0, w->x1, w->y0, w->y1, w->curvature);
     }
-    if (b == NULL || b->space != 0 || !w->large)
+    if (b == NULL || !r->measures || b->space != 0 || !w->large)
         return;
     const struct range seen = columns_of(w, b, top, window->tile);
     if (seen.low < seen.high)
@@ -288,7 +288,7 @@ void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *g, 
             const struct smear_path_bounds *b = bins_bounds(g, i);
             struct corners c;
             struct displacements d;
-            if (b->space == 0) {
+            if (r->measures && b->space == 0) {
                 corners_of(&c, g, i);
                 displacements_of(&d, g, i, &c);
             }
@@ -463,7 +463,7 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *g, 
             continue;
         struct corners c;
         struct displacements d;
-        if (b->space != 0) {
+        if (!r->measures || b->space != 0) {
             add_to_tiles(w, r, b->x0, b->x1, b, NULL, 0, top, columns);
             if (r->blocks.columns != 0)
                 add_in_space(r, g, i, w, top, blocks);

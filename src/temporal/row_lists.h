@@ -11,6 +11,7 @@ struct smear_row_moving {
     uint32_t count;
     struct smear_tile_travel *travel;           /* per tile */
     struct smear_row_blocks blocks;
+    bool measures;                              /* how far triangles go is asked, besides where */
 };
 
 /* Begins a tile row: nothing moves in its tiles so far. */

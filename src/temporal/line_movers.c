@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/* line_movers.c - see line_movers.h. */
+#include "temporal/line_movers.h"
+
+#include "geometry/arc.h"
+
+/* ------------------------------------------------------------------ draws */
+
+/* Whether a draw deforms, or turns by more than some ten degrees: what it shows goes many ways. */
+static bool turns(const struct smear_draw_poses *p)
+{
+    int64_t square = 0, product = 0;
+    for (int i = 0; i < 9; i++) {
+        square += (int64_t)p->object[0]->basis[i] * p->object[0]->basis[i] >> 8;
+        product += (int64_t)p->object[1]->basis[i] * p->object[2]->basis[i] >> 8;
+    }
+    return p->position[1] != p->position[0] || p->position[2] != p->position[0] || product < square - (square >> 7);
+}
+
+/* Finds where a camera is seen from an object, without its scales. */
+static void see_from(smear_transform *out, const smear_transform *camera, const smear_transform *object)
+{
+    struct smear_axes axes = { { { 0 } }, false, false };
+    smear_axes_find(&axes, object);
+    for (int i = 0; i < 3; i++) {
+        int64_t origin = 0;
+        for (int j = 0; j < 3; j++) {
+            int64_t sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += (int64_t)axes.axis[i][k] * camera->basis[3 * k + j];
+            out->basis[3 * i + j] = narrow_sat(sum >> 30);
+            origin += ((int64_t)camera->origin[j] - object->origin[j]) * axes.axis[i][j] >> 14;
+        }
+        out->origin[i] = narrow_sat(origin >> 16);
+    }
+}
+
+/* Returns how a draw goes on the screen, as some of its vertices tell. */
+static enum smear_line_kind kind_of(const struct smear_flow *own, const struct smear_lines *lines, const struct smear_placement *place,
+                                    const struct smear_window *w, const smear_mesh *mesh)
+{
+    enum { SAMPLES = 8, ALIKE = 384, STILL = 128 };     /* q8 px */
+    const struct smear_viewport viewport = { w->width, w->height };
+    int32_t apart = 0, way = 0;
+    for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
+        struct smear_homogeneous h;
+        struct smear_screen s;
+        int32_t a[2], b[2];
+        if ((placement_project(&s, &h, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
+            return LINE_MOVES;
+        smear_flow_at(own, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, a);
+        smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, b);
+        apart = max_i32(apart, max_i32(abs_i32(a[0] - b[0]), abs_i32(a[1] - b[1])));
+        way = max_i32(way, max_i32(abs_i32(a[0]), abs_i32(a[1])));
+    }
+    return apart <= ALIKE ? LINE_GOES_ALONG : way <= STILL ? LINE_IS_STILL : LINE_MOVES;
+}
+
+bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, const struct smear_shot *shot, const struct smear_window *w,
+                       const smear_mesh *mesh, uint32_t draw)
+{
+    smear_camera camera[3];
+    struct smear_placement place;
+    if (turns(p))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        camera[i] = *p->camera[i];
+        see_from(&camera[i].pose, &p->camera[i]->pose, p->object[i]);
+    }
+    smear_lines_make_flow(&lines->own[draw], shot, w, camera);
+    smear_draw_poses_place(&place, p, shot, mesh, &lines->instant[0]);
+    const enum smear_line_kind kind = kind_of(&lines->own[draw], lines, &place, w, mesh);
+    if (kind != LINE_GOES_ALONG && !lines->takes_movers)
+        return false;
+    lines->kind[draw] = (uint8_t)kind;
+    lines->movers = (uint16_t)(lines->movers + (kind != LINE_GOES_ALONG));
+    return true;
+}
+
+/* ------------------------------------------------------------------ blocks */
+
+static struct smear_line_block *block_of(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
+{
+    return &lines->block[((y & (w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
+}
+
+void smear_movers_begin(const struct smear_lines *lines, const struct smear_window *w)
+{
+    __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
+    __builtin_memset(lines->block, 0, (size_t)(line_blocks(w->width) * line_blocks(w->tile)) * sizeof *lines->block);
+}
+
+/* Returns a block whose depth is known, as every other pixel tells it along x and y. */
+static struct smear_line_block *look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t y0, int32_t y1)
+{
+    struct smear_line_block *b = block_of(lines, w, x0, y0);
+    if (b->depth != 0)
+        return b;
+    b->depth = 1;
+    for (int32_t y = y0; y < min_i32(y0 + LINE_BLOCK, y1); y += 2) {
+        const uint16_t *still = w->depth + window_ring_row(w, y) * w->width, *now = lines->depth + (y & (w->tile - 1)) * w->width;
+        for (int32_t x = x0; x < min_i32(x0 + LINE_BLOCK, w->width); x += 2)
+            b->depth = now[x] != still[x] && now[x] > b->depth ? now[x] : b->depth;
+    }
+    return b;
+}
+
+/* A box of pixels and of depths, which are units. */
+struct extent {
+    int32_t low[3], high[3];
+};
+
+static void find_extent(struct extent *e, const struct smear_bins *g, const struct smear_segment *s, const struct smear_triangle *t)
+{
+    *e = (struct extent){ { INT32_MAX, INT32_MAX, INT32_MAX }, { INT32_MIN, INT32_MIN, INT32_MIN } };
+    for (int i = 0; i < 3; i++) {
+        const int32_t *v = bins_vertex(g, s, t->vertex[i]);
+        for (int axis = 0; axis < 3; axis++) {
+            const int32_t at = v[axis] >> (axis == VERTEX_DEPTH ? 11 : 8);
+            e->low[axis] = min_i32(e->low[axis], at);
+            e->high[axis] = max_i32(e->high[axis], at);
+        }
+    }
+}
+
+/* Notes that a block goes so, and so do those before and behind it that it passes, if nothing else is seen there. */
+static void mark(const struct smear_lines *lines, const struct smear_window *w, const int32_t d[2], int32_t x, int32_t y, int32_t y0,
+                 int32_t y1)
+{
+    const int32_t steps = (max_i32(abs_i32(d[0]), abs_i32(d[1])) + 2 * LINE_BLOCK * 256 - 1) >> (LINE_BLOCK_LOG2 + 9);
+    for (int32_t i = -steps; i <= steps; i++) {
+        const int32_t left = x + (d[0] * i / max_i32(steps, 1) >> 9), up = y + (d[1] * i / max_i32(steps, 1) >> 9);
+        for (int32_t by = max_i32(up, y0) & -LINE_BLOCK; by < min_i32(up + LINE_BLOCK, y1); by += LINE_BLOCK)
+            for (int32_t bx = max_i32(left, 0) & -LINE_BLOCK; bx < min_i32(left + LINE_BLOCK, w->width); bx += LINE_BLOCK) {
+                struct smear_line_block *b = look(lines, w, bx, by, y1);
+                if ((bx == x && by == y) || b->depth <= 1)
+                    b->x = (int16_t)(d[0] >> 8), b->y = (int16_t)(d[1] >> 8);
+            }
+    }
+}
+
+void smear_movers_find(const struct smear_lines *lines, const struct smear_bins *g, const struct smear_window *w, uint32_t head, int32_t y0,
+                       int32_t y1)
+{
+    enum { ROUNDED = 17 };          /* by so many units at most */
+    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
+        const struct smear_triangle *t = bins_triangle(g, i);
+        const struct smear_segment *s = &g->segment[t->segment];
+        struct extent e;
+        if (lines->kind[s->draw] == LINE_IS_STILL)
+            continue;
+        find_extent(&e, g, s, t);
+        for (int32_t y = max_i32(e.low[1], y0) & -LINE_BLOCK; y < min_i32(e.high[1] + 1, y1); y += LINE_BLOCK)
+            for (int32_t x = max_i32(e.low[0], 0) & -LINE_BLOCK; x < min_i32(e.high[0] + 1, w->width); x += LINE_BLOCK) {
+                struct smear_line_block *b = look(lines, w, x, y, y1);
+                int32_t d[2];
+                const int32_t units = (int32_t)smear_depth_units(b->depth);
+                if (b->depth <= 1 || b->mover == s->draw + 1 || units < e.low[2] - ROUNDED || units > e.high[2] + ROUNDED)
+                    continue;
+                smear_lines_displacement(d, lines, &lines->own[s->draw], w, min_i32(x + LINE_BLOCK / 2, w->width - 1),
+                                         min_i32(y + LINE_BLOCK / 2, y1 - 1), b->depth);
+                mark(lines, w, d, x, y, y0, y1);
+                b->mover = (uint16_t)(s->draw + 1);
+            }
+    }
+}
+
+void smear_movers_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
+{
+    struct smear_window over = *w;
+    over.color = lines->over;
+    over.ring = w->tile;
+    for (int32_t y = y0; y < y1; y += LINE_BLOCK)
+        for (int32_t x = 0, right; x < w->width; x = right) {
+            const struct smear_line_block b = *block_of(lines, w, x, y);
+            const int32_t d[2] = { b.x * 256, b.y * 256 };
+            for (right = x + LINE_BLOCK; right < w->width; right += LINE_BLOCK)
+                if (block_of(lines, w, right, y)->x != b.x || block_of(lines, w, right, y)->y != b.y)
+                    break;
+            if ((b.x | b.y) != 0)
+                smear_lines_blur_blocks(lines, &over, d, x, min_i32(right, w->width), y, min_i32(y + LINE_BLOCK, y1), y0, y1);
+        }
+}
