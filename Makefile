@@ -548,7 +548,7 @@ $(BUILD)/faults-injected: $(call objects,$(wildcard tests/faults/*.c) $(CLI_SRC)
 	$(CC) $(LDFLAGS) $(FAULTS_WRAPPED:%=-Wl,--wrap=%) -o $@ $^ -lm -lpthread
 
 # JPEG files of ours, and what is read of others.
-$(BUILD)/jpeg-files: $(call objects,tests/shell/jpeg_files.c tests/ref/jpeg_case.c tests/random.c $(IMAGE_SRC))
+$(BUILD)/jpeg-files: $(call objects,tests/shell/jpeg_files.c tests/random.c $(IMAGE_SRC))
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 

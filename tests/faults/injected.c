@@ -312,7 +312,7 @@ static void prepare(const char *root)
     copy(root, "tests/data/arm.gltf", "model.gltf");
     write_bytes("card.obj", obj, sizeof obj - 1);
     write_bytes("card.mtl", mtl, sizeof mtl - 1);
-    copy(root, "tests/fuzz/corpus/jpeg/progressive.jpg", "photo.jpg");
+    copy(root, "tests/data/jpeg/422-progressive.jpg", "photo.jpg");
     write_bytes("photo.obj", photo, sizeof photo - 1);
     write_bytes("photo.mtl", photo_mtl, sizeof photo_mtl - 1);
     write_bytes("keys", keys, sizeof keys - 1);

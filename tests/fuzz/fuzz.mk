@@ -5,7 +5,7 @@ FUZZ_CC := clang-14
 FUZZ_BASE := -std=c11 -g1 -Iinclude -Isrc -I. -MMD -MP
 FUZZ_FLAGS := $(FUZZ_BASE) -D_GNU_SOURCE -O1 -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c tests/random.c tests/ref/jpeg_case.c \
+FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c tests/random.c \
     $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
 
 # Beside undefined behaviour, in the library conversions that nobody wrote may not change a value.
@@ -34,7 +34,7 @@ fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
 	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
 	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
-	        build/fuzz/found-$$name tests/fuzz/corpus/$$name || exit 1; \
+	        build/fuzz/found-$$name tests/fuzz/corpus/$$name $$([ $$name != jpeg ] || echo tests/data/jpeg) || exit 1; \
 	done
 
 # ---------------------------------------------------------------------- frames

@@ -3,10 +3,8 @@
  *
  *     jpeg_files picture NUMBER FILE.ppm       a picture at random; prints options of cjpeg for it
  *     jpeg_files compare FILE.jpg FILE.ppm     the JPEG file as read here and by djpeg: 2 codes apart at most, in any channel
- *     jpeg_files png FILE.jpg FILE.png         what is read here
- *     jpeg_files case NUMBER > FILE.jpg        a file of ours (jpeg_case.h) */
+ *     jpeg_files png FILE.jpg FILE.png         what is read here */
 #include "tests/random.h"
-#include "tests/ref/jpeg_case.h"
 
 #include "tools/image/image.h"
 
@@ -120,19 +118,6 @@ static int write_png(const char *path, const char *to)
     return ok ? 0 : failed(to, &f);
 }
 
-static int write_case(unsigned number)
-{
-    struct jpeg_case c;
-    size_t end;
-    random_state = number;
-    jpeg_case_make(&c, 64);
-    struct buffer file = jpeg_case_write(&c, &end);
-    const bool ok = fwrite(file.data, 1, file.size, stdout) == file.size;
-    buffer_free(&file);
-    jpeg_case_free(&c);
-    return !ok;
-}
-
 int main(int argc, char **argv)
 {
     if (argc == 4 && strcmp(argv[1], "picture") == 0)
@@ -141,8 +126,6 @@ int main(int argc, char **argv)
         return compare(argv[2], argv[3]);
     if (argc == 4 && strcmp(argv[1], "png") == 0)
         return write_png(argv[2], argv[3]);
-    if (argc == 3 && strcmp(argv[1], "case") == 0)
-        return write_case((unsigned)atoi(argv[2]));
     fprintf(stderr, "jpeg_files: see its head\n");
     return 2;
 }

@@ -308,7 +308,7 @@ const tests = {
         await open("#paused=1");
         const files = square("photo");
         files[1].bytes = Buffer.from(files[1].bytes.toString().replace(".png", ".jpg"));
-        files[2] = { name: "photo.jpg", bytes: fs.readFileSync(path.join(root, "tests/fuzz/corpus/jpeg/progressive.jpg")) };
+        files[2] = { name: "photo.jpg", bytes: fs.readFileSync(path.join(root, "tests/data/jpeg/422-progressive.jpg")) };
         equal(await dropped(inWork(files)), "", "the message");
         check(await browser.until(shown + " && scene.period === 30"), "it is not put on a turntable");
         await browser.click("#spin");
