@@ -241,31 +241,6 @@ static void check_poses(struct mock *mock, double time, double slack)
 
 /* ------------------------------------------------------------------ places and sizes */
 
-static void test_vertices_arrive_where_they_are(void)
-{
-    MOCK(surface, mock);
-    mock.spin = 0.7;
-    mock.velocity[0] = 1.5;
-    mock.camera_velocity[2] = -0.4;
-    spin(mock.camera.pose, 0.1);
-    check_poses(&mock, 0.2, 0.004);
-}
-
-static void test_scenes_of_any_size_arrive(void)
-{
-    for (int exponent = -30; exponent <= 30; exponent += 6) {
-        MOCK(surface, mock);
-        double size = ldexp(1.3, exponent);
-        for (int i = 0; i < 12; i++)
-            mock.draw[0].world[i] *= i % 4 != 3 ? size : 1.0;
-        mock.camera.znear *= size;
-        mock.camera.zfar *= size;
-        mock.velocity[1] = 0.4 * size;
-        mock.camera_velocity[0] = 0.2 * size;
-        check_poses(&mock, 0.3, 0.004);
-    }
-}
-
 static void test_scenes_far_from_the_origin_arrive(void)
 {
     MOCK(surface, mock);
@@ -291,17 +266,6 @@ static void test_small_things_far_from_their_own_origin_arrive(void)
     check_poses(&mock, 0.0, 0.004);
 }
 
-static void test_stretched_and_mirrored_draws_arrive(void)
-{
-    MOCK(surface, mock);
-    mock.draw[0].world[0] = -300.0;
-    mock.draw[0].world[4] = 0.4;
-    mock.draw[0].world[5] = 0.01;
-    mock.draw[0].world[14] = -200.0;
-    mock.camera.zfar = 1000.0;
-    check_poses(&mock, 0.0, 0.01);
-}
-
 static void test_a_point_of_a_mesh_arrives(void)
 {
     static const float point[9] = { 0.3f, 0.2f, -2, 0.3f, 0.2f, -2, 0.3f, 0.2f, -2 };
@@ -321,61 +285,6 @@ static void test_orthographic_cameras_arrive(void)
     check_poses(&mock, 0.1, 0.004);
     mock.camera.zfar = 0.0;
     check_poses(&mock, 0.1, 0.004);
-}
-
-static void test_rotations_keep_their_scale(void)
-{
-    MOCK(surface, mock);
-    mock.spin = 1.0;
-    PRESENTER(presenter, &mock);
-    int shift = 0;
-    for (int i = 0; i < 40; i++) {
-        const struct presented *p = presenter_frame(presenter, i * 0.1, &plain, &f);
-        if (!CHECK(p != NULL))
-            break;
-        if (i > 0)
-            CHECK_EQ(p->draw[0].mesh->shift, shift);
-        shift = p->draw[0].mesh->shift;
-        CHECK(p->draw[0].mesh->scale >= 1 << 29 && p->draw[0].mesh->scale <= 1 << 30);
-    }
-}
-
-static void test_the_whole_range_of_int16_is_used(void)
-{
-    MOCK(surface, mock);
-    PRESENTER(presenter, &mock);
-    const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
-    int lowest = 0, highest = 0;
-    for (int i = 0; p != NULL && i < 12; i++) {
-        int x = p->draw[0].mesh->position[i];
-        lowest = x < lowest ? x : lowest;
-        highest = x > highest ? x : highest;
-    }
-    CHECK_NEAR(lowest, -32767, 2);
-    CHECK_NEAR(highest, 32767, 2);
-}
-
-static void test_surfaces_of_a_node_share_their_grid(void)
-{
-    float other[12];
-    for (int i = 0; i < 12; i++)
-        other[i] = tetrahedron[i] * 3.7f;
-    memcpy(other + 3, tetrahedron + 3, 3 * sizeof *other);
-    struct scene_surface a = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    struct scene_surface b = surface_of(other, 4, tetrahedron_index, 4);
-    struct mock mock = mock_of(&a);
-    mock.draw_count = 2;
-    mock.draw[1].surface = &b;
-    mock.draw[0].node = mock.draw[1].node = 3;
-    PRESENTER(presenter, &mock);
-    const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
-    if (CHECK(p != NULL && p->draw_count == 2)) {
-        const smear_mesh *first = p->draw[0].mesh, *second = p->draw[1].mesh;
-        CHECK_EQ(memcmp(first->position + 3, second->position + 3, 6), 0);
-        CHECK_EQ(memcmp(first->offset, second->offset, sizeof first->offset), 0);
-        CHECK_EQ(first->scale, second->scale);
-        CHECK_EQ(first->shift, second->shift);
-    }
 }
 
 static void test_deformed_poses_share_their_grid(void)
@@ -541,22 +450,6 @@ static void test_large_surfaces_are_split_without_loss(void)
 
 /* ------------------------------------------------------------------ colours and materials */
 
-static void test_srgb_is_rounded_to_nearest(void)
-{
-    for (int code = 0; code < 256; code++)
-        CHECK_EQ(present_srgb_encode(present_srgb_decode((uint8_t)code)), code);
-    for (int i = 0; i <= 10000; i++) {
-        double x = i / 10000.0;
-        int code = present_srgb_encode(x);
-        double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
-        CHECK_CLOSE(code / 255.0, encoded, 0.5 / 255 + 1e-12);
-    }
-    CHECK_EQ(present_srgb_encode(0.5), 188);
-    CHECK_EQ(present_srgb_encode(-1.0), 0);
-    CHECK_EQ(present_srgb_encode(2.0), 255);
-    CHECK_EQ(present_srgb_encode(NAN), 0);
-}
-
 /* The draw of a surface with this material, or null where nothing is drawn. */
 static const smear_draw *draw_with(struct scene_material material, struct presenter **presenter)
 {
@@ -611,35 +504,6 @@ static void test_materials_keep_what_they_mean(void)
     }
 }
 
-static void test_colours_follow_their_vertices_and_faces(void)
-{
-    static const float vertex_color[16] = { 0.5f, 0, 0, 1, 0, 0.5f, 0, 1,
-                                            0, 0, 0.5f, 1, 1, 1, 1, 0.5f };
-    struct failure f = { "" };
-    struct scene_surface surface = surface_of(tetrahedron, 4, tetrahedron_index, 4);
-    surface.color = vertex_color;
-    struct mock mock = mock_of(&surface);
-    struct scene scene = mock_scene(&mock);
-    struct presenter *presenter = presenter_new(&scene, &f);
-    const struct presented *p = presenter_frame(presenter, 0.0, &plain, &f);
-    static const uint8_t want[16] = { 188, 0, 0, 255, 0, 188, 0, 255, 0, 0, 188, 255,
-                                      255, 255, 255, 128 };
-    if (CHECK(p != NULL && p->draw[0].mesh->color != NULL)) {
-        CHECK_EQ(memcmp(p->draw[0].mesh->color, want, 16), 0);
-        CHECK(p->draw[0].mesh->face_color == NULL);
-    }
-    presenter_free(presenter);
-    surface.color = NULL;
-    surface.face_color = vertex_color;
-    presenter = presenter_new(&scene, &f);
-    p = presenter_frame(presenter, 0.0, &plain, &f);
-    if (CHECK(p != NULL && p->draw[0].mesh->face_color != NULL)) {
-        CHECK_EQ(memcmp(p->draw[0].mesh->face_color, want, 16), 0);
-        CHECK(p->draw[0].mesh->color == NULL);
-    }
-    presenter_free(presenter);
-}
-
 /* ------------------------------------------------------------------ motion */
 
 static void test_other_poses_are_taken_at_the_right_times(void)
@@ -669,33 +533,6 @@ static void test_other_poses_are_taken_at_the_right_times(void)
     CHECK_EQ(mock.pose_count, 3);
     CHECK_CLOSE(mock.posed_at[1], -1.0 / 60, 1e-12);
     CHECK_CLOSE(mock.posed_at[2], -2.0 / 60, 1e-12);
-}
-
-static void test_cuts_leave_no_other_pose(void)
-{
-    MOCK(surface, mock);
-    PRESENTER(presenter, &mock);
-    const struct presented *p = presenter_frame(presenter, 1.0, &plain, &f);
-    CHECK(p != NULL && !p->draw[0].cut && p->draw[0].open != NULL && !p->frame.cut);
-    mock.cut_time = 0.99;
-    p = presenter_frame(presenter, 1.0, &plain, &f);
-    CHECK(p != NULL && p->draw[0].cut && p->draw[0].open == NULL && !p->frame.cut);
-    CHECK(p != NULL && p->frame.open != NULL);
-    mock.cut_time = 0.0;
-    mock.hidden_before = 0.99;
-    p = presenter_frame(presenter, 1.0, &plain, &f);
-    CHECK(p != NULL && p->draw_count == 1 && p->draw[0].cut && p->draw[0].open == NULL);
-    p = presenter_frame(presenter, 0.98, &plain, &f);
-    CHECK(p != NULL && p->draw_count == 0);
-    mock.hidden_before = 0.0;
-    mock.camera_cut_time = 0.99;
-    p = presenter_frame(presenter, 1.0, &plain, &f);
-    CHECK(p != NULL && p->frame.cut && p->frame.open == NULL && p->draw[0].open == NULL);
-    mock.camera_cut_time = 0.0;
-    struct present_options cut = plain;
-    cut.cut = true;
-    p = presenter_frame(presenter, 1.0, &cut, &f);
-    CHECK(p != NULL && p->frame.cut);
 }
 
 static void test_motion_modes_reach_their_draws(void)

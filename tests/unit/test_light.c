@@ -121,19 +121,6 @@ static double worst_normal(const double m[9])
     return worst;
 }
 
-static void test_normals_under_rotation_and_scale_are_lit_within_a_hundredth(void)
-{
-    random_state = 1;
-    static const double scale[] = { 1, 0.001, 0.1, 3, 60, 100 };
-    for (int n = 0; n < 60; n++) {
-        double m[9];
-        random_turn(m, scale[n % 6]);
-        CHECK(shading_of(m).even || scale[n % 6] < 0.01);
-        if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
-            return;
-    }
-}
-
 static void test_normals_under_stretch_and_shear_are_lit_within_a_hundredth(void)
 {
     random_state = 2;
@@ -150,34 +137,6 @@ static void test_normals_under_stretch_and_shear_are_lit_within_a_hundredth(void
         if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
             return;
     }
-}
-
-static void test_mirrors_do_not_turn_the_light_around(void)
-{
-    random_state = 3;
-    for (int n = 0; n < 30; n++) {
-        double m[9];
-        random_turn(m, uniform(0.5, 2));
-        for (int i = 0; i < 3; i++)
-            m[3 * i + n % 3] *= n & 1 ? -1 : -2;
-        if (!CHECK_CLOSE(worst_normal(m), 0, 0.01))
-            return;
-    }
-}
-
-static void test_the_full_light_is_one_and_the_far_side_zero(void)
-{
-    const double identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    struct smear_shading s = shading_of(identity);
-    const int8_t towards[3] = { 46, 102, 61 }, away[3] = { -46, -102, -61 }, up[3] = { 0, 127, 0 };
-    CHECK_NEAR(smear_light_normal(&s, towards), 65536, 400);
-    CHECK(smear_light_normal(&s, towards) <= 65536);
-    CHECK_EQ(smear_light_normal(&s, away), 0);
-    CHECK_NEAR(smear_light_normal(&s, up), 52429, 60);
-    const int8_t longest[3] = { 127, 127, 127 }, least[3] = { -128, -128, -128 }, none[3] = { 0, 0, 0 };
-    CHECK(smear_light_normal(&s, longest) <= 65536);
-    CHECK_EQ(smear_light_normal(&s, least), 0);
-    CHECK_EQ(smear_light_normal(&s, none), 0);
 }
 
 /* ------------------------------------------------------------------ faces */
@@ -219,23 +178,6 @@ static void test_faces_are_lit_by_their_plane_within_a_hundredth(void)
     }
 }
 
-static void test_faces_without_a_plane_and_bases_without_a_volume_do_no_harm(void)
-{
-    static const int16_t p[4][3] = { { -32768, -32768, -32768 }, { 32767, 32767, 32767 }, { 0, 0, 0 }, { -32768, 32767, 0 } };
-    static const int32_t value[] = { 0, 1, -1, INT32_MAX, INT32_MIN, 1 << 24 };
-    random_state = 5;
-    for (int n = 0; n < 3000; n++) {
-        smear_transform t = SMEAR_IDENTITY;
-        for (int i = 0; i < 9; i++)
-            t.basis[i] = n < 6 ? value[n] : value[between(0, 5)];
-        struct smear_shading s;
-        smear_shading_make(&s, &t, &plain, true, n & 1, default_sun());
-        CHECK(smear_light_face(&s, p[n % 4], p[n / 4 % 4], p[n / 16 % 4]) <= 65536);
-        const int8_t normal[3] = { (int8_t)between(-128, 127), (int8_t)between(-128, 127), (int8_t)between(-128, 127) };
-        REQUIRE(smear_light_normal(&s, normal) <= 65536);
-    }
-}
-
 /* ------------------------------------------------------------------ colours */
 
 static double decode(int code)
@@ -247,92 +189,6 @@ static double decode(int code)
 static double encode(double l)
 {
     return l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055;
-}
-
-static void test_colours_are_products_in_linear_light(void)
-{
-    random_state = 6;
-    for (int n = 0; n < 3000; n++) {
-        smear_material material = { .unlit = (uint8_t)(n % 3 == 0) };
-        uint8_t color[4], face[4];
-        for (int i = 0; i < 4; i++) {
-            material.color[i] = (uint8_t)between(0, 255);
-            color[i] = (uint8_t)between(0, 255);
-            face[i] = (uint8_t)between(0, 255);
-        }
-        if (n % 5 == 0)
-            material.color[3] = 0;              /* white, opaque */
-        const smear_transform t = SMEAR_IDENTITY;
-        bool linear = n & 1, has_color = n & 2, has_face = n & 4;
-        struct smear_shading s;
-        struct smear_color out;
-        smear_shading_make(&s, &t, &material, true, linear, default_sun());
-        uint32_t cosine = (uint32_t)between(0, 65536);
-        smear_shade(&out, &s, has_color ? color : NULL, has_face ? face : NULL, cosine);
-        double factor = material.unlit ? 1 : 0.30 + 0.70 * cosine / 65536;
-        for (int i = 0; i < 4; i++) {
-            double want = i < 3 ? factor : 1;
-            if (material.color[3] != 0)
-                want *= i < 3 ? decode(material.color[i]) : material.color[i] / 255.0;
-            if (has_color)
-                want *= i < 3 ? decode(color[i]) : color[i] / 255.0;
-            if (has_face)
-                want *= i < 3 ? decode(face[i]) : face[i] / 255.0;
-            if (i == 3 || linear)
-                CHECK_CLOSE(out.channel[i] / 65535.0, want, 4 / 65535.0);
-            else
-                CHECK_CLOSE(out.channel[i] / 256.0, encode(want) * 255, 1.0);
-            if (test_state.failures_here > 0)
-                return;
-        }
-        uint32_t packed = smear_color_pack(&out, linear);
-        for (int i = 0; i < 3; i++) {
-            int got = (int)(packed >> (16 - 8 * i) & 255u);
-            CHECK_CLOSE(got, linear ? encode(out.channel[i] / 65535.0) * 255 : out.channel[i] / 256.0, 1.0);
-        }
-        CHECK_EQ(packed >> 24, out.channel[3] >> 8);
-    }
-}
-
-static void test_white_stays_white_and_codes_pass_unchanged(void)
-{
-    const smear_transform t = SMEAR_IDENTITY;
-    for (int linear = 0; linear < 2; linear++) {
-        const smear_material unlit = { .unlit = 1 };
-        struct smear_shading s;
-        struct smear_color out;
-        smear_shading_make(&s, &t, &unlit, true, linear, default_sun());
-        smear_shade(&out, &s, NULL, NULL, 0);
-        CHECK_EQ(smear_color_pack(&out, linear), 0xffffffffu);
-        for (int code = 0; code < 256; code++) {
-            const uint8_t color[4] = { (uint8_t)code, (uint8_t)(255 - code), (uint8_t)(code / 2), (uint8_t)code };
-            smear_shade(&out, &s, color, NULL, 65536);
-            uint32_t want = (uint32_t)code << 24 | (uint32_t)code << 16 | (uint32_t)(255 - code) << 8 | (uint32_t)(code / 2);
-            CHECK_EQ(smear_color_pack(&out, linear), want);
-            smear_shade(&out, &s, NULL, color, 65536);
-            CHECK_EQ(smear_color_pack(&out, linear), want);
-            const smear_material factor = { .unlit = 1, .color = { color[0], color[1], color[2], 255 } };
-            struct smear_shading colored;
-            smear_shading_make(&colored, &t, &factor, true, linear, default_sun());
-            smear_shade(&out, &colored, NULL, NULL, 65536);
-            CHECK_EQ(smear_color_pack(&out, linear), want | 0xff000000u);
-        }
-    }
-}
-
-static void test_ambient_light_is_three_tenths(void)
-{
-    const smear_transform t = SMEAR_IDENTITY;
-    struct smear_shading s;
-    struct smear_color out;
-    smear_shading_make(&s, &t, &plain, true, true, default_sun());
-    smear_shade(&out, &s, NULL, NULL, 0);
-    CHECK_NEAR(out.channel[0], 19661, 2);
-    smear_shade(&out, &s, NULL, NULL, 65536);
-    CHECK_NEAR(out.channel[0], 65535, 2);
-    smear_shade(&out, &s, NULL, NULL, 32768);
-    CHECK_NEAR(out.channel[0], 42598, 2);
-    CHECK_EQ(out.channel[3], 65535);
 }
 
 /* ------------------------------------------------------------------ the light of a frame */
@@ -385,51 +241,6 @@ static void test_a_frame_is_lit_from_where_it_says_in_the_colours_it_says(void)
             check_lit(pixel, 16 - 8 * i, fmin(1, decode(paint.color[i])
                                                      * fmin(1, (given.ambient[i] + given.diffuse[i] * cosine) / 65535)));
     }
-}
-
-static void test_the_default_light_is_that_of_no_light_bit_for_bit(void)
-{
-    static const smear_light standard = SMEAR_LIGHT_DEFAULT;
-    smear_desc desc = small_desc(64, 48);
-    desc.format = SMEAR_XRGB8888;
-    desc.methods |= SMEAR_SET_TEMPORAL;
-    RIG(r, &desc, false);
-    for (int n = 0; n < 12; n++) {
-        struct scene s;
-        make_scene(&s, 0.2 * n, n & 2 ? SMEAR_RECONSTRUCT : SMEAR_NONE);
-        s.frame.light_space = (uint8_t)(n & 1);
-        uint8_t *picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-        s.frame.light = &standard;
-        s.frame.cut = 1;
-        uint8_t *lit = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-        s.frame.light = NULL;
-        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-        CHECK(lit != NULL && same_picture(&r, lit));
-        if ((n & 2) == 0)
-            CHECK(picture != NULL && same_picture(&r, picture));
-        free(picture);
-        free(lit);
-    }
-}
-
-static void test_the_light_of_a_frame_is_copied(void)
-{
-    smear_desc desc = small_desc(EDGE, EDGE);
-    smear_light given = { .direction = { 0, 0, 1 }, .ambient = { 30000, 20000, 10000 }, .diffuse = { 30000, 40000, 20000 } };
-    const smear_camera camera = camera_at(0, 0, 0, 0);
-    const smear_transform pose = pose_at(0, 0, -2, 0, 0);
-    const smear_draw draw = { .mesh = &square, .now = &pose };
-    const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .light = &given };
-    desc.format = SMEAR_XRGB8888;
-    RIG(r, &desc, false);
-    uint8_t *picture = rig_copy(&r, &frame, &draw, 1);
-    rig_forget_output(&r);
-    CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK);
-    given = (smear_light){ .direction = { 0, 0, -1 } };
-    CHECK_EQ(smear_submit(r.ctx, &draw), SMEAR_OK);
-    CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-    CHECK(picture != NULL && same_picture(&r, picture));
-    free(picture);
 }
 
 #include "build/suites/light.h"

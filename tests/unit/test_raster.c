@@ -204,30 +204,6 @@ static void test_corners_on_pixel_centres_follow_the_top_left_rule(void)
             CHECK_EQ(count[y * W + x], x >= 1 && x <= 3 && y >= 1 && y <= 2);
 }
 
-static void test_the_order_of_the_corners_does_not_matter(void)
-{
-    random_state = 1;
-    for (int n = 0; n < 60; n++) {
-        int32_t p[3][2];
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = between(-600, W * 256 + 600);
-            p[i][1] = between(-600, H * 256 + 600);
-        }
-        count_clear();
-        for (int turn = 0; turn < 6; turn++) {      /* all orders of the corners */
-            END_UNLESS(draw_and_check(p));
-            int swap = turn & 1;
-            for (int axis = 0; axis < 2; axis++) {
-                int32_t keep = p[swap][axis];
-                p[swap][axis] = p[swap + 1][axis];
-                p[swap + 1][axis] = keep;
-            }
-        }
-        for (int i = 0; i < W * H; i++)
-            REQUIRE(count[i] == 0 || count[i] == 6);
-    }
-}
-
 static void test_random_triangles_of_every_size_cover_exactly_their_centres(void)
 {
     random_state = 2;
@@ -242,23 +218,6 @@ static void test_random_triangles_of_every_size_cover_exactly_their_centres(void
                 p[i][1] = (p[i][1] & ~127);
             }
         }
-        END_UNLESS(draw_and_check(p));
-    }
-}
-
-static void test_boxes_around_the_limit_of_the_small_path_cover_exactly_their_centres(void)
-{
-    random_state = 3;
-    for (int n = 0; n < 300; n++) {
-        /* The box of pixel centres is 7, 8 or 9 wide and high; corners move by a fraction. */
-        int32_t w = between(7, 9) * 256, h = between(7, 9) * 256, p[3][2];
-        int32_t x = between(0, 5375), y = between(0, 5375);
-        p[0][0] = x;
-        p[0][1] = y + between(0, h);
-        p[1][0] = x + w + between(-1, 1);
-        p[1][1] = y;
-        p[2][0] = x + between(0, w);
-        p[2][1] = y + h + between(-1, 1);
         END_UNLESS(draw_and_check(p));
     }
 }
@@ -433,92 +392,6 @@ static void grow_mesh(int triangles)
     }
 }
 
-static void test_random_meshes_cover_every_pixel_once(void)
-{
-    random_state = 5;
-    for (int n = 0; n < 12; n++) {
-        int32_t x0 = between(-300, 1500), y0 = between(-300, 1500);
-        int32_t x1 = between(9000, W * 256 + 300), y1 = between(6000, H * 256 + 300);
-        if (n & 1) {
-            x0 = (x0 & ~255) + 128;
-            y1 = (y1 & ~255) + 128;
-        }
-        mesh_rectangle(x0, y0, x1, y1);
-        grow_mesh(40 + 10 * n);
-        CHECK(mesh_count > 30);
-        if (!mesh_draw_all() || !check_counts(x0, y0, x1, y1))
-            return;
-    }
-}
-
-static void test_meshes_of_slivers_cover_every_pixel_once(void)
-{
-    /* All points within half a pixel of one slanted line. */
-    random_state = 6;
-    for (int n = 0; n < 6; n++) {
-        mesh_rectangle(100, 100, W * 256 - 100, H * 256 - 100);
-        int32_t slope = between(-100, 100);
-        for (int tries = 0; tries < 900 && mesh_count < 90; tries++) {
-            int32_t x = between(1000, W * 256 - 1000);
-            int32_t y = H * 128 + (x - W * 128) * slope / 300 + between(-64, 64);
-            for (int t = 0; t < mesh_count; t++)
-                if (split_face(t, x, y))
-                    break;
-            flip_any_edge();
-        }
-        CHECK(mesh_count > 60);
-        if (!mesh_draw_all() || !check_counts(100, 100, W * 256 - 100, H * 256 - 100))
-            return;
-    }
-}
-
-static void test_meshes_finer_than_a_step_of_a_pixel_cover_every_pixel_once(void)
-{
-    /* A grid whose cells are 1/256 px wide, around the centre of pixel (10, 10). */
-    const int32_t x = 10 * 256 + 128, y = 10 * 256 + 128;
-    for (int shift = -3; shift <= 0; shift++) {
-        count_clear();
-        for (int32_t j = -3; j < 3; j++)
-            for (int32_t i = -3; i < 3; i++) {
-                int32_t x0 = x + i + (shift & 1), y0 = y + j + (shift & 2) / 2, x1 = x0 + 1, y1 = y0 + 1;
-                int32_t a[3][2] = { { x0, y0 }, { x1, y0 }, { x1, y1 } };
-                int32_t b[3][2] = { { x0, y0 }, { x1, y1 }, { x0, y1 } };
-                if (!draw_and_check(a) || !draw_and_check(b))
-                    return;
-            }
-        for (int i = 0; i < W * H; i++)
-            REQUIRE_EQ(count[i], i == 10 * W + 10);
-    }
-}
-
-static void test_fans_to_the_guard_band_cover_every_pixel_once(void)
-{
-    /* Twenty-four spokes from a centre, on a pixel's centre or not, to the rim of what may be drawn:
-     * the frame lies inside, so every pixel belongs to one blade. */
-    const int32_t guard = SMEAR_GUARD_PX << 8, cx = W << 7, cy = H << 7;
-    random_state = 7;
-    for (int n = 0; n < 4; n++) {
-        int32_t hub[2] = { between(500, W * 256 - 500), between(500, H * 256 - 500) };
-        if (n & 1)
-            for (int axis = 0; axis < 2; axis++)
-                hub[axis] = (hub[axis] & ~255) + 128;
-        int32_t rim[24][2];
-        for (int i = 0; i < 24; i++) {              /* around the square's border, clockwise */
-            int32_t along = -guard + (i % 6) * (guard / 3) + (i % 6 != 0 ? between(-900, 900) : 0);
-            int side = i / 6;
-            rim[i][0] = cx + (side == 0 ? along : side == 1 ? guard : side == 2 ? -along : -guard);
-            rim[i][1] = cy + (side == 0 ? -guard : side == 1 ? along : side == 2 ? guard : -along);
-        }
-        count_clear();
-        for (int i = 0; i < 24; i++) {
-            const int32_t *b = rim[i], *c = rim[(i + 1) % 24];
-            int32_t p[3][2] = { { hub[0], hub[1] }, { b[0], b[1] }, { c[0], c[1] } };
-            END_UNLESS(draw_and_check(p));
-        }
-        END_UNLESS(check_counts(0, 0, W * 256, H * 256));
-    }
-}
-
 /* ------------------------------------------------------------------ exact attributes */
 
 static uint32_t *words_at(uint16_t vertex, int offset)
@@ -657,33 +530,6 @@ static void test_depth_is_the_plane_through_the_corners(void)
     }
 }
 
-static void test_depth_stays_between_the_corners_even_of_slivers(void)
-{
-    random_state = 12;
-    for (int n = 0; n < 400; n++) {
-        int32_t p[3][2], q[3], low = INT32_MAX, high = 0;
-        int32_t size = 16 << n % 11, x = between(0, W * 256), y = between(0, H * 256);
-        for (int i = 0; i < 3; i++) {
-            p[i][0] = x + between(-size, size);
-            p[i][1] = y + between(-size, size);
-            q[i] = between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
-            low = min_i32(low, q[i]);
-            high = max_i32(high, q[i]);
-        }
-        if (n & 1) {            /* all but on a line */
-            p[2][0] = (p[0][0] + p[1][0]) / 2 + between(-2, 2);
-            p[2][1] = (p[0][1] + p[1][1]) / 2 + between(-2, 2);
-        }
-        if (area_of(p) == 0)
-            continue;
-        draw_depths(p, q);
-        for (int i = 0; i < W * H; i++)
-            if (full.depth[i] != 0
-                && !CHECK(full.depth[i] >= code_of(low) - 1 && full.depth[i] <= code_of(high) + 1))
-                return;
-    }
-}
-
 static void test_depth_codes_grow_over_the_break(void)
 {
     /* A row in which units run from 16384 to 65536: every pixel is drawn, codes never fall. */
@@ -755,24 +601,6 @@ static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, b
             }
         }
     return true;
-}
-
-static void test_colors_are_interpolated_in_perspective_too(void)
-{
-    static const struct { int32_t low, high, least, slack; } kinds[] = {       /* slack: in linear light, one more */
-        { 1 << 20, 1 << 28, 64, 1 }, { 2 << 25, 3 << 25, 400, 3 }, { 1 << 26, 1 << 26, 0, 1 }
-    };
-    random_state = 14;
-    for (int n = 0; n < 360; n++) {
-        int32_t p[3][2], q[3];
-        const int kind = n < 60 ? 0 : n < 120 ? 1 : 2;
-        for (int i = 0; i < 3; i++)
-            q[i] = between(kinds[kind].low, kinds[kind].high);
-        if (kind == 2 ? !small_triangle(p, 350 << n % 3, 60000)
-                      : !fat_triangle(p, kinds[kind].least, -2000, W * 256 + 2000, H * 256 + 2000))
-            continue;
-        END_UNLESS(check_colors(p, q, kind != 1, n & 1, kinds[kind].slack + (n & 1)));
-    }
 }
 
 /* Texels that say where they are: u in the low byte and a half, v above. */
@@ -889,64 +717,6 @@ static bool check_texels(struct textured *t)
     return true;
 }
 
-/* In perspective; small ones; of little perspective, whose coordinates are polynomials, up to the error at which these give way to
- * quotients. */
-static void test_texels_are_within_half_a_texel_or_half_a_pixel(void)
-{
-    static const int32_t size[][2] = { { 16, 16 }, { 64, 64 }, { 8, 64 }, { 1, 1 }, { 64, 2 }, { 50, 37 },
-                                       { 3, 5 }, { 33, 64 }, { 64, 63 } };
-    random_state = 17;
-    for (int n = 0; n < 530; n++) {
-        const int kind = n < 180 ? 0 : n < 330 ? 1 : 2;
-        struct textured t = { .width = 64, .height = 64, .uv_shift = 15 };
-        if (kind == 0)
-            t = (struct textured){ .width = size[n % 9][0], .height = size[n % 9][1], .wrap_u = n % 3, .wrap_v = n / 3 % 3,
-                                   .uv_shift = n % 2 ? 15 : 13 };
-        else if (kind == 1)
-            t = (struct textured){ .width = 32, .height = 16, .uv_shift = 15 };
-        const int32_t beyond = kind == 0 ? 2000 : 0;
-        if (kind == 1 ? !small_triangle(t.p, 350 << n % 3, 60000)
-                      : !fat_triangle(t.p, 64, -beyond, W * 256 + beyond, H * 256 + beyond))
-            continue;
-        const int32_t nearest = between(1600, 2400);
-        for (int i = 0; i < 3; i++) {
-            t.q[i] = (kind == 0 ? between(1350, 4000) : kind == 1 ? between(2400, 2600) : between(1500, nearest)) * (1 << 18);
-            for (int axis = 0; axis < 2; axis++)
-                t.uv[i][axis] = kind == 0   ? between(-32768, 32767) / (n % 3 == 0 ? 1 : 8)
-                              : kind == 1 ? between(0, 8191)
-                                          : between(0, 1) * 24576 + between(-2000, 2000);
-        }
-        END_UNLESS(check_texels(&t));
-    }
-}
-
-static void test_texels_of_a_flat_plane_are_exact_away_from_borders(void)
-{
-    /* One texel per pixel, no perspective: each pixel shows its own texel. */
-    static const int32_t size[][2] = { { 64, 32 }, { 50, 37 }, { 64, 64 } };
-    for (int k = 0; k < 3; k++)
-        for (int wrap = SMEAR_REPEAT; wrap <= SMEAR_MIRROR; wrap++) {
-            int32_t w = size[k][0], h = size[k][1];
-            list_begin();
-            set_layout(0, true, false, 0, SHADE_NONE);
-            segment[0].flat_depth = 1;
-            set_texture(0, w, h, wrap, wrap, 15);
-            uint16_t v[4];
-            static const int corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-            for (int i = 0; i < 4; i++) {
-                v[i] = add_vertex(0, corner[i][0] * w * 256, corner[i][1] * h * 256, 1 << 28);
-                set_uv(0, v[i], corner[i][0] * 32767, corner[i][1] * 32767);
-            }
-            add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-            add_triangle(0, v[0], v[2], v[3], 0xffffffffu);
-            planes_clear(&full);
-            draw_list(&full);
-            for (int32_t y = 0; y < H && y < h; y++)
-                for (int32_t x = 0; x < W && x < w; x++)
-                    REQUIRE_EQ(full.color[y * W + x] & 0xffffffu, y << 12 | x);
-        }
-}
-
 /* ------------------------------------------------------------------ velocity */
 
 /* A moving triangle against the exact quotient; `slack` in 1/256 px. */
@@ -1000,110 +770,6 @@ static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], 
     return true;
 }
 
-/* Planes where the depth does not change, of large triangles and small ones; else quotients. */
-static void test_velocities_are_those_of_the_surface(void)
-{
-    for (int n = 0; n < 270; n++) {
-        int32_t p[3][2], motion[2][3][3];
-        const int kind = n < 60 ? 0 : n < 120 ? 1 : 2;
-        if (n % 60 == 0 && n <= 120)
-            random_state = kind == 0 ? 18 : kind == 1 ? 19 : 28;
-        if (kind == 2 ? !small_triangle(p, 350 << n % 3, 60000)
-                      : !fat_triangle(p, kind == 0 ? 64 : 400, -1000, W * 256 + 1000, H * 256 + 1000))
-            continue;
-        const int32_t size = kind == 0 ? 16 << n % 8 : kind == 1 ? 2000 : 500;
-        for (int pose = 0; pose < 2; pose++)
-            for (int i = 0; i < 3; i++) {
-                motion[pose][i][0] = between(-size, size);
-                motion[pose][i][1] = between(-size, size);
-                motion[pose][i][2] = kind == 1 ? between(3500, 4800) << 8 : 1 << 20;
-            }
-        END_UNLESS(check_velocity(p, 1 + n % 2, motion, kind == 1 ? 48 : 8));
-    }
-}
-
-static void test_long_velocities_keep_their_direction_and_end_at_the_reach(void)
-{
-    random_state = 20;
-    for (int n = 0; n < 80; n++) {
-        list_begin();
-        set_layout(0, false, false, 1, SHADE_FLAT);
-        int32_t scale = 1 << n % 10, dx = between(-1500, 1500) * scale, dy = between(-1500, 1500) * scale;
-        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
-        uint16_t v[3];
-        for (int i = 0; i < 3; i++) {
-            v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 28);
-            set_motion(0, v[i], 0, -dx, -dy, 1 << 20);
-        }
-        draw_alone(v);
-        int64_t vx = full.velocity[2 * (3 * W + 3)], vy = full.velocity[2 * (3 * W + 3) + 1];
-        int64_t square = vx * vx + vy * vy, want = ((int64_t)dx * dx + (int64_t)dy * dy) / (64 * 64);
-        if (want > (15 * 8) * (15 * 8))
-            want = (15 * 8) * (15 * 8);
-        /* Lengths within 1/8 px or a fortieth: squares within a twentieth. */
-        CHECK_NEAR(square, want, want / 20 + 3 * 120);
-        /* |v x d| / |v||d| is the sine: the two parts are rounded to 1/16 px. */
-        int64_t cross = vx * dy - vy * dx, dot = vx * dx + vy * dy;
-        int64_t bound = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
-        if (!CHECK(cross <= bound && cross >= -bound) || !CHECK(dot >= 0))
-            return;
-    }
-}
-
-static void test_a_still_triangle_stops_what_it_hides_and_nothing_else(void)
-{
-    for (int order = 0; order < 2; order++) {
-        list_begin();
-        set_layout(1, false, false, 1, SHADE_FLAT);
-        uint16_t still[3], moves[3];
-        static const int32_t corner[3][2] = { { 0, 0 }, { W * 256, 0 }, { 0, H * 256 } };
-        for (int i = 0; i < 3; i++) {
-            still[i] = add_vertex(0, corner[i][0] / 2, corner[i][1] / 2, 1 << 27);
-            moves[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 26);
-            set_motion(1, moves[i], 0, -1024, 512, 1 << 20);
-        }
-        if (order == 0)
-            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
-        add_triangle(0, still[0], still[1], still[2], 0xff808080u);
-        if (order == 1)
-            add_triangle(1, moves[0], moves[1], moves[2], 0xffffffffu);
-        planes_clear(&full);
-        for (int i = 0; i < W / 8; i++)
-            moving[i] = 0;
-        draw_list(&full);
-        for (int y = 0; y < H; y++)
-            for (int x = 0; x < W; x++) {
-                uint32_t c = full.color[y * W + x];
-                int want = c == 0xffffffu ? 16 : 0;
-                if (!CHECK_EQ(full.velocity[2 * (y * W + x)], want)
-                    || !CHECK_EQ(full.velocity[2 * (y * W + x) + 1], -want / 2)
-                    || !CHECK_EQ(full.inspect[2 * (y * W + x)], want * 64))
-                    return;
-            }
-        for (int i = 0; i < W / 8; i++)
-            CHECK_EQ(moving[i], 1);
-    }
-}
-
-static void test_only_columns_of_tiles_with_motion_are_marked(void)
-{
-    list_begin();
-    set_layout(0, false, false, 1, SHADE_FLAT);
-    uint16_t v[3];
-    static const int32_t corner[3][2] = { { 17 * 256, 0 }, { 31 * 256, 0 }, { 17 * 256, H * 256 } };
-    for (int i = 0; i < 3; i++) {
-        v[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
-        set_motion(0, v[i], 0, 1024, 0, 1 << 20);
-    }
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-    planes_clear(&full);
-    for (int i = 0; i < W / 8; i++)
-        moving[i] = 0;
-    draw_list(&full);
-    for (int i = 0; i < W / 8; i++)
-        CHECK_EQ(moving[i], i == 2 || i == 3);
-}
-
 /* ------------------------------------------------------------------ which pixel wins */
 
 static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
@@ -1138,84 +804,6 @@ static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
                 }
         }
     }
-}
-
-static void test_cutouts_leave_what_lies_behind_their_holes(void)
-{
-    static const uint8_t cutoffs[] = { 1, 60, 255 };
-    for (int k = 0; k < 3; k++) {
-        int cutoff = cutoffs[k];
-        list_begin();
-        set_layout(0, false, false, 1, SHADE_FLAT);
-        set_layout(1, true, false, 0, SHADE_NONE);
-        set_texture(1, 16, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
-        for (uint32_t i = 0; i < 256; i++)
-            texels[i] = i << 24 | 0x405060u;        /* every alpha there is */
-        draw[1].alpha = SMEAR_CUTOUT;
-        draw[1].cutoff = (uint8_t)cutoff;
-        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
-        uint16_t back[3], front[3];
-        for (int i = 0; i < 3; i++) {
-            back[i] = add_vertex(0, corner[i][0], corner[i][1], 1 << 26);
-            set_motion(0, back[i], 0, -1024, 0, 1 << 20);
-            front[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 27);
-            set_uv(1, front[i], corner[i][0] != 0 ? 32767 : 0, corner[i][1] != 0 ? 32767 : 0);
-        }
-        add_triangle(0, back[0], back[1], back[2], 0xff00ff00u);
-        add_triangle(1, front[0], front[1], front[2], 0xffffffffu);
-        planes_clear(&full);
-        draw_list(&full);
-        int holes = 0, solid = 0;
-        for (int i = 0; i < W * H; i++) {
-            bool hole = full.color[i] == 0x00ff00u;
-            CHECK(hole || full.color[i] == 0x405060u);
-            CHECK_EQ(full.depth[i], hole ? 1 << 15 : code_of(1 << 27));
-            CHECK_EQ(full.velocity[2 * i], hole ? 16 : 0);
-            holes += hole;
-            solid += !hole;
-        }
-        /* The quarter of the texture that is seen has alphas from 0 to 119. */
-        CHECK(cutoff == 1 ? holes > 0 && holes < W * H / 16
-              : cutoff == 60 ? holes > W * H / 4 && solid > W * H / 4 : solid == 0);
-    }
-}
-
-static void test_blended_triangles_only_change_colour(void)
-{
-    for (int linear = 0; linear < 2; linear++) {
-        list_begin();
-        frame.linear = linear;
-        draw[1].alpha = SMEAR_BLEND;
-        set_layout(2, false, false, 1, SHADE_FLAT);
-        static const int32_t corner[3][2] = { { 0, 0 }, { 2 * W * 256, 0 }, { 0, 2 * H * 256 } };
-        uint16_t solid[3], glass[3], behind[3];
-        for (int i = 0; i < 3; i++) {
-            solid[i] = add_vertex(2, corner[i][0], corner[i][1], 1 << 26);
-            set_motion(2, solid[i], 0, -1024, 0, 1 << 20);
-            glass[i] = add_vertex(1, corner[i][0] / 3, corner[i][1], 1 << 27);
-            behind[i] = add_vertex(1, corner[i][0], corner[i][1], 1 << 25);
-        }
-        add_triangle(2, solid[0], solid[1], solid[2], 0xff204060u);
-        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);
-        add_triangle(1, glass[0], glass[1], glass[2], 0x60ff8000u);     /* the same depth again: still over it */
-        add_triangle(1, behind[0], behind[1], behind[2], 0xc0ffffffu);
-        planes_clear(&full);
-        draw_list(&full);
-        uint32_t once = pixel_blend(0x204060u, 0x60ff8000u, 0x60, linear);
-        uint32_t twice = pixel_blend(once, 0x60ff8000u, 0x60, linear);
-        int blended = 0;
-        for (int i = 0; i < W * H; i++) {
-            CHECK(full.color[i] == 0x204060u || full.color[i] == twice);
-            CHECK_EQ(full.depth[i], 1 << 15);
-            CHECK_EQ(full.velocity[2 * i], 16);
-            blended += full.color[i] == twice;
-        }
-        CHECK(blended > W * H / 4 && blended < W * H);
-    }
-    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, false), 0x123456u);
-    CHECK_EQ(pixel_blend(0x123456u, 0xabcdefu, 255, false), 0xabcdefu);
-    CHECK_EQ(pixel_blend(0x123456u, 0xffffffu, 0, true), 0x123456u);
-    CHECK_EQ(pixel_blend(0x123456u, 0xffabcdefu, 255, true), 0xabcdefu);
 }
 
 /* ------------------------------------------------------------------ cuts of the frame */
