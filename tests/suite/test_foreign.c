@@ -3,6 +3,7 @@
  * nothing is there, OBJ with numbers that are none. Each is drawn from a generator, which knows what has to become of it: it
  * is drawn, and what it is drawn without is named, or it is refused by name. FOREIGN_FILES=n draws n of each kind. */
 #include "tests/host.h"
+#include "tests/ref/glb.h"
 
 #include "tools/model/model.h"
 #include "tools/model/obj.h"
@@ -54,30 +55,12 @@ static void put_float(double value)
     put(word, 4);
 }
 
-static void put_at(uint8_t *at, size_t value)
-{
-    for (int i = 0; i < 4; i++)
-        at[i] = (uint8_t)(value >> 8 * i);
-}
-
 /* A GLB of the text, with ' for ", and of `bin`. */
 static bool parse_glb(struct model *m, struct failure *f)
 {
-    size_t json = (text.size + 3) / 4 * 4, rest = (bin.size + 3) / 4 * 4, size = 28 + json + rest;
-    uint8_t *glb = calloc(1, size);
-    if (glb == NULL)
-        abort();
-    memcpy(glb, "glTF", 4);
-    put_at(glb + 4, 2);
-    put_at(glb + 8, size);
-    put_at(glb + 12, json);
-    memcpy(glb + 16, "JSON", 4);
-    memset(glb + 20, ' ', json);
-    for (size_t i = 0; i < text.size; i++)
-        glb[20 + i] = (uint8_t)(text.bytes[i] == '\'' ? '"' : text.bytes[i]);
-    put_at(glb + 20 + json, rest);
-    memcpy(glb + 24 + json, "BIN", 4);
-    memcpy(glb + 28 + json, bin.byte, bin.size);
+    size_t size;
+    text.bytes[text.size] = '\0';
+    uint8_t *glb = glb_make(text.bytes, bin.byte, bin.size, &size);
     *f = (struct failure){ "" };
     bool ok = model_parse(glb, size, NULL, m, f);
     free(glb);

@@ -5,12 +5,11 @@
  * is, to the bit. */
 #include "tests/host.h"
 #include "tests/ref/accuracy.h"
+#include "tests/ref/glb.h"
 
 #include "tools/convert/build.h"
 #include "tools/model/channel.h"
 #include "tools/scenes/present.h"
-
-#include <stdarg.h>
 
 /* ------------------------------------------------------------------ files */
 
@@ -28,15 +27,6 @@ struct file {
     char views[1 << 14], accessors[1 << 14], nodes[1 << 12], samplers[1 << 14], channels[1 << 14];
     int accessor_count, channel_count;
 };
-
-static void append(char *text, size_t room, const char *format, ...)
-{
-    const size_t length = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + length, room - length, format, args);
-    va_end(args);
-}
 
 static int add_accessor(struct file *f, int component, const char *type, int count, const void *data, size_t bytes)
 {
@@ -184,19 +174,8 @@ static bool random_model(const struct kinds *kinds, struct model *out)
            "'targets':[{'POSITION':3},{'POSITION':4}]}]}],'cameras':[{'type':'perspective','perspective':"
            "{'yfov':0.8,'znear':0.1,'zfar':1000}}],'nodes':[%s,'animations':[{'name':'a','samplers':[%s],'channels':[%s]}]}",
            f.size, f.views, f.accessors, f.nodes, f.samplers, f.channels);
-    const size_t length = strlen(text), padded = (length + 3) / 4 * 4, size = 28 + padded + f.size;
-    for (size_t i = 0; i < length; i++)
-        text[i] = text[i] == '\'' ? '"' : text[i];
-    memset(text + length, ' ', padded - length);
-    uint8_t *glb = calloc(1, size);
-    if (!CHECK(glb != NULL))
-        return false;
-    const uint32_t head[5] = { 0x46546c67, 2, (uint32_t)size, (uint32_t)padded, 0x4e4f534a };
-    const uint32_t bin[2] = { (uint32_t)f.size, 0x004e4942 };
-    memcpy(glb, head, sizeof head);
-    memcpy(glb + 20, text, padded);
-    memcpy(glb + 20 + padded, bin, sizeof bin);
-    memcpy(glb + 28 + padded, f.bin, f.size);
+    size_t size;
+    uint8_t *glb = glb_make(text, f.bin, f.size, &size);
     const bool ok = model_parse(glb, size, NULL, out, &failure);
     free(glb);
     if (!ok)

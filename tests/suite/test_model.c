@@ -4,11 +4,11 @@
  * few that must lie on disk are in tests/fuzz/corpus/model. SMEAR_ASSETS names the folder of sample
  * models; without it their tests are left out, and a line says so. */
 #include "tests/host.h"
+#include "tests/ref/glb.h"
 
 #include "tools/model/model.h"
 #include "tools/model/obj.h"
 
-#include <stdarg.h>
 #include <time.h>
 
 void suite_model(void);
@@ -29,15 +29,6 @@ struct source {
     char views[4096], accessors[4096];
     int view_count, accessor_count;
 };
-
-static void append(char *text, size_t room, const char *format, ...)
-{
-    size_t length = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + length, room - length, format, args);
-    va_end(args);
-}
 
 static void put(struct source *s, int component, double value)
 {
@@ -88,12 +79,6 @@ static int add(struct source *s, int component, const char *type, int count, con
     add((source), (component), (type), (count), (extra), (const double[]){ __VA_ARGS__ }, \
         (int)COUNT(((const double[]){ __VA_ARGS__ })))
 
-static void put_u32(uint8_t *at, size_t value)
-{
-    for (int i = 0; i < 4; i++)
-        at[i] = (uint8_t)(value >> 8 * i);
-}
-
 /* The GLB of the source and of `body`, the rest of the JSON, in a block of exactly its size. Single
  * quotes stand for double ones. */
 static uint8_t *make_glb(const struct source *s, const char *body, size_t *size)
@@ -107,24 +92,7 @@ static uint8_t *make_glb(const struct source *s, const char *body, size_t *size)
     if (s->accessor_count > 0)
         append(text, sizeof text, "'accessors':[%s],", s->accessors);
     append(text, sizeof text, "%s}", body);
-    size_t length = strlen(text), padded = (length + 3) / 4 * 4, bin = (s->size + 3) / 4 * 4;
-    for (size_t i = 0; i < length; i++)
-        text[i] = text[i] == '\'' ? '"' : text[i];
-    *size = 12 + 8 + padded + 8 + bin;
-    uint8_t *glb = calloc(1, *size);
-    if (glb == NULL)
-        abort();
-    memcpy(glb, "glTF", 4);
-    put_u32(glb + 4, 2);
-    put_u32(glb + 8, *size);
-    put_u32(glb + 12, padded);
-    memcpy(glb + 16, "JSON", 4);
-    memset(glb + 20, ' ', padded);
-    memcpy(glb + 20, text, length);
-    put_u32(glb + 20 + padded, bin);
-    memcpy(glb + 24 + padded, "BIN", 4);
-    memcpy(glb + 28 + padded, s->bin, s->size);
-    return glb;
+    return glb_make(text, s->bin, s->size, size);
 }
 
 static bool load(const struct source *s, const char *body, struct model *m, struct failure *f)
@@ -137,16 +105,21 @@ static bool load(const struct source *s, const char *body, struct model *m, stru
     return ok;
 }
 
+static bool say_no(const char *text)
+{
+    test_print("  ");
+    test_print(text);
+    test_print("\n");
+    return false;
+}
+
 /* Loads, and shows the reason when that fails. */
 static bool loads(const struct source *s, const char *body, struct model *m)
 {
     struct failure f;
     if (load(s, body, m, &f))
         return true;
-    test_print("  ");
-    test_print(f.text);
-    test_print("\n");
-    return false;
+    return say_no(f.text);
 }
 
 static bool parses(const char *text, struct model *m)
@@ -154,10 +127,7 @@ static bool parses(const char *text, struct model *m)
     struct failure f = { 0 };
     if (model_parse((const uint8_t *)text, strlen(text), NULL, m, &f))
         return true;
-    test_print("  ");
-    test_print(f.text);
-    test_print("\n");
-    return false;
+    return say_no(f.text);
 }
 
 static bool same_text(const char *got, const char *want)
@@ -217,10 +187,7 @@ static bool poses(const struct model *m, int clip, double time, bool looped,
     struct failure f = { 0 };
     if (model_pose(m, clip, time, looped, pose, &f))
         return true;
-    test_print("  ");
-    test_print(f.text);
-    test_print("\n");
-    return false;
+    return say_no(f.text);
 }
 
 /* --- accessors --- */
@@ -1400,7 +1367,8 @@ static void test_a_glb_cut_off_anywhere_is_refused(void)
         CHECK(f.text[0] != '\0');
         /* The same with a header that agrees with the size. */
         if (n >= 12) {
-            put_u32(cut + 8, n);
+            for (int i = 0; i < 4; i++)
+                cut[8 + i] = (uint8_t)(n >> 8 * i);
             f = (struct failure){ 0 };
             CHECK(!model_parse(cut, n, NULL, &m, &f));
         }

@@ -106,48 +106,6 @@ static struct error worst_error(const struct motion *m, int poses, uint8_t path)
 
 /* ------------------------------------------------------------------ curves */
 
-static void test_a_wheel_turns_about_its_origin(void)
-{
-    random_state = 1;
-    for (int n = 0; n < 300; n++) {
-        const struct motion m = random_motion(uniform(0.05, 3.1));
-        for (int poses = 2; poses <= 3; poses++) {
-            const struct error e = worst_error(&m, poses, SMEAR_PATH_CURVE);
-            CHECK_CLOSE(e.basis, 0.0, 1.0);
-            CHECK_CLOSE(e.origin, 0.0, 8.0);
-        }
-        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_ORIGIN).origin, 0.0, 2.0);
-    }
-}
-
-static void test_a_blade_beside_its_pivot_goes_along_a_screw(void)
-{
-    random_state = 2;
-    for (int n = 0; n < 300; n++) {
-        struct motion m = random_motion(uniform(0.05, 3.0));
-        const double along = uniform(-0.5, 0.5);
-        for (int i = 0; i < 3; i++) {
-            m.arm[i] = uniform(-3, 3);
-            m.velocity[i] = m.axis[i] * along;
-        }
-        CHECK_CLOSE(worst_error(&m, 2, SMEAR_PATH_SCREW).origin, 0.0, 16.0 + 24.0 / m.angle);
-        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 16.0 + 24.0 / m.angle);
-    }
-}
-
-static void test_three_poses_tell_the_pivot_of_what_turns_and_goes(void)
-{
-    random_state = 3;
-    for (int n = 0; n < 300; n++) {
-        struct motion m = random_motion(uniform(0.05, 0.9));
-        for (int i = 0; i < 3; i++) {
-            m.velocity[i] *= 4;
-            m.arm[i] = uniform(-0.2, 0.2);
-        }
-        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 16.0 + 24.0 / m.angle);
-    }
-}
-
 static void test_three_poses_tell_a_fall(void)
 {
     random_state = 4;
@@ -158,53 +116,6 @@ static void test_three_poses_tell_a_fall(void)
             m.fall[i] = uniform(-0.3, 0.3);
         CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 4.0);
     }
-}
-
-static void test_nothing_jumps_where_small_turns_begin(void)
-{
-    random_state = 5;
-    for (int n = 0; n < 200; n++) {
-        struct motion m = random_motion(6.2831853 / 256 * uniform(0.9, 1.1));
-        for (int i = 0; i < 3; i++) {
-            m.velocity[i] = m.axis[i];
-            m.arm[i] = uniform(-4, 4);
-        }
-        /* 4 units of arm by the square of the angle bend the path by 1/400 of a unit, of which a hundredth is lost. */
-        CHECK_CLOSE(worst_error(&m, 3, SMEAR_PATH_CURVE).origin, 0.0, 24.0);
-    }
-}
-
-static void test_a_rebound_tells_nothing(void)
-{
-    for (int turns = 0; turns < 2; turns++) {
-        struct motion m = { .axis = { 0, 0, 1 }, .angle = turns * 0.3, .velocity = { 0.5, 1, 0 } };
-        const smear_transform now = pose(&m, 0), last = pose(&m, -1);
-        smear_transform older = pose(&m, -2);
-        struct smear_curve c;
-        older.origin[1] = now.origin[1];            /* it came down as fast as it goes up */
-        CHECK_EQ(smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE), turns);
-        CHECK_CLOSE(error_at(&c, &m, 0.25).origin, 0.0, 2.0);
-        older.origin[0] += 500 * 65536;             /* it was put elsewhere */
-        CHECK_EQ(smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE), turns);
-        CHECK_CLOSE(error_at(&c, &m, 0.25).origin, 0.0, 2.0);
-    }
-}
-
-static void test_what_goes_evenly_and_does_not_turn_has_no_curve(void)
-{
-    random_state = 6;
-    for (int n = 0; n < 200; n++) {
-        const struct motion m = random_motion(0);
-        const smear_transform now = pose(&m, 0), last = pose(&m, -1), older = pose(&m, -2);
-        struct smear_curve c;
-        for (int path = SMEAR_PATH_CURVE; path <= SMEAR_PATH_SCREW; path++)
-            CHECK(!smear_curve_find(&c, &now, &last, &older, (uint8_t)path));
-    }
-    const struct motion m = random_motion(0.5);
-    const smear_transform now = pose(&m, 0), last = pose(&m, -1);
-    struct smear_curve c;
-    CHECK(!smear_curve_find(&c, &now, &last, NULL, SMEAR_PATH_LINE));
-    CHECK(smear_curve_find(&c, &now, &last, NULL, SMEAR_PATH_CURVE));
 }
 
 static void test_poses_are_met_exactly(void)
@@ -243,82 +154,6 @@ static void test_wild_poses_do_no_harm(void)
         smear_curve_at(&out, &c, (int32_t)random_u32() >> 1);
         for (int i = 0; i < 3; i++)
             CHECK(out.origin[i] != INT32_MIN);
-    }
-}
-
-static void test_a_turn_that_grows_faster_goes_on_so(void)
-{
-    struct motion m = { .axis = { 0, 0, 1 } };
-    static const double angle[3] = { 0, -0.5, -0.9 };       /* 0.1 more in each frame */
-    smear_transform t[3];
-    struct smear_curve c;
-    for (int i = 0; i < 3; i++) {
-        m.angle = -angle[i];
-        t[i] = pose(&m, -1);
-    }
-    for (int three = 0; three < 2; three++) {
-        smear_curve_find(&c, &t[0], &t[1], three ? &t[2] : NULL, SMEAR_PATH_CURVE);
-        m.angle = three ? 0.5 * 0.5 + 0.1 * 0.5 * 1.5 / 2 : 0.5 * 0.5;     /* half a frame on */
-        m.angle /= 0.5;
-        CHECK_CLOSE(error_at(&c, &m, 0.5).basis, 0.0, 4.0);
-    }
-    /* From rest it starts: that is no steady change. */
-    smear_curve_find(&c, &t[0], &t[1], &t[1], SMEAR_PATH_CURVE);
-    CHECK_EQ(c.faster, 0);
-}
-
-/* ------------------------------------------------------------------ deforming meshes */
-
-static void test_vertices_bend_where_a_line_nearly_foretells_them(void)
-{
-    static const int16_t now[] = { 0, 0, 0, 400, 0, 0 }, last[] = { -100, 0, 0, 300, 0, 0 };
-    static const int16_t steady[] = { -200, 0, 0, 200, 0, 0 }, falling[] = { -200, 30, 0, 200, 30, 0 };
-    static const int16_t back[] = { 0, 0, 0, 400, 0, 0 };
-    const struct { const int16_t *older; bool bends; } cases[] = {
-        { steady, false }, { falling, true }, { back, false }, { NULL, false },
-    };
-    const struct smear_shot shot = { .path = SMEAR_PATH_CURVE, .half_exposure = ONE / 4 };
-    const smear_mesh mesh = { .position = now, .vertex_count = 2 };
-    for (int i = 0; i < 4; i++) {
-        smear_draw d = { .mesh = &mesh, .open_position = last, .close_position = cases[i].older };
-        CHECK_EQ(smear_draw_bends(&d, &shot), cases[i].bends);
-        d.path = SMEAR_PATH_LINE;
-        CHECK(!smear_draw_bends(&d, &shot));
-        d.path = SMEAR_PATH_DEFAULT;
-        d.close_count = 3;
-        CHECK(!smear_draw_bends(&d, &shot));
-    }
-}
-
-/* ------------------------------------------------------------------ tracks */
-
-/* A camera that turns, goes and zooms, at the times of each exposure. */
-static void test_cameras_are_where_the_exposure_asks(void)
-{
-    struct motion m = { .axis = { 0, 1, 0 }, .angle = 0.2, .velocity = { 0.1, 0, -0.3 }, .arm = { 0, 0, 4 } };
-    static const double time[3][2] = { { -0.25, 0.25 }, { -0.5, -0.25 }, { 0.25, 0.5 } };
-    for (int exposure = SMEAR_CENTRED; exposure <= SMEAR_LEADING; exposure++) {
-        struct smear_shot shot = { .curved = true, .exposure = (uint8_t)exposure, .half_exposure = ONE / 4,
-                                   .path = SMEAR_PATH_CURVE };
-        smear_camera camera[3];
-        for (int i = 0; i < 3; i++)
-            camera[i] = (smear_camera){ .pose = pose(&m, -i), .focal = 65536 - 1000 * i, .near_plane = 65536 };
-        CHECK(smear_cameras_are_curved(&shot, camera, true));
-        smear_cameras_bend(&shot, camera, true);
-        for (int i = 1; i < 3; i++) {
-            const smear_transform want = pose(&m, time[exposure][i - 1]);
-            for (int k = 0; k < 9; k++)
-                CHECK_NEAR(camera[i].pose.basis[k], want.basis[k], 16);
-            for (int k = 0; k < 3; k++)
-                CHECK_NEAR(camera[i].pose.origin[k], want.origin[k], 40);
-            CHECK_CLOSE((double)camera[i].focal, 65536 + 1000 * time[exposure][i - 1], 1.0);
-        }
-        /* The instants that are drawn are those of the poses. */
-        const struct smear_shutter_order at = smear_shot_order(&shot);
-        CHECK_EQ(smear_instant_at(&shot, -65536).weight[at.open], ONE);
-        CHECK_EQ(smear_instant_at(&shot, 0).weight[at.middle], ONE);
-        CHECK_EQ(smear_instant_at(&shot, 65536).weight[at.close], ONE);
-        CHECK_EQ(smear_shot_time(&shot, 0), 0);
     }
 }
 

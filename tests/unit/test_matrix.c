@@ -47,56 +47,6 @@ static int64_t row_bound(const int32_t m[4])
     return sum;
 }
 
-static void test_rows_stay_below_2_to_the_30_for_any_input(void)
-{
-    random_state = 1;
-    for (int n = 0; n < 20000; n++) {
-        smear_transform object;
-        for (int i = 0; i < 9; i++)
-            object.basis[i] = n == 0 ? INT32_MAX : n == 1 ? INT32_MIN : wild();
-        for (int i = 0; i < 3; i++)
-            object.origin[i] = n == 0 ? INT32_MAX : n == 1 ? INT32_MIN : wild();
-        smear_mesh mesh = { .scale = wild_positive(), .shift = (int8_t)between(-32, 62), .vertex_count = 1 };
-        for (int i = 0; i < 3; i++)
-            mesh.offset[i] = between(-(1 << 20), 1 << 20);
-        smear_camera camera = wild_camera();
-        struct smear_view view;
-        struct smear_projection p;
-        const int height = between(1, 2048);
-        smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, height, n % 3 == 2 ? projection_coarse(height, camera.half_height > 0) : 0);
-        for (int row = 0; row < (p.depths.orthographic ? 4 : 3); row++)
-            if (!CHECK(row_bound(p.m[row]) <= 1 << 30)) {
-                CHECK_EQ(n, row);
-                return;
-            }
-        if (!CHECK(p.depths.near_distance >= 1) || !CHECK(p.depths.far_distance > p.depths.near_distance)
-            || !CHECK(!p.depths.orthographic || (p.m[2][0] == 0 && p.m[2][1] == 0 && p.m[2][2] == 0 && p.m[2][3] >= 1)))
-            return;
-    }
-}
-
-static void test_the_scale_uses_the_bits_there_are(void)
-{
-    /* Where nothing is extreme the largest row fills 28 bits at least, for the farthest vertices. */
-    random_state = 2;
-    for (int n = 0; n < 500; n++) {
-        smear_transform object = SMEAR_IDENTITY;
-        smear_mesh mesh = { .scale = between(1, 1 << 20), .shift = (int8_t)between(10, 30) };
-        for (int i = 0; i < 3; i++)
-            object.origin[i] = between(-100 * 65536, 100 * 65536);
-        smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = between(30000, 200000), .near_plane = 6554 };
-        struct smear_view view;
-        struct smear_projection p;
-        smear_view_compose(&view, &object, &mesh, &camera.pose);
-        smear_projection_make(&p, &view, &camera, 240, 0);
-        int64_t largest = 0;
-        for (int row = 0; row < 3; row++)
-            largest = row_bound(p.m[row]) > largest ? row_bound(p.m[row]) : largest;
-        REQUIRE(p.scale == 48 || largest >= 1 << 27);
-    }
-}
-
 static void test_planes_lie_at_their_distances(void)
 {
     random_state = 3;

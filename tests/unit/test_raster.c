@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_raster.c - coverage, depth, colour, texels and velocity of triangles, against exact integer
- * arithmetic; and that cutting the frame into columns and bands never shows. Needs neither libc nor
- * floating point. */
+/* test_raster.c - coverage and depth of triangles, against exact integer arithmetic; which pixel wins; and that cutting the frame into
+ * columns and bands never shows. Needs neither libc nor floating point. */
 #include "raster/front_order.h"
 #include "raster/kept.h"
 #include "raster/raster.h"
@@ -174,20 +173,6 @@ static void count_clear(void)
         count[i] = 0;
 }
 
-/* Every pixel whose centre lies in the rectangle [x0, x1) x [y0, y1) was drawn once, all others
- * never. */
-static bool check_counts(int32_t x0, int32_t y0, int32_t x1, int32_t y1)
-{
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++) {
-            int32_t cx = x * 256 + 128, cy = y * 256 + 128;
-            int want = cx >= x0 && cx < x1 && cy >= y0 && cy < y1;
-            if (!CHECK_EQ(count[y * W + x], want))
-                return false;
-        }
-    return true;
-}
-
 /* ------------------------------------------------------------------ coverage */
 
 static void test_corners_on_pixel_centres_follow_the_top_left_rule(void)
@@ -250,145 +235,6 @@ static void test_triangles_that_reach_the_guard_band_cover_exactly_their_centres
                 p[i][1] = keep + cy;
             }
         END_UNLESS(draw_and_check(p));
-    }
-}
-
-/* A triangulation of a rectangle: grown by splitting, so that it has no T junctions. Corners are
- * clockwise on the screen; adjacent[i] lies across the edge from corner i to the next. */
-enum { MESH_MAX = 160 };
-static struct { int16_t corner[3], adjacent[3]; } mesh[MESH_MAX];
-static int32_t point[MESH_MAX][2];
-static int mesh_count, point_count;
-
-static int64_t orient(int a, int b, int c)
-{
-    return edge_value(point[a], point[b], point[c][0], point[c][1]);
-}
-
-static void relink(int triangle, int old, int fresh)
-{
-    if (triangle < 0)
-        return;
-    for (int i = 0; i < 3; i++)
-        if (mesh[triangle].adjacent[i] == old)
-            mesh[triangle].adjacent[i] = (int16_t)fresh;
-}
-
-static void set_triangle(int t, int a, int b, int c, int ab, int bc, int ca)
-{
-    mesh[t].corner[0] = (int16_t)a;
-    mesh[t].corner[1] = (int16_t)b;
-    mesh[t].corner[2] = (int16_t)c;
-    mesh[t].adjacent[0] = (int16_t)ab;
-    mesh[t].adjacent[1] = (int16_t)bc;
-    mesh[t].adjacent[2] = (int16_t)ca;
-}
-
-static void mesh_rectangle(int32_t x0, int32_t y0, int32_t x1, int32_t y1)
-{
-    const int32_t corner[4][2] = { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } };
-    for (int i = 0; i < 4; i++)
-        for (int axis = 0; axis < 2; axis++)
-            point[i][axis] = corner[i][axis];
-    point_count = 4;
-    mesh_count = 2;
-    set_triangle(0, 0, 1, 2, -1, -1, 1);
-    set_triangle(1, 0, 2, 3, 0, -1, -1);
-}
-
-/* Puts a point strictly inside triangle t; false when there is none at the chosen place. */
-static bool split_face(int t, int32_t x, int32_t y)
-{
-    int a = mesh[t].corner[0], b = mesh[t].corner[1], c = mesh[t].corner[2], p = point_count;
-    if (mesh_count + 2 > MESH_MAX || point_count == MESH_MAX)
-        return false;
-    point[p][0] = x;
-    point[p][1] = y;
-    if (orient(a, b, p) <= 0 || orient(b, c, p) <= 0 || orient(c, a, p) <= 0)
-        return false;
-    int ab = mesh[t].adjacent[0], bc = mesh[t].adjacent[1], ca = mesh[t].adjacent[2];
-    int u = mesh_count, v = mesh_count + 1;
-    point_count++;
-    mesh_count += 2;
-    set_triangle(t, a, b, p, ab, u, v);
-    set_triangle(u, b, c, p, bc, v, t);
-    set_triangle(v, c, a, p, ca, t, u);
-    relink(bc, t, u);
-    relink(ca, t, v);
-    return true;
-}
-
-/* Turns the diagonal between triangle t and the one across its edge i, where that stays a mesh. */
-static bool flip_edge(int t, int i)
-{
-    int o = mesh[t].adjacent[i];
-    if (o < 0)
-        return false;
-    int j = 0;
-    while (mesh[o].adjacent[j] != t)
-        j++;
-    int a = mesh[t].corner[i], b = mesh[t].corner[(i + 1) % 3], c = mesh[t].corner[(i + 2) % 3];
-    int d = mesh[o].corner[(j + 2) % 3];
-    if (orient(a, d, c) <= 0 || orient(d, b, c) <= 0)
-        return false;
-    int bc = mesh[t].adjacent[(i + 1) % 3], ca = mesh[t].adjacent[(i + 2) % 3];
-    int ad = mesh[o].adjacent[(j + 1) % 3], db = mesh[o].adjacent[(j + 2) % 3];
-    set_triangle(t, a, d, c, ad, o, ca);
-    set_triangle(o, d, b, c, db, bc, t);
-    relink(ad, o, t);
-    relink(bc, t, o);
-    return true;
-}
-
-static void flip_any_edge(void)
-{
-    int t = between(0, mesh_count - 1);
-    flip_edge(t, between(0, 2));
-}
-
-static bool mesh_draw_all(void)
-{
-    count_clear();
-    for (int t = 0; t < mesh_count; t++) {
-        int32_t p[3][2];
-        for (int i = 0; i < 3; i++)
-            for (int axis = 0; axis < 2; axis++)
-                p[i][axis] = point[mesh[t].corner[i]][axis];
-        if (!draw_and_check(p))
-            return false;
-    }
-    return true;
-}
-
-/* A place inside triangle t: near a corner, near an edge or anywhere; perhaps on a pixel centre. */
-static void place_in(int t, int32_t out[2])
-{
-    int32_t weight[3];
-    int style = between(0, 3);
-    for (int i = 0; i < 3; i++)
-        weight[i] = style == 0 ? between(1, 1000) : style == 1 ? between(1, 3) : 300;
-    if (style >= 2)
-        weight[between(0, 2)] = style == 2 ? 1 : 30000;
-    int32_t sum = weight[0] + weight[1] + weight[2];
-    for (int axis = 0; axis < 2; axis++) {
-        int64_t total = 0;
-        for (int i = 0; i < 3; i++)
-            total += (int64_t)point[mesh[t].corner[i]][axis] * weight[i];
-        out[axis] = (int32_t)(total / sum);
-        if (style == 1)
-            out[axis] = (out[axis] & ~255) + 128;
-    }
-}
-
-static void grow_mesh(int triangles)
-{
-    for (int tries = 0; mesh_count + 2 <= triangles && tries < 4 * triangles; tries++) {
-        int t = between(0, mesh_count - 1);
-        int32_t place[2];
-        place_in(t, place);
-        split_face(t, place[0], place[1]);
-        for (int i = 0; i < 3; i++)
-            flip_any_edge();
     }
 }
 
@@ -554,55 +400,6 @@ static void test_depth_codes_grow_over_the_break(void)
     CHECK_EQ(code_of((int64_t)SMEAR_DEPTH_NEAR << 11), 65535);
 }
 
-/* Channel c of a working pixel. */
-static int32_t code_in(uint32_t pixel, int c)
-{
-    return (int32_t)(pixel >> (16 - 8 * c) & 255u);
-}
-
-/* A triangle with random colours; checks each pixel against the exact mean of its corners' values. */
-static bool check_colors(int32_t (*p)[2], const int32_t q[3], bool flat_depth, bool linear, int32_t slack)
-{
-    list_begin();
-    set_layout(0, false, true, 0, SHADE_GOURAUD);
-    segment[0].flat_depth = flat_depth;
-    frame.linear = linear;
-    uint16_t v[3], channel[3][4];
-    for (int i = 0; i < 3; i++) {
-        for (int c = 0; c < 4; c++)
-            channel[i][c] = (uint16_t)(chance(4) ? chance(2) ? 0 : 65535 : between(0, 65535));
-        if (!linear)
-            for (int c = 0; c < 3; c++)
-                channel[i][c] = (uint16_t)(channel[i][c] & 0xff00);
-        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
-        set_color(0, v[i], channel[i]);
-    }
-    draw_alone(v);
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++) {
-            if (!covers(p, x, y))
-                continue;
-            int64_t weight[3], sum = 0;
-            weights_at(p, x, y, weight);
-            if (!check_depth(p, q, x, y, 1))
-                return false;
-            for (int i = 0; i < 3; i++) {
-                weight[i] = flat_depth ? weight[i] : (weight[i] >> 8) * (q[i] >> 14);
-                sum += weight[i];
-            }
-            for (int c = 0; c < 3; c++) {
-                int64_t total = 0;
-                for (int i = 0; i < 3; i++)
-                    total += weight[i] * (channel[i][c] >> 4);
-                int64_t mean = total / sum;             /* 12 bits */
-                int32_t want = linear ? smear_srgb_encode[mean > 4095 ? 4095 : mean] : (int32_t)((mean + 8) >> 4);
-                if (!CHECK_NEAR(code_in(full.color[y * W + x], c), want, slack))
-                    return false;
-            }
-        }
-    return true;
-}
-
 /* Texels that say where they are: u in the low byte and a half, v above. */
 enum { TEXELS = 64 * 64 };
 static uint32_t texels[TEXELS];
@@ -619,156 +416,12 @@ static void set_texture(int at, int32_t width, int32_t height, int wrap_u, int w
     smear_sampler_make(&draw[at].sampler, &texture, uv_shift, false, false);
 }
 
-/* The texel that a wrap mode shows at integer coordinate i. */
-static int32_t wrapped(int64_t i, int32_t size, int mode)
-{
-    if (mode == SMEAR_CLAMP)
-        return (int32_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
-    int32_t period = mode == SMEAR_MIRROR ? 2 * size : size, at = (int32_t)(i % period);
-    at = at < 0 ? at + period : at;
-    return at < size ? at : period - 1 - at;
-}
-
-/* True when `got` is a texel that a coordinate (q8) moved by at most `slack` would show. */
-static bool is_near_texel(int32_t got, int64_t coordinate, int64_t slack, int32_t size, int mode)
-{
-    for (int64_t move = -slack; move < slack; move += 64)
-        if (wrapped(floor_divide(coordinate + move, 256), size, mode) == got)
-            return true;
-    return wrapped(floor_divide(coordinate + slack, 256), size, mode) == got;
-}
-
 /* A textured triangle. */
 struct textured {
     int32_t p[3][2], q[3], uv[3][2];
     int32_t width, height;
     int wrap_u, wrap_v, uv_shift;
 };
-
-/* Exact texel coordinates at a pixel, q8. False where the point is behind the eye: beyond the triangle. */
-static bool texel_exactly(struct textured *t, int32_t x, int32_t y, int64_t out[2])
-{
-    int64_t weight[3], sum = 0;
-    weights_at(t->p, x, y, weight);
-    for (int i = 0; i < 3; i++) {           /* at most 2^29 x 2^12 */
-        weight[i] *= t->q[i] >> 18;
-        sum += weight[i];
-    }
-    for (int axis = 0; axis < 2 && sum > 0; axis++) {
-        int64_t total = 0;
-        for (int i = 0; i < 3; i++)
-            total += weight[i] * t->uv[i][axis];
-        int64_t ratio = floor_divide(total * 32, sum);          /* q5 mesh units */
-        out[axis] = floor_divide(ratio * (axis == 0 ? t->width : t->height) * 8, (int64_t)1 << t->uv_shift);
-    }
-    return sum > 0;
-}
-
-static int64_t distance_of(int64_t a, int64_t b)
-{
-    return a > b ? a - b : b - a;
-}
-
-/* Texels are those of the exact coordinate, moved by at most half a texel or half a pixel on the screen. */
-static bool check_texel_at(struct textured *t, int32_t x, int32_t y, uint32_t got)
-{
-    int64_t exact[2], there[2], per_pixel[2] = { 0, 0 };
-    texel_exactly(t, x, y, exact);
-    for (int side = 0; side < 4; side++) {
-        if (!texel_exactly(t, x + (side == 0) - (side == 1), y + (side == 2) - (side == 3), there))
-            continue;
-        for (int axis = 0; axis < 2; axis++)
-            if (distance_of(there[axis], exact[axis]) > per_pixel[axis])
-                per_pixel[axis] = distance_of(there[axis], exact[axis]);
-    }
-    for (int axis = 0; axis < 2; axis++) {
-        int64_t slack = per_pixel[axis] / 2 > 128 ? per_pixel[axis] / 2 : 128;
-        int32_t texel = (int32_t)(got >> 12 * axis & 4095u);
-        if (!CHECK(is_near_texel(texel, exact[axis], slack, axis == 0 ? t->width : t->height,
-                                 axis == 0 ? t->wrap_u : t->wrap_v))) {
-            CHECK_EQ(x * 1000 + y, -1);
-            CHECK_EQ(texel * 256, exact[axis]);
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool check_texels(struct textured *t)
-{
-    list_begin();
-    set_layout(0, true, false, 0, SHADE_NONE);
-    set_texture(0, t->width, t->height, t->wrap_u, t->wrap_v, t->uv_shift);
-    uint16_t v[3];
-    for (int i = 0; i < 3; i++) {
-        v[i] = add_vertex(0, t->p[i][0], t->p[i][1], t->q[i]);
-        set_uv(0, v[i], t->uv[i][0], t->uv[i][1]);
-    }
-    draw_alone(v);
-    int32_t (*p)[2] = t->p;
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++) {
-            if (!covers(p, x, y))
-                continue;
-            if (!check_depth(p, t->q, x, y, 1)
-                || !check_texel_at(t, x, y, full.color[y * W + x] & 0xffffffu))
-                return false;
-        }
-    return true;
-}
-
-/* ------------------------------------------------------------------ velocity */
-
-/* A moving triangle against the exact quotient; `slack` in 1/256 px. */
-static bool check_velocity(int32_t (*p)[2], int poses, int32_t motion[2][3][3], int32_t slack)
-{
-    list_begin();
-    set_layout(0, false, false, poses, SHADE_FLAT);
-    uint16_t v[3];
-    for (int i = 0; i < 3; i++) {
-        v[i] = add_vertex(0, p[i][0], p[i][1], 1 << 28);
-        for (int pose = 0; pose < poses; pose++)
-            set_motion(0, v[i], pose, motion[pose][i][0], motion[pose][i][1], motion[pose][i][2]);
-    }
-    draw_alone(v);
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++) {
-            if (!covers(p, x, y)) {
-                if (!CHECK_EQ(full.inspect[2 * (y * W + x)], 0))
-                    return false;
-                continue;
-            }
-            int64_t weight[3];
-            int32_t want[2] = { 0, 0 };
-            weights_at(p, x, y, weight);
-            for (int pose = 0; pose < poses; pose++)
-                for (int axis = 0; axis < 2; axis++) {
-                    int64_t top = 0, ratio = 0;
-                    for (int i = 0; i < 3; i++) {       /* 2^22 x (2^12 x 2^15 + 2^27) */
-                        int64_t b = weight[i] >> 8, r = motion[pose][i][2] >> 8;
-                        top += b * (r * p[i][axis] + motion[pose][i][axis] * 4096);
-                        ratio += b * r;
-                    }
-                    int32_t there = (int32_t)floor_divide(top, ratio) - ((axis == 0 ? x : y) * 256 + 128);
-                    want[axis] += pose == 0 ? -there : there;
-                }
-            for (int axis = 0; axis < 2; axis++) {
-                int32_t got = full.inspect[2 * (y * W + x) + axis];
-                if (!CHECK_NEAR(got, want[axis], slack))
-                    return false;
-                /* The packed one: half of it (the shutter is open all the time), in 1/8 px, no longer than the reach. */
-                int64_t length = (int64_t)want[0] * want[0] + (int64_t)want[1] * want[1];
-                int64_t reach = 2 * 15 * 256;
-                int32_t packed = full.velocity[2 * (y * W + x) + axis];
-                if (length < (reach - 256) * (reach - 256) && !CHECK_NEAR(packed * 64, want[axis], slack + 40))
-                    return false;
-            }
-            int32_t vx = full.velocity[2 * (y * W + x)], vy = full.velocity[2 * (y * W + x) + 1];
-            if (!CHECK(vx * vx + vy * vy <= (15 * 8 + 1) * (15 * 8 + 1)))
-                return false;
-        }
-    return true;
-}
 
 /* ------------------------------------------------------------------ which pixel wins */
 

@@ -105,25 +105,6 @@ static void test_nearest_texels_are_those_at_the_floor_of_the_coordinate(void)
     }
 }
 
-static void test_powers_of_two_repeat_without_end(void)
-{
-    /* Coordinates may wrap around 2^32: that is a whole number of such textures. */
-    random_state = 2;
-    random_texels();
-    smear_texture t = texture_of(16, 32, SMEAR_TEXEL_8888, SMEAR_REPEAT, SMEAR_REPEAT);
-    struct smear_sampler s;
-    smear_sampler_make(&s, &t, 15, false, false);
-    for (int n = 0; n < 200; n++) {
-        int32_t u = (int32_t)random_u32(), v = (int32_t)random_u32(), du = (int32_t)random_u32();
-        uint32_t out[8];
-        sample(out, &s, u, v, du, 0x7fffffff, 8);
-        for (int i = 0; i < 8; i++) {
-            int64_t at_u = (int64_t)u + (int64_t)i * du, at_v = (int64_t)v + (int64_t)i * 0x7fffffff;
-            CHECK_EQ(out[i], texel_at(&t, floor_divide(at_u, 65536), floor_divide(at_v, 65536)));
-        }
-    }
-}
-
 static void test_curved_runs_change_their_step_every_two_pixels_wherever_they_are_cut(void)
 {
     random_state = 5;
@@ -214,53 +195,6 @@ static void test_bilinear_texels_are_the_mean_of_four_around(void)
             }
         }
     }
-}
-
-static void test_bilinear_texels_of_one_colour_are_that_colour(void)
-{
-    for (uint32_t code = 0; code < 256; code++) {
-        for (int i = 0; i < MOST; i++)
-            texels[i] = code * 0x01010101u;
-        for (int linear = 0; linear < 2; linear++) {
-            smear_texture t = texture_of(8, 8, SMEAR_TEXEL_8888, SMEAR_REPEAT, SMEAR_MIRROR);
-            struct smear_sampler s;
-            smear_sampler_make(&s, &t, 15, true, linear);
-            uint32_t out[16];
-            sample(out, &s, 12345, -54321, 7777, 3333, 16);
-            for (int i = 0; i < 16; i++)
-                REQUIRE_EQ(out[i], code * 0x01010101u);
-        }
-    }
-}
-
-static void test_ratios_become_texels(void)
-{
-    /* A ratio in q29 counts 2^15 mesh units: texels = ratio x size x 2^(15 - uv_shift). */
-    random_state = 4;
-    static const int32_t size[] = { 1, 2, 3, 16, 37, 256, 1000, 2048, 4095, 4096 };
-    for (int uv_shift = 1; uv_shift <= 15; uv_shift++)
-        for (int k = 0; k < 10; k++) {
-            smear_texture t = texture_of(size[k], size[9 - k], SMEAR_TEXEL_8888, SMEAR_REPEAT, SMEAR_REPEAT);
-            struct smear_sampler s;
-            smear_sampler_make(&s, &t, uv_shift, false, false);
-            for (int n = 0; n < 60; n++) {
-                int32_t ratio = between(-(1 << 29), 1 << 29);
-                ratio >>= between(0, 20);
-                /* q16 texels, exact: ratio size 2^(15 - uv_shift) / 2^13. The high product keeps 27 bits. */
-                int64_t scaled = (int64_t)ratio * size[k] * ((int64_t)1 << (15 - uv_shift));
-                int64_t want = floor_divide(scaled, 8192);
-                int64_t slack = 2 + ((int64_t)size[k] << (15 - uv_shift)) / 1024;
-                if (want > INT32_MAX || want < INT32_MIN)
-                    continue;
-                REQUIRE_NEAR(smear_sampler_texel_u(&s, ratio), want, slack);
-                scaled = (int64_t)ratio * size[9 - k] * ((int64_t)1 << (15 - uv_shift));
-                want = floor_divide(scaled, 8192);
-                slack = 2 + ((int64_t)size[9 - k] << (15 - uv_shift)) / 1024;
-                if (want <= INT32_MAX && want >= INT32_MIN
-                    && !CHECK_NEAR(smear_sampler_texel_v(&s, ratio), want, slack))
-                    return;
-            }
-        }
 }
 
 #include "build/suites/texture.h"
