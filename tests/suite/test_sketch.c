@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void suite_sketch(void);
-
 enum { WIDTH = 96, HEIGHT = 72, FLOOR = 0, WALL, POST, PANE, LEAF, SIGN, MOVER, DRAWS };
 
 /* A world that stands still, with a pane of glass, a cut-out and a billboard; a cube goes by. The camera moves on and turns. */
@@ -489,14 +487,4 @@ static void test_a_display_never_takes_a_blurred_picture_for_a_still_one(void)
     CHECK(lines > 1000);
 }
 
-void suite_sketch(void)
-{
-    RUN(test_a_frame_in_parts_and_in_refilled_rows_is_the_same);
-    RUN(test_eight_workers_draw_what_one_does);
-    RUN(test_frames_smaller_than_a_tile);
-    RUN(test_everything_is_nearer_to_the_finest_target_than_a_sharp_picture);
-    RUN(test_what_is_fixed_to_the_camera_keeps_hard_edges);
-    RUN(test_a_cut_and_a_camera_that_stands_are_those_without_lines);
-    RUN(test_an_endless_surface_of_one_colour_stays_as_it_is);
-    RUN(test_a_display_never_takes_a_blurred_picture_for_a_still_one);
-}
+#include "build/suites/sketch.h"

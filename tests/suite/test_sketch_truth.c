@@ -5,8 +5,6 @@
 
 #include <stdlib.h>
 
-void suite_sketch_truth(void);
-
 /* Codes of a scene's picture, encoded light, exact poses, and the bar. */
 static void check_scene(const char *name, double bar)
 {
@@ -56,7 +54,4 @@ static void test_scenes_are_as_near_to_the_truth_as_a_sketch_is(void)
     check_scene("demo/race", 9);
 }
 
-void suite_sketch_truth(void)
-{
-    RUN(test_scenes_are_as_near_to_the_truth_as_a_sketch_is);
-}
+#include "build/suites/sketch_truth.h"

@@ -5,8 +5,6 @@
 
 #include "smear_overlay.h"
 
-void suite_states(void);
-
 enum { WIDTH = 48, HEIGHT = 40 };
 
 /* ------------------------------------------------------------------ calls */
@@ -524,15 +522,4 @@ static void test_as_many_ids_are_known_as_a_frame_may_have_whichever_they_are(vo
         check_ids(n % 4 == 0);
 }
 
-void suite_states(void)
-{
-    RUN(test_every_call_in_every_state_is_taken_or_refused_as_the_table_says);
-    RUN(test_every_function_of_a_context_is_among_them);
-    RUN(test_callbacks_are_refused_what_changes_the_context);
-    RUN(test_inspectors_are_refused_it_too);
-    RUN(test_a_refused_call_changes_not_a_byte);
-    RUN(test_a_refused_desc_touches_no_memory);
-    RUN(test_as_many_ids_are_known_as_a_frame_may_have_whichever_they_are);
-    free(snapshot);
-    snapshot = NULL;
-}
+#include "build/suites/states.h"

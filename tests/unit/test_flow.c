@@ -12,8 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 
-void suite_flow(void);
-
 /* ------------------------------------------------------------------ cameras */
 
 static const int32_t now_only[3] = { 1 << 24, 0, 0 };
@@ -216,31 +214,6 @@ static void test_so_is_that_of_orthographic_cameras(void)
         check_case(true, i);
 }
 
-/* What is twice as far moves half as far, when the camera goes aside by 0.25 px of the distance 1. */
-static void test_a_step_aside_moves_by_the_depth(void)
-{
-    struct smear_reprojection r;
-    struct smear_flow f;
-    smear_camera camera[3];
-    for (int i = 0; i < 3; i++)
-        camera[i] = (smear_camera){ .pose = pose_of(i == 0 ? 0 : i == 1 ? -0.125
-                                                                        : 0.125,
-                                                    0, 0, 0, 0, 0),
-                                    .focal = 65536,
-                                    .near_plane = 65536 };
-    smear_reproject_make(&r, &camera[0], &camera[1], &camera[2], now_only, true, 128, 128);
-    smear_flow_make(&f, &r, 65536);
-    for (int k = 0; k < 8; k++) {
-        int32_t out[2];
-        smear_flow_at(&f, 30, 90, SMEAR_DEPTH_NEAR >> k, out);
-        CHECK_NEAR(out[0], -(64 * 256 / 4) >> k, 8);
-        CHECK_EQ(out[1], 0);
-    }
-    int32_t far_away[2];
-    smear_flow_at(&f, 30, 90, 0, far_away);
-    CHECK(far_away[0] == 0 && far_away[1] == 0);
-}
-
 /* ------------------------------------------------------------------ any camera */
 
 static int32_t wild(int32_t low, int32_t high)
@@ -300,10 +273,4 @@ static void test_no_camera_is_too_much_for_it(void)
     CHECK(far_away > 1000);
 }
 
-void suite_flow(void)
-{
-    RUN(test_a_step_aside_moves_by_the_depth);
-    RUN(test_the_flow_is_the_first_order_of_what_cameras_say);
-    RUN(test_so_is_that_of_orthographic_cameras);
-    RUN(test_no_camera_is_too_much_for_it);
-}
+#include "build/suites/flow.h"

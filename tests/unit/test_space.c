@@ -185,48 +185,6 @@ static bool sheet_at(double at[CORNERS][4], int order[CORNERS], const struct she
     return fabs(whole) > size * size * size * 1e-5;
 }
 
-/* ------------------------------------------------------------------ places */
-
-/* Returns what the places of a path lack to be on a line, of x, y, w or the distance. */
-static double bend_of(const struct smear_homogeneous key[KEYS], int i)
-{
-    const int32_t at[KEYS][4] = { { key[0].x, key[0].y, key[0].w, key[0].distance }, { key[1].x, key[1].y, key[1].w, key[1].distance },
-                                  { key[2].x, key[2].y, key[2].w, key[2].distance } };
-    return (double)at[0][i] + at[2][i] - 2.0 * at[1][i];
-}
-
-static void test_places_lie_on_the_parabola_through_three(void)
-{
-    enum { PLACES = 20000 };
-    double off = 0;
-    random_state = 1;
-    for (int n = 0; n < PLACES; n++) {
-        struct smear_homogeneous key[KEYS], h;
-        uint32_t record[9];
-        begin(n & 1);
-        for (int k = 0; k < KEYS; k++) {
-            const int32_t most = 1 << between(4, 27);
-            key[k].x = between(-most, most);
-            key[k].y = between(-most, most);
-            key[k].distance = between(-most, most);
-            key[k].w = is_even() ? 256 * EVEN_SCALE : key[k].distance;
-        }
-        smear_space_store(record, &segment[0], &key[0], &key[1], &key[2]);
-        const int32_t time = between(0, SHUTTER_CLOSE);
-        double want[4];
-        exact_at(want, key, (time - SHUTTER_CLOSE / 2) / (SHUTTER_CLOSE / 2.0));
-        smear_space_at(&h, &space, (const int32_t *)(const void *)record, path_phase(time));
-        off += (h.x - want[0]) / (1 + fabs(bend_of(key, 0)) / 65536) / PLACES;
-        for (int i = 0; i < 4; i++) {   /* of shares with 16 bits */
-            const int32_t found[4] = { h.x, h.y, h.w, h.distance };
-            const double bend = is_even() && i == 2 ? 0 : fabs(bend_of(key, i));
-            if (!CHECK_CLOSE(found[i], want[i], 0.6 + bend / 65536))
-                return;
-        }
-    }
-    CHECK_CLOSE(off, 0, 0.05);          /* what runs along its own edges stays where it is */
-}
-
 /* ------------------------------------------------------------------ what is seen */
 
 /* Whether a triangle covers the middle of a pixel, as the raster has it. */
