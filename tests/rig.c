@@ -20,6 +20,16 @@ int take_band(void *user, const smear_band *band)
     return 0;
 }
 
+int place_band(void *user, const smear_band *band)
+{
+    struct rig *r = user;
+    for (int y = 0; y < band->height; y++)
+        memcpy(r->picture + ((band->y + y) * r->desc.width + band->x) * 4, (const uint8_t *)band->pixels + (uint32_t)y * band->stride,
+               (size_t)band->width * 4);
+    r->sent += band->width * band->height;
+    return 0;
+}
+
 static void take_row(void *user, int y, const uint32_t *color, const uint16_t *depth, const int32_t *velocity)
 {
     struct rig *r = user;

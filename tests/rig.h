@@ -24,6 +24,7 @@ struct rig {
     bool bands_in_order;
     int fail_at, fail_with;     /* flush of band fail_at returns fail_with; -1: none */
     bool reports_sent;          /* with two bands: each counts as sent at once */
+    int sent;                   /* pixels, by place_band */
     uint32_t *color;            /* inspected rows */
     uint16_t *depth;
     int32_t *velocity;
@@ -33,6 +34,9 @@ struct rig {
 
 /* The flush of a rig. */
 int take_band(void *user, const smear_band *band);
+
+/* A flush for desc.flush: puts pixels of 32 bits in their place on a picture that stays, as a display does. */
+int place_band(void *user, const smear_band *band);
 
 smear_desc small_desc(int width, int height);
 

@@ -186,21 +186,6 @@ static void test_frames_of_the_displays_own_pixels_have_items(void)
 
 /* ------------------------------------------------------------------ a display that keeps what it is sent */
 
-struct panel {
-    uint32_t pixel[PIXELS];
-    int sent;
-};
-
-static int show(void *user, const smear_band *band)
-{
-    struct panel *p = user;
-    for (int y = 0; y < band->height; y++)
-        memcpy(&p->pixel[(band->y + y) * WIDTH + band->x], (const uint8_t *)band->pixels + (uint32_t)y * band->stride,
-               (size_t)band->width * 4);
-    p->sent += band->width * band->height;
-    return 0;
-}
-
 /* What changes in frame `i`: nothing in most; a text in place, a cell, a colour, the order, a place, a number of items. */
 static void change(smear_overlay_item item[ITEMS], smear_overlay *overlay, char text[8], int i)
 {
@@ -219,44 +204,30 @@ static void change(smear_overlay_item item[ITEMS], smear_overlay *overlay, char 
 
 static void test_a_panel_is_sent_the_tiles_over_which_something_else_lies(void)
 {
-    static struct panel kept, whole;
     smear_overlay_item item[ITEMS];
     smear_overlay overlay = { item, ITEMS, NULL };
     char text[8] = "TIME 12";
     make_items(item);
     item[0].text = text;
-    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .tile = 8, .flush = show, .user = &whole };
-    smear_context *ctx[2];
-    void *memory[2];
-    for (int i = 0; i < 2; i++) {
-        memory[i] = calloc(1, smear_memory_size(&desc));
-        CHECK_EQ(smear_init(&ctx[i], &desc, memory[i], smear_memory_size(&desc)), SMEAR_OK);
-        desc.reuse.buffer_age = 1;
-        desc.reuse.cache_static = 1;
-        desc.user = &kept;
-    }
+    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .tile = 8, .flush = place_band };
+    RIG(whole, &desc, false);
+    desc.reuse.buffer_age = 1;
+    desc.reuse.cache_static = 1;
+    RIG(kept, &desc, false);
     for (int i = 0; i < 17; i++) {
         struct scene s;
         make_scene(&s, 0, SMEAR_AUTO);
         change(item, &overlay, text, i);
         s.frame.overlay = i == 16 ? NULL : &overlay;
         kept.sent = 0;
-        for (int k = 0; k < 2; k++) {
-            CHECK_EQ(smear_begin(ctx[k], &s.frame), SMEAR_OK);
-            for (int d = 0; d < SCENE_DRAWS; d++)
-                CHECK_EQ(smear_submit(ctx[k], &s.draw[d]), SMEAR_OK);
-            CHECK_EQ(smear_render(ctx[k]), SMEAR_OK);
-        }
-        CHECK(memcmp(kept.pixel, whole.pixel, sizeof kept.pixel) == 0);
+        CHECK_EQ(rig_frame(&whole, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK_EQ(rig_frame(&kept, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK(memcmp(kept.picture, whole.picture, PIXELS * 4) == 0);
         const bool changed = (i >= 3 && (i & 1) != 0) || i == 16;
         CHECK(i < 2 || (kept.sent != 0) == changed);
         CHECK(i < 2 || i > 8 || kept.sent < PIXELS / 2);
         CHECK(i != 3 || kept.sent <= 4 * 64);       /* one letter, of at most two by two tiles */
     }
-    free(memory[0]);
-    free(memory[1]);
 }
-
-/* ------------------------------------------------------------------ what is refused */
 
 #include "build/suites/overlay.h"

@@ -235,37 +235,16 @@ static void test_points_are_hidden_by_what_is_nearer_in_the_middle_of_the_exposu
 
 /* ------------------------------------------------------------------ a display that keeps what it is sent */
 
-struct panel {
-    uint32_t pixel[PIXELS];
-    int sent;
-};
-
-static int show(void *user, const smear_band *band)
-{
-    struct panel *p = user;
-    for (int y = 0; y < band->height; y++)
-        memcpy(&p->pixel[(band->y + y) * WIDTH + band->x], (const uint8_t *)band->pixels + (uint32_t)y * band->stride,
-               (size_t)band->width * 4);
-    p->sent += band->width * band->height;
-    return 0;
-}
-
 static void test_a_panel_is_sent_the_tiles_over_which_points_pass(void)
 {
-    static struct panel kept, whole;
     smear_point point[2] = { { .size = 9000, .color = { 255, 90, 20 } }, { .size = 9000, .color = { 20, 90, 255 } } };
     smear_points points = { point, 2 };
     const smear_overlay overlay = { NULL, 0, &points };
-    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .tile = 8, .flush = show, .user = &whole };
-    smear_context *ctx[2];
-    void *memory[2];
-    for (int i = 0; i < 2; i++) {
-        memory[i] = calloc(1, smear_memory_size(&desc));
-        CHECK_EQ(smear_init(&ctx[i], &desc, memory[i], smear_memory_size(&desc)), SMEAR_OK);
-        desc.reuse.buffer_age = 1;
-        desc.reuse.cache_static = 1;
-        desc.user = &kept;
-    }
+    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .tile = 8, .flush = place_band };
+    RIG(whole, &desc, false);
+    desc.reuse.buffer_age = 1;
+    desc.reuse.cache_static = 1;
+    RIG(kept, &desc, false);
     for (int i = 0; i < 12; i++) {
         struct scene s;
         make_scene(&s, 0, SMEAR_AUTO);
@@ -278,19 +257,13 @@ static void test_a_panel_is_sent_the_tiles_over_which_points_pass(void)
         points.count = i >= 10 ? 1 : 2;
         s.frame.overlay = &overlay;
         kept.sent = 0;
-        for (int k = 0; k < 2; k++) {
-            CHECK_EQ(smear_begin(ctx[k], &s.frame), SMEAR_OK);
-            for (int d = 0; d < SCENE_DRAWS; d++)
-                CHECK_EQ(smear_submit(ctx[k], &s.draw[d]), SMEAR_OK);
-            CHECK_EQ(smear_render(ctx[k]), SMEAR_OK);
-        }
-        CHECK(memcmp(kept.pixel, whole.pixel, sizeof kept.pixel) == 0);
+        CHECK_EQ(rig_frame(&whole, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK_EQ(rig_frame(&kept, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK(memcmp(kept.picture, whole.picture, PIXELS * 4) == 0);
         const bool changed = (i >= 3 && i < 7) || i == 8 || i == 10;
         CHECK(i < 2 || (kept.sent != 0) == changed);
         CHECK(i < 2 || kept.sent < PIXELS / 2);
     }
-    free(memory[0]);
-    free(memory[1]);
 }
 
 /* ------------------------------------------------------------------ what is refused, and what is not */

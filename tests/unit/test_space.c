@@ -187,29 +187,6 @@ static bool sheet_at(double at[CORNERS][4], int order[CORNERS], const struct she
 
 /* ------------------------------------------------------------------ what is seen */
 
-/* Whether a triangle covers the middle of a pixel, as the raster has it. */
-static bool covers(const int32_t *const v[3], int x, int y)
-{
-    for (int i = 0; i < 3; i++) {
-        const int32_t *a = v[i], *b = v[(i + 1) % 3];
-        const int64_t e = edge_value(a, b, 256 * x + 128, 256 * y + 128);
-        const bool counts = b[1] < a[1] || (b[1] == a[1] && b[0] > a[0]);
-        if (e < 0 || (e == 0 && !counts))
-            return false;
-    }
-    return edge_value(v[0], v[1], v[2][0], v[2][1]) > 0;
-}
-
-static void add_covered(uint8_t count[H][W], const struct path_record *corner, int corners)
-{
-    for (int i = 2; i < corners; i++) {
-        const int32_t *const v[3] = { corner[0].word, corner[i - 1].word, corner[i].word };
-        for (int y = 0; y < H; y++)
-            for (int x = 0; x < W; x++)
-                count[y][x] = (uint8_t)(count[y][x] + covers(v, x, y));
-    }
-}
-
 /* How far inside of a sheet the middle of a pixel lies: of its sides in pixels, and of the near and far plane in parts of their
  * distance, the least. Below 0: outside. */
 static double inside(double at[CORNERS][4], int x, int y)
@@ -234,71 +211,6 @@ static double inside(double at[CORNERS][4], int x, int y)
     if (sum <= 0)
         return -INFINITY;
     return fmin(least, fmin((here - near) / unit, (far - here) / unit));
-}
-
-static bool check_sheet(const struct sheet *s, int32_t time, int *seen)
-{
-    static const int32_t no_shift[2];
-    static uint8_t count[H][W];
-    double at[CORNERS][4];
-    int order[CORNERS];
-    if (!sheet_at(at, order, s, (time - SHUTTER_CLOSE / 2) / (SHUTTER_CLOSE / 2.0)))
-        return true;
-    for (int y = 0; y < H; y++)
-        for (int x = 0; x < W; x++)
-            count[y][x] = 0;
-    for (int half = 0; half < 2; half++) {
-        const int v[3] = { order[0], order[half + 1], order[half + 2] };
-        const int32_t *const record[3] = { s->record[v[0]], s->record[v[1]], s->record[v[2]] };
-        const unsigned bits = (s->in_space >> v[0] & 1u) | (s->in_space >> v[1] & 1u) << 1 | (s->in_space >> v[2] & 1u) << 2;
-        struct path_record corner[SMEAR_CLIP_MAX];
-        const int corners = smear_space_pose(corner, &space, record, bits, path_phase(time), no_shift);
-        if (!CHECK(corners == 0 || (corners >= 3 && corners <= SMEAR_CLIP_MAX)))
-            return false;
-        for (int i = 0; i < corners; i++)
-            if (!CHECK(abs_i32(corner[i].word[0] - W * 128) <= SMEAR_GUARD_PX << 8)
-                || !CHECK(abs_i32(corner[i].word[1] - H * 128) <= SMEAR_GUARD_PX << 8)
-                || !CHECK(corner[i].word[2] >= SMEAR_DEPTH_MIN && corner[i].word[2] <= SMEAR_DEPTH_MAX))
-                return false;
-        for (int k = 0; k < 3 && corners != 0; k++) {       /* one with a path on the screen stays where that is */
-            int32_t want[3] = { 0, 0, 0 };
-            bool found = (bits >> k & 1u) != 0;
-            if (!found)
-                path_place(want, record[k] + segment[0].stride, record[k] + segment[0].stride + PATH_POSE_WORDS, path_phase(time));
-            for (int i = 0; i < corners && !found; i++)
-                found = corner[i].word[0] == want[0] && corner[i].word[1] == want[1];
-            if (!CHECK(found))
-                return false;
-        }
-        add_covered(count, corner, corners);
-    }
-    for (int y = 0; y < H; y++)
-        for (int x = 0; x < W; x++) {
-            const double in = inside(at, x, y);
-            if ((in > 1 && !CHECK_EQ(count[y][x], 1)) || (in < -1 && !CHECK_EQ(count[y][x], 0)) || !CHECK(count[y][x] <= 2)) {
-                CHECK_EQ(x, -1);
-                CHECK_EQ(y, -1);
-                return false;
-            }
-            *seen += in > 1;
-        }
-    return true;
-}
-
-static void test_halves_of_a_sheet_meet_without_gap_or_overlap(void)
-{
-    random_state = 2;
-    int seen = 0;
-    for (int n = 0; n < 12000; n++) {
-        struct sheet s;
-        begin(n % 4 == 3);
-        random_sheet(&s);
-        if (!check_sheet(&s, chance(4) ? between(0, 2) * (SHUTTER_CLOSE / 2) : between(0, SHUTTER_CLOSE), &seen)) {
-            CHECK_EQ(n, -1);
-            return;
-        }
-    }
-    CHECK(seen > 400000);
 }
 
 /* ------------------------------------------------------------------ planes that move */
