@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_raster.c - coverage and depth of triangles, against exact integer arithmetic; which pixel wins; and that cutting the frame into
- * columns and bands never shows. Needs neither libc nor floating point. */
+/* test_raster.c - coverage of triangles against exact integer arithmetic; which pixel wins; and that cutting the frame into columns
+ * and bands, and drawing from the front, never show. Golden frames hold what pixels have. Needs neither libc nor floating point. */
 #include "raster/front_order.h"
 #include "raster/kept.h"
 #include "raster/raster.h"
@@ -98,14 +98,6 @@ static void draw_list(struct planes *p)
 {
     struct smear_raster_target t = target_of(p);
     smear_raster_list(&frame, &t, 0);
-}
-
-/* Draws a triangle of segment 0, and nothing else. */
-static void draw_alone(const uint16_t v[3])
-{
-    add_triangle(0, v[0], v[1], v[2], 0xffffffffu);
-    planes_clear(&full);
-    draw_list(&full);
 }
 
 /* ------------------------------------------------------------------ exact coverage */
@@ -264,36 +256,6 @@ static void set_motion(int at, uint16_t vertex, int pose, int32_t dx, int32_t dy
     motion[MOTION_RATIO] = (uint32_t)ratio;
 }
 
-/* Weights of the corners at a pixel's centre; they add up to the area, which is positive. */
-static void weights_at(int32_t (*p)[2], int32_t px, int32_t py, int64_t *weight)
-{
-    int32_t centre[2] = { px * 256 + 128, py * 256 + 128 };
-    bool clockwise = area_of(p) > 0;
-    for (int i = 0; i < 3; i++) {
-        const int32_t *a = p[(i + 1) % 3], *b = p[(i + 2) % 3];
-        int64_t e = edge_value(a, b, centre[0], centre[1]);
-        weight[i] = clockwise ? e : -e;
-    }
-}
-
-static int64_t floor_divide(int64_t a, int64_t b)
-{
-    int64_t q = a / b;
-    return a % b < 0 ? q - 1 : q;
-}
-
-/* sum weight value / sum weight, exact, for values below 2^31 and weights below 2^42. */
-static int64_t weighted(const int64_t weight[3], const int32_t value[3])
-{
-    int64_t high = 0, low = 0, area = weight[0] + weight[1] + weight[2];
-    for (int i = 0; i < 3; i++) {
-        high += weight[i] * (value[i] >> 15);
-        low += weight[i] * (value[i] & 0x7fff);
-    }
-    int64_t whole = floor_divide(high, area);
-    return whole * 32768 + floor_divide((high - whole * area) * 32768 + low, area);
-}
-
 /* Random corners of a triangle of at least `pixels` square pixels; false when luck is out. */
 static bool fat_triangle(int32_t (*p)[2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
 {
@@ -314,66 +276,6 @@ static int32_t code_of(int64_t units_q11)
 {
     int64_t units = (units_q11 + 1024) >> 11;
     return (int32_t)(units < 32768 ? units : 32768 + ((units_q11 - (32768 << 11) + (8 << 11)) >> 15));
-}
-
-/* Corners within `size` of a place in the frame, of at least so much area; false when luck is out. */
-static bool small_triangle(int32_t (*p)[2], int32_t size, int64_t least)
-{
-    int32_t x = between(600, 12000), y = between(600, 8000);
-    for (int i = 0; i < 3; i++) {
-        p[i][0] = x + between(-size, size);
-        p[i][1] = y + between(-size, size);
-    }
-    return area_of(p) >= least || area_of(p) <= -least;
-}
-
-static void draw_depths(int32_t (*p)[2], const int32_t q[3])
-{
-    uint16_t v[3];
-    list_begin();
-    for (int i = 0; i < 3; i++)
-        v[i] = add_vertex(0, p[i][0], p[i][1], q[i]);
-    draw_alone(v);
-}
-
-/* The depth of a pixel is what its weights make of the corners'. */
-static bool check_depth(int32_t (*p)[2], const int32_t q[3], int32_t x, int32_t y, int32_t slack)
-{
-    int64_t weight[3];
-    weights_at(p, x, y, weight);
-    return CHECK_NEAR(full.depth[y * W + x], code_of(weighted(weight, q)), slack);
-}
-
-static bool check_depths(int32_t (*p)[2], const int32_t q[3], int32_t slack)
-{
-    draw_depths(p, q);
-    for (int32_t y = 0; y < H; y++)
-        for (int32_t x = 0; x < W; x++)
-            if (covers(p, x, y) && !check_depth(p, q, x, y, slack))
-                return false;
-    return true;
-}
-
-static void test_depth_is_the_plane_through_the_corners(void)
-{
-    random_state = 11;
-    for (int n = 0; n < 320; n++) {
-        const int32_t guard = SMEAR_GUARD_PX << 8;
-        int32_t p[3][2], q[3];
-        const bool tiny = n >= 120, large = !tiny && n % 4 == 3;
-        if (tiny ? !small_triangle(p, 300 << n % 3, 30000)
-                 : !fat_triangle(p, 64, large ? -guard : -1000, large ? guard : W * 256, large ? guard : H * 256))
-            continue;
-        /* Everywhere from the far end to the near plane; a third of them reaches over its break. */
-        int32_t level = between(0, 13);
-        for (int i = 0; i < 3; i++)
-            q[i] = tiny        ? (1 << 20 << n % 9) + between(0, 1 << 18 << n % 9)
-                 : n % 3 == 0  ? between(SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX)
-                 : n % 3 == 1  ? (32768 << 11) + between(-(1 << 24), 1 << 24)
-                              : SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
-        /* Gradients are rounded to 1/2 step of q11 per pixel: 1/32 unit over 64 px, two over 4096. */
-        END_UNLESS(check_depths(p, q, large ? 3 : 1));
-    }
 }
 
 static void test_depth_codes_grow_over_the_break(void)
@@ -657,102 +559,5 @@ static void test_drawing_from_the_front_changes_nothing(void)
     CHECK(moved > 1000);
 }
 #endif
-
-/* Triangles with loops of their own, of any size and near any break of the depth code. */
-static void random_kind(int level, int far)
-{
-    const uint16_t light[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
-    for (int k = 0; k < 6 && list_has_room(); k++) {
-        int32_t extent = 256 << between(2, 7), x = between(0, W * 256), y = between(0, H * 256), p[3][2];
-        uint16_t v[3];
-        if (!random_corners(p, x, y, extent))
-            continue;
-        for (int i = 0; i < 3; i++) {
-            int32_t depth = SMEAR_DEPTH_MAX >> far;
-            v[i] = add_vertex(0, p[i][0], p[i][1], max_i32(SMEAR_DEPTH_MIN, depth - between(0, depth >> level)));
-            if (segment[0].uv != 0) {
-                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
-                set_uv(0, v[i], s, t);
-            }
-            if (segment[0].color != 0) {
-                uint16_t other[4] = { (uint16_t)random_u32(), (uint16_t)random_u32(), (uint16_t)random_u32(), 0xffffu };
-                set_color(0, v[i], segment[0].uv != 0 ? light : other);
-            }
-            for (int pose = 0; pose < segment[0].moves; pose++) {
-                int32_t dx = between(-4096, 4096), dy = between(-4096, 4096);
-                set_motion(0, v[i], pose, dx, dy, between(1 << 19, 1 << 21));
-            }
-        }
-        add_triangle(0, v[0], v[1], v[2], random_u32() | 0xff000000u);
-    }
-}
-
-static uint16_t direct[2][W * H];
-
-/* Draws the list as what is opaque and as what is cut out nowhere, which is
- * the general loop's: into working pixels, and into finished ones. */
-static bool check_general(void)
-{
-    planes_clear(&full);
-    draw_list(&full);
-    draw[0].alpha = SMEAR_CUTOUT;
-    draw[0].cutoff = 0;
-    planes_clear(&cut);
-    draw_list(&cut);
-    if (!same_planes(&full, &cut))
-        return false;
-    if (!SMEAR_DIRECT)
-        return true;
-    bool same = true;
-    for (int i = 0; i < 2; i++) {
-        struct planes *p = i == 0 ? &full : &cut;
-        planes_clear(p);
-        struct smear_raster_target t = target_of(p);
-        t.direct = direct[i];
-        t.velocity8 = NULL;
-        t.inspect = NULL;
-        for (int k = 0; k < W * H; k++)
-            direct[i][k] = 0;
-        draw[0].alpha = i == 0 ? SMEAR_OPAQUE : SMEAR_CUTOUT;
-        smear_raster_list(&frame, &t, 0);
-    }
-    for (int k = 0; k < W * H; k++)
-        same = same && direct[0][k] == direct[1][k] && full.depth[k] == cut.depth[k];
-    return CHECK(same);
-}
-
-/* Texels have loops of their own, which must say what the general one says. Formats, lights, sizes with loops of their
- * own and others, velocities, breaks of the depth code, all blocks. */
-static void test_texels_in_rows_are_those_of_the_general_loop(void)
-{
-    static const uint8_t size[][2] = { { 64, 64 }, { 32, 32 }, { 64, 32 }, { 2, 64 } };
-    static const enum smear_shade_mode shade[] = { SHADE_NONE, SHADE_FLAT, SHADE_GOURAUD };
-    random_state = 47;
-    for (uint32_t i = 0; i < TEXELS; i++)
-        texels[i] = random_u32() & 0xffffffu;     /* working pixels need no alpha */
-    for (int n = 0; n < 270; n++) {
-        const enum smear_shade_mode mode = shade[n / 3 % 3];
-        list_begin();
-        set_layout(0, true, mode == SHADE_GOURAUD, n % 3, mode);
-        const smear_texture texture = { .texels = texels, .palette = texels, .width = size[n % 4][0],
-                                        .height = size[n % 4][1], .format = (uint8_t)(n / 9 % 3) };
-        smear_sampler_make(&draw[0].sampler, &texture, between(9, 15), false, false);
-        random_kind(between(0, 8), between(0, 3) * 4);
-        END_UNLESS(check_general());
-    }
-}
-
-/* And so have colours between vertices. */
-static void test_colors_in_rows_are_those_of_the_general_loop(void)
-{
-    random_state = 53;
-    for (int n = 0; n < 160; n++) {
-        list_begin();
-        set_layout(0, false, true, 1 + n % 2, SHADE_GOURAUD);      /* what moves is never tiny */
-        frame.linear = SMEAR_WITH_LINEAR && n / 2 % 2 == 1;
-        random_kind(between(0, 8), between(0, 3) * 4);
-        END_UNLESS(check_general());
-    }
-}
 
 #include "build/suites/raster.h"
