@@ -86,31 +86,15 @@ static int unknown(int value)
     return value;
 }
 
-#define CALLS(FORM) \
-    static void wide_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_WIDE, LOG2_WIDTH, LOG2_HEIGHT, texels_draw_##FORM); \
-    } \
-    static void narrow_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_NARROW, LOG2_WIDTH, LOG2_HEIGHT, texels_draw_##FORM); \
-    } \
-    static void wide_any_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_WIDE, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
-    } \
-    static void narrow_any_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
-    } \
-    static void lit_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_LIT, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
-    } \
-    static void lit_narrow_##FORM(struct kernel_call *c) \
-    { \
-        call(c, TEXELS_LIT_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT), texels_draw_##FORM); \
-    }
+#define CALL(NAME, FORM, ...) \
+    static void NAME##_##FORM(struct kernel_call *c) { call(c, __VA_ARGS__, texels_draw_##FORM); }
+#define CALLS(FORM)                                                                     \
+    CALL(wide, FORM, TEXELS_WIDE, LOG2_WIDTH, LOG2_HEIGHT)                              \
+    CALL(narrow, FORM, TEXELS_NARROW, LOG2_WIDTH, LOG2_HEIGHT)                          \
+    CALL(wide_any, FORM, TEXELS_WIDE, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT))        \
+    CALL(narrow_any, FORM, TEXELS_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT))    \
+    CALL(lit, FORM, TEXELS_LIT, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT))              \
+    CALL(lit_narrow, FORM, TEXELS_LIT_NARROW, unknown(LOG2_WIDTH), unknown(LOG2_HEIGHT))
 
 CALLS(reference)
 CALLS(unrolled)

@@ -266,27 +266,6 @@ static void test_small_things_far_from_their_own_origin_arrive(void)
     check_poses(&mock, 0.0, 0.004);
 }
 
-static void test_a_point_of_a_mesh_arrives(void)
-{
-    static const float point[9] = { 0.3f, 0.2f, -2, 0.3f, 0.2f, -2, 0.3f, 0.2f, -2 };
-    struct scene_surface surface = surface_of(point, 3, tetrahedron_index, 1);
-    struct mock mock = mock_of(&surface);
-    check_poses(&mock, 0.0, 0.004);
-}
-
-static void test_orthographic_cameras_arrive(void)
-{
-    MOCK(surface, mock);
-    mock.camera.orthographic = true;
-    mock.camera.half_height = 1.1;
-    mock.camera.znear = 0.0;
-    mock.camera.zfar = 100.0;
-    mock.velocity[0] = 0.2;
-    check_poses(&mock, 0.1, 0.004);
-    mock.camera.zfar = 0.0;
-    check_poses(&mock, 0.1, 0.004);
-}
-
 static void test_deformed_poses_share_their_grid(void)
 {
     static const float later[12] = { -1.7f, -0.51f, -5.2f, 2.83f, -0.49f, -2.9f,

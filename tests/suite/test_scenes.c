@@ -45,13 +45,6 @@ static struct vec3 read3(const float *from, uint32_t i)
     return vec3((double)from[3 * i], (double)from[3 * i + 1], (double)from[3 * i + 2]);
 }
 
-static struct xform world_of(const struct scene_draw *draw)
-{
-    struct xform world;
-    memcpy(world.m, draw->world, sizeof world.m);
-    return world;
-}
-
 /* ------------------------------------------------------------------ catalogue */
 
 static void surface_is_sound(const struct scene_surface *s)
@@ -277,14 +270,6 @@ static double speed_at(const struct ref_frame *frame, int pixel)
     return hypot(frame->velocity[2 * pixel], frame->velocity[2 * pixel + 1]);
 }
 
-static double fastest(const struct ref_frame *frame)
-{
-    double most = 0;
-    for (int i = 0; i < frame->width * frame->height; i++)
-        most = fmax(most, speed_at(frame, i));
-    return most;
-}
-
 /* RMSE of the sharp frame against the blurred one, in codes of encoded light. */
 static double error_of_none(struct shown *s)
 {
@@ -329,47 +314,6 @@ static void test_suite_scenes_are_as_hard_as_those_of_the_study(void)
     }
 }
 
-static void test_subpixel_moves_by_about_half_a_pixel_everywhere(void)
-{
-    struct shown s;
-    struct ref_frame frame = {0};
-    END_UNLESS(open_scene(&s, "suite/subpixel"));
-    if (draw_at(&s, s.scene.time + 1.0 / 120, s.scene.time - 1.0 / 120, &frame)) {
-        int odd = 0;
-        for (int i = 0; i < frame.width * frame.height; i++)
-            if (frame.draw[i] >= 0)
-                odd += !(speed_at(&frame, i) >= 0.39 && speed_at(&frame, i) <= 0.70);
-        CHECK_EQ(odd, 0);
-    }
-    ref_frame_free(&frame);
-    close_scene(&s);
-}
-
-static void test_only_the_named_side_moves(void)
-{
-    static const char *const objects[] = {
-        "translate", "propeller", "cross", "fence_obj", "enter", "near", "long", "skin", "swarm",
-        "teleport", "morph", "cubic", "still",
-    };
-    for (int i = 0; i < scene_catalog_count; i++) {
-        struct shown s;
-        bool is_object = false;
-        if (!is_in(scene_catalog[i].name, "suite/") || !open_scene(&s, scene_catalog[i].name))
-            continue;
-        for (size_t k = 0; k < sizeof objects / sizeof *objects; k++)
-            is_object = is_object || strcmp(scene_catalog[i].name + 6, objects[k]) == 0;
-        double t = s.scene.time;
-        CHECK(scene_pose(&s.scene, t - 1.0 / 120, &s.before, &s.f));
-        CHECK(scene_pose(&s.scene, t + 1.0 / 120, &s.now, &s.f));
-        size_t bytes = sizeof s.now.camera.pose;
-        CHECK_EQ(memcmp(s.now.camera.pose, s.before.camera.pose, bytes) == 0, is_object);
-        CHECK_EQ(s.now.camera.epoch, s.before.camera.epoch);
-        for (int d = 0; d < s.now.draw_count; d++)
-            CHECK_EQ(s.now.draw[d].epoch, s.before.draw[d].epoch);
-        close_scene(&s);
-    }
-}
-
 static void test_teleport_cuts_between_the_last_frame_and_the_exposure(void)
 {
     struct shown s;
@@ -382,46 +326,6 @@ static void test_teleport_cuts_between_the_last_frame_and_the_exposure(void)
     CHECK(scene_pose(&s.scene, trailing, &s.before, &s.f));
     CHECK_EQ(s.now.draw[1].epoch, s.before.draw[1].epoch);
     close_scene(&s);
-}
-
-static void test_trials_move_fast_but_not_beyond_64_pixels(void)
-{
-    for (int i = 0; i < scene_catalog_count; i++) {
-        struct shown s;
-        struct ref_frame frame = {0};
-        if (!is_in(scene_catalog[i].name, "test/") || !open_scene(&s, scene_catalog[i].name))
-            continue;
-        if (draw_at(&s, s.scene.time, s.scene.time - 1 / 30.0, &frame))
-            CHECK_CLOSE(fastest(&frame), 40, 24);
-        ref_frame_free(&frame);
-        close_scene(&s);
-    }
-}
-
-static void test_terrain_and_near_are_cut_by_the_near_plane(void)
-{
-    static const char *const names[] = {"test/terrain", "suite/near", "peer/N"};
-    for (int i = 0; i < 3; i++) {
-        struct shown s;
-        int across = 0;
-        if (!open_scene(&s, names[i]))
-            continue;
-        CHECK(scene_pose(&s.scene, s.scene.time, &s.now, &s.f));
-        const double *m = s.now.camera.pose;
-        const struct scene_draw *draw = &s.now.draw[s.now.draw_count - 1];
-        for (int t = 0; t < draw->surface->triangle_count; t++) {
-            int before = 0;
-            for (int k = 0; k < 3; k++) {
-                struct vec3 p = xform_point(world_of(draw),
-                                            read3(draw->position, draw->surface->index[3 * t + k]));
-                struct vec3 d = vec3_sub(p, vec3(m[12], m[13], m[14]));
-                before += -vec3_dot(d, vec3(m[8], m[9], m[10])) < s.now.camera.znear;
-            }
-            across += before == 1 || before == 2;
-        }
-        CHECK(across > 0);
-        close_scene(&s);
-    }
 }
 
 /* ------------------------------------------------------------------ demo */

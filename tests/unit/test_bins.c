@@ -72,20 +72,6 @@ static bool check_frame(int first, int end)
     return true;
 }
 
-static void test_an_empty_store_has_empty_lists(void)
-{
-    begin(0, ROWS);
-    CHECK(check_frame(0, ROWS));
-}
-
-static void test_one_row_keeps_the_order_of_submission(void)
-{
-    begin(0, ROWS);
-    for (int i = 0; i < 20; i++)
-        add(3 * ROW_PX + i % 5, 3 * ROW_PX + 6 + i % 7, false);
-    CHECK(check_frame(0, ROWS));
-}
-
 static void test_lists_keep_the_order_of_submission_over_rows(void)
 {
     random_state = 1;
@@ -120,41 +106,6 @@ static void test_parts_of_a_frame_hold_their_rows_only(void)
         for (int row = 0; row < ROWS; row++)
             if (row < first || row >= end)
                 CHECK(opaque_last[row] == 12345 && blend_last[row] == 12345);
-    }
-}
-
-static void test_points_are_listed_in_their_row_only(void)
-{
-    begin(0, ROWS);
-    for (int i = 0; i < 30; i++) {
-        int y = i * 37 % (ROWS * ROW_PX);
-        uint32_t at = bins.triangle_count;
-        struct smear_triangle *t = bins_add(&bins, &opaque_last[bins_row(&bins, y)]);
-        t->segment = SMEAR_POINT;
-        t->vertex[POINT_X] = 5;
-        t->vertex[POINT_Y] = (uint16_t)y;
-        added[at].first = y;
-        added[at].end = y + 1;
-        added[at].blend = false;
-        if (i % 4 == 0)
-            add(y, y + 40 < ROWS * ROW_PX ? y + 40 : y + 1, false);
-    }
-    CHECK(check_frame(0, ROWS));
-}
-
-static void test_tile_rows_of_pixel_rows_are_exact(void)
-{
-    for (int px = 8; px <= 2048; px += 8) {
-        bins = (struct smear_bins){ .row_px = px };
-        smear_bins_reset(&bins, 0, 0);
-        for (int y = 0; y < 2048; y += px < 64 ? 1 : 7) {
-            REQUIRE_EQ(bins_row(&bins, y), y / px);
-        }
-        for (int y = px; y < 2048; y += px) {
-            CHECK_EQ(bins_row(&bins, y), y / px);
-            CHECK_EQ(bins_row(&bins, y - 1), y / px - 1);
-        }
-        CHECK_EQ(bins_row(&bins, 2047), 2047 / px);
     }
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_clip.c - cuts at the near and far plane and at the guard band: the same bits from both sides
- * of an edge, nothing left outside, everything carried along. Needs neither libc nor floating
- * point. */
+/* test_clip.c - cuts at the near and far plane and at the guard band: the same bits from both sides of an edge, nothing left
+ * outside, never too many corners. Needs neither libc nor floating point. */
 #include "geometry/clip.h"
 
 #include "tests/random.h"
@@ -192,29 +191,6 @@ static void test_nothing_is_left_outside(void)
         }
     }
     CHECK(most >= 6);
-}
-
-static void test_attributes_stay_between_their_corners(void)
-{
-    random_state = 9;
-    for (int n = 0; n < 1000; n++) {
-        struct smear_depths p = lens(false);
-        struct smear_clip_vertex v[SMEAR_CLIP_MAX];
-        int codes = 0;
-        int32_t low = INT32_MAX, high = INT32_MIN;
-        for (int i = 0; i < 3; i++) {
-            v[i] = random_vertex(false);
-            codes |= codes_of(&v[i], &p);
-            low = low < v[i].uv[0] ? low : v[i].uv[0];
-            high = high > v[i].uv[0] ? high : v[i].uv[0];
-        }
-        int count = clip(v, &p, codes);
-        for (int i = 0; i < count; i++) {
-            REQUIRE(v[i].uv[0] >= low && v[i].uv[0] <= high);
-            for (int c = 0; c < 4; c++)
-                REQUIRE(v[i].color[c] >= 0 && v[i].color[c] <= 65535);
-        }
-    }
 }
 
 /* A polygon that has as many corners as there is room for, in and out by turns as no convex one is: no plane leaves more,

@@ -118,45 +118,6 @@ static void test_three_poses_tell_a_fall(void)
     }
 }
 
-static void test_poses_are_met_exactly(void)
-{
-    random_state = 7;
-    for (int n = 0; n < 100; n++) {
-        struct motion m = random_motion(uniform(0.1, 3));
-        m.arm[0] = 2;
-        const smear_transform now = pose(&m, 0), last = pose(&m, -1), older = pose(&m, -2);
-        smear_transform out;
-        struct smear_curve c;
-        smear_curve_find(&c, &now, &last, &older, SMEAR_PATH_CURVE);
-        smear_curve_at(&out, &c, 0);
-        CHECK_EQ(memcmp(&out, &now, sizeof out), 0);
-        smear_curve_at(&out, &c, -ONE);
-        CHECK_EQ(memcmp(&out, &last, sizeof out), 0);
-    }
-}
-
-/* Whatever is given: no overflow (sanitizers), and nothing but poses. */
-static void test_wild_poses_do_no_harm(void)
-{
-    random_state = 8;
-    for (int n = 0; n < 20000; n++) {
-        smear_transform t[3], out;
-        struct smear_curve c;
-        struct motion m = random_motion(uniform(0, 3.2));
-        for (int i = 0; i < 3; i++) {
-            t[i] = pose(&m, -i);
-            for (int k = 0; k < 9 && n % 3 == 0; k++)
-                t[i].basis[k] = (int32_t)random_u32();
-            for (int k = 0; k < 3; k++)
-                t[i].origin[k] = (int32_t)random_u32();
-        }
-        smear_curve_find(&c, &t[0], &t[1], n & 1 ? &t[2] : NULL, (uint8_t)(SMEAR_PATH_CURVE + n % 4));
-        smear_curve_at(&out, &c, (int32_t)random_u32() >> 1);
-        for (int i = 0; i < 3; i++)
-            CHECK(out.origin[i] != INT32_MIN);
-    }
-}
-
 /* ------------------------------------------------------------------ history */
 
 static struct smear_history history_of(void *memory, bool one_pose)

@@ -138,25 +138,6 @@ static void test_curved_runs_change_their_step_every_two_pixels_wherever_they_ar
     }
 }
 
-static void test_565_texels_are_expanded_to_the_nearest_code(void)
-{
-    smear_texture t = texture_of(64, 1, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP);
-    struct smear_sampler s;
-    smear_sampler_make(&s, &t, 15, false, false);
-    for (uint32_t c = 0; c < 64; c++)
-        texels565[c] = (uint16_t)((c & 31u) << 11 | c << 5 | (31u - (c & 31u)));
-    uint32_t out[64];
-    sample(out, &s, 32768, 0, 65536, 0, 64);
-    for (uint32_t c = 0; c < 64; c++) {
-        CHECK_EQ(out[c] >> 24, 255);
-        CHECK_EQ(out[c] >> 16 & 255u, expanded(c & 31u, 31));
-        CHECK_EQ(out[c] >> 8 & 255u, expanded(c, 63));
-        CHECK_EQ(out[c] & 255u, expanded(31u - (c & 31u), 31));
-    }
-    CHECK_EQ(out[0] & 255u, 255);
-    CHECK_EQ(out[63] >> 8 & 255u, 255);
-}
-
 /* Mean of four texels in one channel, in q16 of `one`. */
 static int64_t mean_of_four(const uint32_t value[4], int64_t fu, int64_t fv)
 {
