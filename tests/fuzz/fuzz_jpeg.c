@@ -5,6 +5,8 @@
 
 #include "tools/image/image.h"
 
+#include <string.h>
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static void check_file(const uint8_t *bytes, size_t size)

@@ -40,11 +40,6 @@ static bool is_in(const char *name, const char *family)
     return strncmp(name, family, strlen(family)) == 0;
 }
 
-static struct vec3 read3(const float *from, uint32_t i)
-{
-    return vec3((double)from[3 * i], (double)from[3 * i + 1], (double)from[3 * i + 2]);
-}
-
 /* ------------------------------------------------------------------ catalogue */
 
 static void surface_is_sound(const struct scene_surface *s)
@@ -122,63 +117,6 @@ static void test_a_pose_depends_on_nothing_but_time(void)
 }
 
 /* ------------------------------------------------------------------ shapes */
-
-enum { SHAPES = 5 };
-
-/* Closed solids of known volume, up to how well flat facets fill a round one. */
-static void shapes_build(struct stage *stage)
-{
-    for (int i = 0; i < SHAPES; i++) {
-        struct build b = build_begin(stage, i == 1 || i == 2 ? BUILD_NORMAL : 0);
-        const struct vec3 wedge[6] = {
-            vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 2, 0),
-            vec3(0, 0, 3), vec3(2, 0, 3), vec3(0, 2, 3),
-        };
-        const double cone[6] = {0, 0, 1, 0, 0, 2};
-        switch (i) {
-        case 0: build_box(&b, vec3(-1, -2, 0), vec3(1, 1, 3)); break;
-        case 1: build_ball(&b, 2, 64, 64); break;
-        case 2: build_drum(&b, 1, 0.5, -1, 1, 64); break;
-        case 3: build_loft(&b, wedge, 2, 3); break;
-        default: build_lathe(&b, cone, 3, 64); break;
-        }
-        stage_add(stage, build_finish(&b));
-    }
-}
-
-static void shapes_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    (void)stage;
-    (void)time;
-    (void)out;
-}
-
-static void test_shapes_are_closed_and_face_outward(void)
-{
-    static const struct stage_kind kind = {"shapes", 64, 64, 0, 0, shapes_build, shapes_move};
-    const double volume[SHAPES] = {18, 32.0 / 3 * PI, 3.5 / 3 * PI, 6, 2.0 / 3 * PI};
-    struct shown s = {0};
-    REQUIRE(stage_open(&kind, 1, "shapes", &s.scene, &s.f));
-    CHECK(scene_pose(&s.scene, 0, &s.now, &s.f));
-    for (int i = 0; i < SHAPES; i++) {
-        const struct scene_surface *surface = s.now.draw[i].surface;
-        double six = 0;
-        struct vec3 area = vec3(0, 0, 0);
-        for (int t = 0; t < surface->triangle_count; t++) {
-            const uint32_t *v = surface->index + 3 * t;
-            struct vec3 a = read3(surface->position, v[0]), b = read3(surface->position, v[1]);
-            struct vec3 c = read3(surface->position, v[2]);
-            struct vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-            six += vec3_dot(a, vec3_cross(b, c));
-            area = vec3_add(area, n);
-            if (surface->normal != NULL)
-                CHECK(vec3_dot(n, read3(surface->normal, v[0])) >= 0);
-        }
-        CHECK_CLOSE(six / 6 / volume[i], 0.995, 0.0051);
-        CHECK(vec3_length(area) < 1e-3);
-    }
-    close_scene(&s);
-}
 
 /* ------------------------------------------------------------------ peers */
 
