@@ -399,13 +399,14 @@ run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
-COVERAGE_SUITES := $(filter-out accuracy apart assets blur chart cover failures filters foreign guess metrics ref scenes sight view x11 json,$(SUITES))
+COVERAGE_SUITES := $(filter-out accuracy apart assets blur bounds chart cover edges_truth failures filters foreign guess image jpeg json memory metrics \
+                   model near near_sweep present ref room rooms scenes sight sketch sketch_truth small view x11,$(SUITES))
 .PHONY: coverage run-coverage
 ## tests: branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:
 	$(MAKE) --no-print-directory COVERAGE=1 run-coverage
 
-run-coverage: $(TESTS) $(BUILD)/frames
+run-coverage: $(TESTS) $(BUILD)/frames $(BUILD)/target_golden
 	sh tests/coverage.sh $(BUILD) "$(COVERAGE_SUITES)"
 
 $(BUILD)/frames: $(call objects,tests/fuzz/frames.c $(wildcard tests/fuzz/cases*.c)) $(LIB)
