@@ -180,8 +180,7 @@ static void test_a_frame_without_the_id_forgets_it(void)
         smear_transform past[2], now = SMEAR_IDENTITY;
         CHECK_EQ(smear_history_keep(&h, smear_history_find(&h, id), id, &now, false, past), 0);
     }
-    h.frame--;
-    CHECK_EQ(keep(&h, 9, 7, false), 0);
+    CHECK_EQ(smear_history_find(&h, 9), -1);        /* all four places are in use */
 }
 
 static void test_the_id_alone_is_kept_where_no_pose_is_given(void)
