@@ -375,12 +375,12 @@ $(call objects,tests/suite/test_memory.c): HOST_CFLAGS += -O0
 $(BUILD)/tests/run.o: $(BUILD)/suites
 $(BUILD)/suites: always
 	@mkdir -p $(@D)
-	@echo '$(SUITES)' | cmp -s - $@ || echo '$(SUITES)' > $@
+	@echo '$(SUITES) $(KERNEL_TESTS)' | cmp -s - $@ || echo '$(SUITES) $(KERNEL_TESTS)' > $@
 
 KERNEL_FAMILIES := -D'KERNEL_FAMILIES=$(foreach family,$(KERNEL_TESTS:tests/kernels/%.c=%),FAMILY($(family)))'
 $(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): CFLAGS += $(KERNEL_FAMILIES)
 build/host/tests/unit/test_kernels.o: HOST_CFLAGS += $(KERNEL_FAMILIES)
-$(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): $(KERNEL_TESTS)
+$(sort $(BUILD)/tests/unit/test_kernels.o $(call objects,tests/unit/test_kernels.c)): $(BUILD)/suites
 
 $(TESTS): $(call objects,$(TEST_SRC) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
