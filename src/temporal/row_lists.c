@@ -429,7 +429,8 @@ static SMEAR_NOINLINE void add_in_space(const struct smear_row_moving *r, const 
             struct smear_place_motion d;
             if (!smear_plane_motion_at(&d, &here, (x << BLOCK_SHIFT) + BLOCK_PX / 2, top + (y << BLOCK_SHIFT) + BLOCK_PX / 2))
                 continue;
-            add_displacement(&r->travel[x >> (window->tile_shift - BLOCK_SHIFT)], d.x, d.x, d.y, d.y, 4 * d.bend);
+            if (d.bend != PLACE_UNKNOWN)
+                add_displacement(&r->travel[x >> (window->tile_shift - BLOCK_SHIFT)], d.x, d.x, d.y, d.y, 4 * d.bend);
             if (d.depth > block->depth)
                 put_block(block, d.x, d.y, 4 * d.bend, d.depth);
         }

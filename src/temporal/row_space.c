@@ -150,11 +150,14 @@ bool smear_plane_motion_at(struct smear_place_motion *out, const struct smear_pl
     if ((m->side[0].at | m->side[1].at | m->side[2].at) < 0)
         return false;
     const int32_t depth = depth_of(m);
-    if (depth > SMEAR_DEPTH_MAX >> 14 || !divide(open, m->pose[0], m->coarse) || !divide(close, m->pose[1], m->coarse))
+    if (depth > SMEAR_DEPTH_MAX >> 14)
         return false;
+    *out = (struct smear_place_motion){ 0, 0, PLACE_UNKNOWN, (uint16_t)clamp_i32(depth, 1, UINT16_MAX) };
+    if (!divide(open, m->pose[0], m->coarse) || !divide(close, m->pose[1], m->coarse))
+        return true;
     const int32_t twice_x = 16 * (2 * x + 1 - m->width), twice_y = 16 * (2 * y + 1 - m->height);
-    *out = (struct smear_place_motion){ close[0] - open[0], close[1] - open[1],
-                                        max_i32(abs_i32(open[0] + close[0] - twice_x), abs_i32(open[1] + close[1] - twice_y)),
-                                        (uint16_t)clamp_i32(depth, 1, UINT16_MAX) };
+    out->x = close[0] - open[0];
+    out->y = close[1] - open[1];
+    out->bend = max_i32(abs_i32(open[0] + close[0] - twice_x), abs_i32(open[1] + close[1] - twice_y));
     return true;
 }

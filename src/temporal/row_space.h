@@ -29,6 +29,8 @@ struct smear_place_motion {
     uint16_t depth;
 };
 
+enum { PLACE_UNKNOWN = INT16_MAX };     /* bend of what comes from behind the eye or goes there, without a displacement */
+
 /* Finds the motion of a triangle's plane from the middle of pixel (x, y) on, in steps of `step` pixels. False where it is not
  * seen in the middle of the exposure. */
 bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *space, const int32_t *const record[3],
@@ -38,8 +40,7 @@ bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *s
 void smear_plane_motion_right(struct smear_plane_motion *m);
 void smear_plane_motion_down(struct smear_plane_motion *m);
 
-/* Finds the motion at a pixel, which lies at (x, y). False where the triangle does not cover it in the middle of the exposure,
- * or it comes from behind the eye or goes there. */
+/* Finds the motion at a pixel, which lies at (x, y). False where the triangle does not cover it in the middle of the exposure. */
 bool smear_plane_motion_at(struct smear_place_motion *out, const struct smear_plane_motion *m, int32_t x, int32_t y);
 
 #endif

@@ -159,6 +159,7 @@ static struct smear_step way_of(const struct subframes *f, const struct smear_ti
 static void look_at_block(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
                           struct look *l, bool drawn)
 {
+    enum { LEFT = 55 };     /* q8: gaps are closed where that leaves a fifth of the squared error at most */
     const struct smear_tile_run *t = f->t;
     const struct smear_tile_travel *tile = l->tile;
     const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
@@ -168,6 +169,8 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const bool has_surface = b->depth != 0;
     if (!f->blends && smear_tile_may_close(plan->chooser, tile))
         closing = has_surface ? smear_block_closing(plan->blocks, column, row, rows) : smear_tile_closing(tile);
+    if (closing.left > LEFT)        /* what goes otherwise beside it would be blurred along its way */
+        closing.last = 0;
     const struct smear_step way = way_of(f, tile, b);
     l->way_x = way.x;
     l->way_y = way.y;
