@@ -23,6 +23,7 @@ struct smear_space {
     const struct smear_segment *segment;
     struct smear_depths depths;
     struct smear_viewport viewport;
+    uint32_t seen;                      /* draws that smear_subframe_pose found in the tiles, a bit for each */
     uint32_t turn;                      /* smear_shot.turn */
     int32_t phase, along, bent;         /* of the phase that was asked for last, q16: smear_space_at */
 };

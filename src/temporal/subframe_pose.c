@@ -152,7 +152,10 @@ static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes
         smear_space_make(f->space, frame->bins, p->segment, frame->width, frame->height);
     p->count = smear_space_pose(p->record, f->space, record, in_space, u, f->shift);
     p->next = 2;
-    return smear_subframe_pose_next(p, f);
+    const bool seen = smear_subframe_pose_next(p, f);
+    if (seen)
+        f->space->seen |= 1u << (p->segment->draw & 31u);
+    return seen;
 }
 
 bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time)

@@ -39,10 +39,14 @@ struct subframe_passing {
     uint32_t covered;           /* of the tiles, in the mean over the exposure; by larger ones, too */
     uint32_t opaque;            /* the same by what is not blended */
     bool sparks;                /* some are blended and go far */
-    bool in_space;              /* there are triangles with paths in space, of any size, that are not blended: */
-    uint16_t draw;              /* that of the last one, and in which box its triangles are seen from open to close */
-    struct subframe_box box[4];
-    int32_t passed;             /* the pixels that those boxes pass of the draws before */
+    bool in_space;              /* there are triangles with paths in space, of any size, that are not blended */
+};
+
+/* What some pixels of the tiles that lie evenly showed at the last instant, and the squares by which they changed so far, together. */
+enum { PIXELS_SHOWN = 64 };
+
+struct subframe_changes {
+    uint32_t shown[PIXELS_SHOWN], sum;
 };
 
 struct subframes {
@@ -66,6 +70,7 @@ struct subframes {
     struct subframe_box area;      /* and nothing of it is seen elsewhere */
     bool plans;                 /* it is to be found out how many instants there are: */
     struct subframe_passing passing;
+    struct subframe_changes *changes;   /* from instant to instant, or null */
 };
 
 /* Whether a moving triangle may be seen. */

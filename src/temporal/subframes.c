@@ -300,21 +300,6 @@ static uint32_t cost_of(const struct subframes *f, const struct subframe_box *bo
     return min_u32(f->moving_seen, LISTED) * TRIANGLE + (uint32_t)pixels_in(box) * PIXEL + RUN;
 }
 
-/* Takes the middle of the exposure, which has been drawn, by which the plan says how many instants there are; where they are odd
- * it is one of them. Returns the samples taken. */
-static uint32_t take_middle(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box box,
-                            struct subframe_box *all)
-{
-    const struct smear_tile_run *t = f->t;
-    struct smear_contrast contrast;
-    smear_tile_contrast(&contrast, f, plan, &box);
-    f->instants = (uint32_t)smear_tile_plan_instants(plan, &contrast, (t->x1 - t->x0 + t->tile - 1) / t->tile, cost_of(f, &box));
-    if ((f->instants & 1u) != 0)
-        return add_instant(f, &box, (int32_t)f->instants / 2, 0, all);
-    smear_subframe_take_background(f);
-    return 0;
-}
-
 /* Returns the least number from `part` of n, in 1/256, on that shares no divisor with n. */
 static int32_t coprime(int32_t n, int32_t part)
 {
@@ -338,20 +323,25 @@ static int32_t shift_of(int32_t k, int32_t n, int32_t g)
     return (steps >= n ? steps - 2 * n : steps < -n ? steps + 2 * n : steps) * 128 / n;
 }
 
-/* Draws and sums all instants but number `drawn`, after `samples` have been taken. Returns how many have been then. */
+static bool has_shifts(const struct subframes *f) { return SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0; }
+
+/* Draws and sums all instants after `samples` have been taken, but the middle one of each `drawn`, or none where that is 0. Returns
+ * how many samples have been taken then. */
 static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
-    const bool smooths = SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0;
+    const bool smooths = has_shifts(f);
     const int32_t instants = (int32_t)f->instants;
     const int32_t step[2] = { smooths ? coprime(instants, 70) : 0, smooths ? coprime(instants, 98) : 0 };
     for (int32_t k = 0; k < instants; k++) {
-        if (k == drawn)
+        if (drawn != 0 && k % drawn == drawn / 2)
             continue;
         if (smooths) {
             f->shift[VERTEX_X] = shift_of(k, instants, step[VERTEX_X]);
             f->shift[VERTEX_Y] = shift_of(k, instants, step[VERTEX_Y]);
         }
         const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, instants));
+        if (f->changes != NULL)
+            smear_note_changes(f, k == 0);
         samples += add_instant(f, &box, k, samples, all);
     }
     return samples;
@@ -388,6 +378,44 @@ static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn,
     return samples;
 }
 
+static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
+{
+    return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
+}
+
+/* Draws and sums as many instants as the plan says, of which the middle one has been drawn. Where something passes the eye they show
+ * what the middle does not, and by that they become instants of more. Returns the samples taken. */
+static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
+                             struct subframe_box *all)
+{
+    enum { LOOKS = 5 };
+    const struct smear_shares before = *plan->own;
+    const uint32_t cost = cost_of(f, middle);
+    struct subframe_changes changes = { .sum = 0 };
+    struct smear_contrast contrast;
+    smear_tile_contrast(&contrast, f, plan, middle);
+    int32_t drawn = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
+    if (f->passing.in_space)
+        drawn = max_i32(drawn, LOOKS);
+    f->instants = (uint32_t)drawn;
+    f->changes = f->passing.in_space ? &changes : NULL;
+    const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
+    f->space->seen = 0;
+    const uint32_t samples = draw_rest(f, drawn, add_instant(f, middle, drawn / 2, 0, all), all);
+    if (f->changes == NULL)
+        return samples;
+    f->changes = NULL;
+    *plan->own = before;
+    smear_add_changes(&contrast, f, &changes);
+    f->instants = (uint32_t)smear_tile_plan_instants(plan, f->t, &contrast, cost, drawn);
+    if (drawn < 2 * LOOKS && (passing & ~f->space->seen) != 0)
+        f->instants = max_u32(f->instants, 3 * (uint32_t)drawn);
+    if (f->instants == (uint32_t)drawn)
+        return samples;
+    /* Light and shifts depend on how many there are. */
+    return sums_light(f) || has_shifts(f) ? draw_rest(f, 0, 0, all) : draw_rest(f, (int32_t)f->instants / drawn, samples, all);
+}
+
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
 {
     const struct smear_raster_target *s = &t->background;
@@ -396,6 +424,7 @@ static inline void make(struct subframes *f, struct smear_space *space, const st
         .t = t, .instants = (uint32_t)instants, .space = space
     };
     space->segment = NULL;
+    space->seen = 0;
     f->listed = (uint32_t *)t->work;
     f->sums = packed_sums_in(f->listed + LISTED, pixels);
     f->work = *s;
@@ -438,9 +467,7 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
         }
         if (f.plans && f.refilled == NULL)
             middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
-        samples = f.plans ? take_middle(&f, plan, middle, &all) : 0;
-        const int32_t drawn = f.plans && (f.instants & 1) != 0 ? (int32_t)f.instants / 2 : -1;
-        samples = f.refilled != NULL && !f.blends ? draw_others_apart(&f, drawn, samples, &all) : draw_others(&f, drawn, samples, &all);
+        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);

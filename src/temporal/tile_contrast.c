@@ -14,7 +14,6 @@ struct look {
     int32_t first; /* row: every other one is looked at from there on */
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
-    bool close; /* the next pixel lies 1 px on: what passes the eye shows its textures in all sizes, also finer than 2 px */
     bool at_border; /* the tiles end above or below */
     bool spreads; /* displacements go apart by more than a pixel or two */
     uint32_t shortness; /* of what goes FAR: shortness_of() */
@@ -97,10 +96,10 @@ static struct look_sums sums_of_look(const struct subframes *f, const struct loo
 }
 
 /* Returns a coordinate of the next pixel on a path, of which the longer coordinate is `longest`: 2.5 way / longest to nearest, at most
- * 2; `close`: way / longest. */
-static int32_t next_on_path(int32_t way, int32_t longest, bool close)
+ * 2. */
+static int32_t next_on_path(int32_t way, int32_t longest)
 {
-    const int32_t length = (close ? 2 : 5) * abs_i32(way), next = (length >= longest) + (!close && length >= 3 * longest);
+    const int32_t length = 5 * abs_i32(way), next = (length >= longest) + (length >= 3 * longest);
     return way < 0 ? -next : next;
 }
 
@@ -126,7 +125,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
            FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
     const uint32_t shortness = longer >= FAR ? l->shortness : 16;
-    const uint32_t whole = min_u32((d->along >> (l->close ? 5 : 6)) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4;
+    const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4;
     const uint32_t plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
@@ -178,8 +177,8 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     if (!drawn)
         return;
     const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
-    l->dx = next_on_path(l->way_x, longest, l->close);
-    l->dy = next_on_path(l->way_y, longest, l->close);
+    l->dx = next_on_path(l->way_x, longest);
+    l->dy = next_on_path(l->way_y, longest);
     l->spreads = closing.last != 0 && closing.unlike >= 32;
     const struct look_sums d = sums_of_look(f, l);
     c->moving += d.moving;
@@ -234,40 +233,6 @@ static void add_covered(struct subframe_passing *p, uint32_t part, bool blended)
         p->opaque = add_saturated(p->opaque, part);
 }
 
-/* Returns the pixels that lie in one box alone of two. */
-static int32_t pixels_apart(const struct subframe_box *a, const struct subframe_box *b)
-{
-    const struct subframe_box both = { max_i32(a->x0, b->x0), max_i32(a->y0, b->y0), min_i32(a->x1, b->x1), min_i32(a->y1, b->y1) };
-    return pixels_in(a) + pixels_in(b) - 2 * pixels_in(&both);
-}
-
-/* Returns the pixels that the draw noted last passes, and those before it. */
-static int32_t pixels_passed(const struct subframe_passing *p)
-{
-    return p->passed + pixels_apart(&p->box[0], &p->box[1]) + pixels_apart(&p->box[1], &p->box[2]) + pixels_apart(&p->box[2], &p->box[3]);
-}
-
-/* Adds a triangle in space to its draw's boxes. That of a ground is where it was, however many triangles go by. */
-static SMEAR_NOINLINE void note_in_space(struct subframes *f, uint32_t triangle, uint16_t draw)
-{
-    struct subframe_passing *p = &f->passing;
-    const struct smear_raster_target *const t = &f->t->background;
-    const int32_t pixels = (t->x1 - t->x0) * (t->y1 - t->y0);
-    if (!p->in_space || p->draw != draw) {
-        p->passed = min_i32(pixels_passed(p), 1 << 20);         /* more says no more */
-        p->box[0] = p->box[1] = p->box[2] = p->box[3] = no_box;
-    }
-    p->in_space = true;
-    p->draw = draw;
-    for (int k = 0; k < 4; k++) {
-        struct posed at;
-        if (pixels_in(&p->box[k]) == pixels)            /* all that there is */
-            continue;
-        for (bool seen = smear_subframe_pose(&at, f, triangle, SHUTTER_CLOSE * k / 3); seen; seen = smear_subframe_pose_next(&at, f))
-            box_add(&p->box[k], &at.box);
-    }
-}
-
 void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
 {
     enum { SMALL = 32,      /* px */
@@ -281,8 +246,13 @@ void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
     /* More would say no more. It is told from opaque triangles alone: where the store is filled several times, blended ones
      * come between them. */
     const bool is_full = p->opaque >= area_of(f) && !blended;
-    if (b->space != 0 && !blended)
-        note_in_space(f, triangle, g->segment[of->segment].draw);
+    if (b->space != 0 && !blended) {
+        const uint32_t draw = 1u << (g->segment[of->segment].draw & 31u);
+        struct posed at;
+        p->in_space = true;
+        for (int32_t k = 1; k < 8 && (f->space->seen & draw) == 0; k += 2)
+            smear_subframe_pose(&at, f, triangle, SHUTTER_CLOSE / 8 * k);
+    }
     if (b->travel < FAR || b->space != 0 || is_full)
         return;
     const struct extent x = extent_of(g, of, VERTEX_X, t->frame->width, t->x0, t->x1),
@@ -333,14 +303,35 @@ static uint32_t unseen_of(const struct subframe_passing *p, uint32_t area)
     return is_empty && p->ways / 2 > p->seen ? min_u32((p->ways - 2 * p->seen) >> 8, 65535) * COMMON_CONTRAST : 0;
 }
 
-/* Adds what passes the eye, but for what is seen of it in the middle. */
-static void add_passing(struct smear_contrast *c, const struct subframe_passing *p)
+/* Returns at how many pixels that is looked for: about one of eight, at most. */
+static int32_t pixels_shown(const struct subframes *f) { return clamp_i32((int32_t)(area_of(f) >> 11), 1, PIXELS_SHOWN); }
+
+void smear_note_changes(const struct subframes *f, bool is_first)
 {
+    enum { APART = 27 };        /* rows from one to the next, of 64 and round: they lie evenly */
+    const struct smear_tile_run *t = f->t;
+    const struct smear_raster_target *s = &t->background;
+    const int32_t n = pixels_shown(f), step = ((t->x1 - t->x0) << 16) / n;
+    struct subframe_changes *c = f->changes;
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t column = t->x0 + ((2 * i + 1) * (step >> 1) >> 16), row = (s->y1 - s->y0) * (i * APART & 63) >> 6;
+        if (column < f->work.x0 || column >= f->work.x1)
+            continue;
+        const uint32_t here = f->work.color[row * t->pitch + column - s->x0];
+        if (!is_first)
+            c->sum = add_saturated(c->sum, difference_squared(here, c->shown[i]));
+        c->shown[i] = here;
+    }
+}
+
+void smear_add_changes(struct smear_contrast *c, const struct subframes *f, const struct subframe_changes *changes)
+{
+    const uint32_t each = (area_of(f) >> 8) / (uint32_t)pixels_shown(f), between = min_u32(changes->sum >> 6, UINT32_MAX / each) * each;
+    const uint32_t all = add_saturated(between, between / (f->instants - 1));       /* before the first and behind the last, too */
     uint32_t seen = 0;
     for (int k = 0; k < CLOSING_CLASSES; k++)
         seen = add_saturated(seen, c->plain[k]);
-    const uint32_t all = min_u32((uint32_t)pixels_passed(p), 65535) * COMMON_CONTRAST;
-    c->unseen += all > seen ? all - seen : 0;
+    c->changed = all > seen ? all - seen : 0;
 }
 
 /* ------------------------------------------------------------------ all */
@@ -350,7 +341,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
-    struct look look = { .close = f->passing.in_space, .shortness = shortness_of(f, plan->chooser->linear) };
+    struct look look = { .shortness = shortness_of(f, plan->chooser->linear) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
     for (look.y = y0; look.y < y1; look.y = look.y1) {
@@ -366,5 +357,4 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
             look.tile += ((look.x1 - t->x0) & (t->tile - 1)) == 0;
         }
     }
-    add_passing(c, &f->passing);
 }

@@ -22,10 +22,18 @@ struct smear_contrast {
     uint32_t moving; /* pixels that move, in every other row */
     uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], floor[CLOSING_CLASSES];
     uint32_t unseen; /* the same of what passes at other times, about */
+    uint32_t changed; /* and by more than that, as instants show */
 };
 
 /* Adds a triangle with a path that may be seen in the tiles to f->passing; opaque ones in their order. */
 void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended);
+
+/* Adds to f->changes by how much the work planes show something else than at the last instant that was noted, unless this is the
+ * first one. */
+void smear_note_changes(const struct subframes *f, bool is_first);
+
+/* Adds to what is unseen those changes that the middle of the exposure does not tell, after all instants but that one. */
+void smear_add_changes(struct smear_contrast *contrast, const struct subframes *f, const struct subframe_changes *changes);
 
 /* Measures the run in the work planes, where its first instant was drawn within the box, and notes for each block up to
  * how many instants gaps are closed. */

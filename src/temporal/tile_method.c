@@ -52,16 +52,11 @@ static int32_t spread_of(const struct smear_tile_travel *tile)
     return is_displaced(tile) ? max_i32(tile->x1 - tile->x0, tile->y1 - tile->y0) + tile->curvature : 0;
 }
 
-static bool may_fill(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
-{
-    return chooser->fills && (tile->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
-}
-
 /* ------------------------------------------------------------------ SMEAR_AUTO */
 
 bool smear_tile_may_close(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    return is_displaced(tile) && may_fill(chooser, tile);
+    return is_displaced(tile) && chooser->fills && (tile->flags & (TILE_MOVES | TILE_BLENDED)) == TILE_MOVES;
 }
 
 struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile)
@@ -83,14 +78,12 @@ int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct
     return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
 }
 
-/* Returns the least instants of a tile: the first may show nothing of what passes later, or `sees` what nothing is known of. */
-static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile, bool sees)
+/* Returns the least instants of a tile: the first may show nothing of what passes later. */
+static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
     const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8); /* 1/16 */
     const int32_t target = max_i32(chooser->target, 1), n = 2 + (int32_t)(3 * root / (4 * (uint32_t)target));
-    const int32_t usual = target < 64 ? max_i32(n, 288 / target) : n;   /* pictures of slow things jump where the number changes */
-    const bool is_known = !sees || (tile->flags & PATH_SPACE) == 0 || is_displaced(tile);
-    return is_known ? usual : max_i32(usual, target <= SMEAR_BALANCED ? 16 : 8);
+    return target < 64 ? max_i32(n, 288 / target) : n;      /* pictures of slow things jump where the number changes */
 }
 
 /* Return logarithms to base 2 and the way back, q8, with straight lines between powers of two. */
@@ -147,30 +140,31 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
     return sum;
 }
 
-int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_contrast *c, int tiles,
-                                 uint32_t cost)
+static int tiles_in(const struct smear_tile_run *t) { return (t->x1 - t->x0 + t->tile - 1) / t->tile; }
+
+int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *c,
+                                 uint32_t cost, int32_t drawn)
 {
-    enum { COMMON = 300, /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
-           TEXTURED_SPACE = PATH_TEXTURED | PATH_SPACE,
-           SEEN = 64 * 16 }; /* and so of a texture that passes the eye, but for the way that is seen in the middle, 1/16 px */
+    enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
-    int32_t instants = 1, reach = 0;
+    const int tiles = tiles_in(t);
+    int32_t least = drawn, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
-        instants = max_i32(instants, least_instants(chooser, tile, c->moving != 0));
+        least = max_i32(least, least_instants(chooser, tile));
         reach = max_i32(reach, reach_of(tile));
-        const int32_t seen = c->moving == 0 ? 0 : (tile->flags & TEXTURED_SPACE) == TEXTURED_SPACE ? SEEN : INT32_MAX;
-        unseen += ((uint32_t)max_i32(travel_of(tile) - seen, 0) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
+        if (c->moving == 0)
+            unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
     for (int k = 0; k < CLOSING_CLASSES; k++)
         left += min_u32(c->plain[k], UINT32_MAX - left);
     left += min_u32(unseen, UINT32_MAX - left);
     const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks), c->blocks);
-    for (instants |= 1; instants < INSTANTS_MAX; instants += 2)
-        if (error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
+    unseen += min_u32(c->changed, UINT32_MAX - unseen);
+    for (instants = drawn; instants + 2 * drawn <= INSTANTS_MAX; instants += 2 * drawn)
+        if (instants >= least && error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
-    instants = min_i32(instants, INSTANTS_MAX);
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
     return instants;
@@ -190,7 +184,7 @@ static int32_t sketch_instants(const struct smear_chooser *chooser, const struct
 
 int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t)
 {
-    const int tiles = (t->x1 - t->x0 + t->tile - 1) / t->tile;
+    const int tiles = tiles_in(t);
     int32_t instants = 0;
     for (int i = 0; i < tiles; i++)
         instants = max_i32(instants, sketch_instants(plan->chooser, &plan->travel[i]));

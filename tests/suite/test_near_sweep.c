@@ -220,8 +220,8 @@ static const struct {
     int over;
     double farthest, most_of_ten, most;
 } by[] = {
-    { SMEAR_AUTO, 0, "auto", 5, 1.5, 2.4, 7 },
-    { SMEAR_SUBFRAMES, 0, "subframes", 5, 1.5, 1.2, 3 },
+    { SMEAR_AUTO, 0, "auto", 20, 2, 1.3, 2.6 },
+    { SMEAR_SUBFRAMES, 0, "subframes", 25, 3, 1.2, 3 },
     { SMEAR_TIMEMASK, 16, "timemask", 100, 6, 2.2, 6 }
 };
 
@@ -319,7 +319,7 @@ static void test_cubes_that_pass_are_as_exact_instants_show_them(void)
         for (int m = 0; m < METHODS && ok; m++) {
             ok = draw(&r, &d, by[m].method, by[m].samples, 0, blurred);
             error[m][i - first] = rmse(&d, exact, blurred);
-            if (getenv("SMEAR_FIRST") != NULL && error[m][i - first] > 6) {
+            if (getenv("SMEAR_FIRST") != NULL && error[m][i - first] > by[m].most) {
                 printf("  %s: %.2f codes from the exact mean\n", by[m].name, error[m][i - first]);
                 print_drive(&d, i);
             }
