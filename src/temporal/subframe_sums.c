@@ -5,12 +5,17 @@
 #include "kernels/light_sums.h"
 
 /* A gap's mean is taken up to GAP_PAIRS_MAX pixels beyond what was drawn, and reads as far beyond that. */
-SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set)
+static struct subframe_box read_box(const struct subframes *f)
 {
     const struct smear_raster_target *s = &f->t->background;
     const int32_t reach = 2 * GAP_PAIRS_MAX;
-    const struct subframe_box b = { max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
-                                    min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+    return (struct subframe_box){ max_i32(f->area.x0 - reach, s->x0), max_i32(f->area.y0 - reach, s->y0),
+                                  min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
+}
+
+SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set)
+{
+    const struct subframe_box b = read_box(f);
     for (int32_t y = b.y0; y < b.y1; y++) {
         const int32_t at = work_row(f, &b, y);
         if (y < set->y0 || y >= set->y1) {
@@ -22,6 +27,17 @@ SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const s
         if (set->x1 < b.x1)
             packed_sums_clear(&f->sums, at + set->x1 - b.x0, b.x1 - set->x1);
     }
+}
+
+SMEAR_RARE void smear_subframe_sums_rescale(const struct subframes *f, uint32_t before)
+{
+    const struct subframe_box b = read_box(f);
+    const int down = smear_light_instant(0, before, false).up - smear_light_instant(0, f->instants, false).up;
+    for (int32_t y = b.y0; y < b.y1 && down != 0; y++)
+        for (int32_t at = work_row(f, &b, y), end = at + b.x1 - b.x0; at < end; at++) {
+            const struct packed_sum sum = packed_sum_at(&f->sums, at);
+            packed_sum_put(&f->sums, at, (struct packed_sum){ sum.rb >> down, sum.gn >> down });
+        }
 }
 
 /* Vectors take whole rounds: pixels beside a box look like the background and add nothing. */

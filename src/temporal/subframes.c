@@ -412,8 +412,12 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
         f->instants = max_u32(f->instants, 3 * (uint32_t)drawn);
     if (f->instants == (uint32_t)drawn)
         return samples;
-    /* Light and shifts depend on how many there are. */
-    return sums_light(f) || has_shifts(f) ? draw_rest(f, 0, 0, all) : draw_rest(f, (int32_t)f->instants / drawn, samples, all);
+    /* Shifts, and light that is rounded, depend on how many there are. */
+    if (has_shifts(f) || (sums_light(f) && f->instants > LIGHT_WHOLE))
+        return draw_rest(f, 0, 0, all);
+    if (sums_light(f))
+        smear_subframe_sums_rescale(f, (uint32_t)drawn);
+    return draw_rest(f, (int32_t)f->instants / drawn, samples, all);
 }
 
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
