@@ -274,7 +274,6 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
     return assemble_kind(c, as, instant, f, DRAWS_IN_ORDER);
 }
 
-#if SMEAR_FAST_STACK
 /* Assembles with the assembler's state on the stack, where that is faster. */
 static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant)
 {
@@ -295,7 +294,6 @@ static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct s
     c->assembler.triangles_dropped = as.triangles_dropped;
     return done;
 }
-#endif
 
 static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
 {
@@ -305,7 +303,6 @@ static void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
 
 /* ------------------------------------------------------------------ assembling on several cores */
 
-#if SMEAR_ASSEMBLY_JOBS
 enum {
     PART_TRIANGLES_LEAST = 256,     /* submitted: below, one core is faster */
     PART_WORDS_LEAST = 2048,
@@ -491,7 +488,6 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
     c->parts_wait = PARTS_RETRY;
     return false;
 }
-#endif
 
 /* Assembles all draws for the tile rows [first, end) on one core. False when the store is full. */
 static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct smear_instant *instant)
@@ -499,10 +495,8 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
     smear_bins_reset(&c->rows.bins, first, end);
     c->assembler.path_x0 = 0;
     c->assembler.path_x1 = INT16_MAX;
-#if SMEAR_FAST_STACK
-    if (!frame_has_layers(c))
+    if (SMEAR_FAST_STACK && !frame_has_layers(c))
         return assemble_fast(c, instant);
-#endif
     smear_assembler_reset(&c->assembler);
     return assemble_draws(c, &c->assembler, instant, NULL);
 }
@@ -521,8 +515,7 @@ static SMEAR_NOINLINE bool assemble_fill(struct smear_context *c, struct smear_r
  * never come here. False when the store is full. */
 static bool assemble_all(struct smear_context *c, int first, int end, const struct smear_instant *instant)
 {
-#if SMEAR_ASSEMBLY_JOBS
-    if (has_parts(c)) {
+    if (SMEAR_ASSEMBLY_JOBS && has_parts(c)) {
         smear_bins_reset(&c->rows.bins, first, end);
         c->assembler.path_x0 = 0;
         c->assembler.path_x1 = INT16_MAX;
@@ -530,7 +523,6 @@ static bool assemble_all(struct smear_context *c, int first, int end, const stru
         if (assemble_parts(c, instant))
             return true;
     }
-#endif
     return assemble_rows(c, first, end, instant);
 }
 

@@ -50,11 +50,7 @@ bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const 
 
 /* Finds where triangles of all draws are seen at an instant, unless that is known or there is no room for it: the store turned out
  * to be too small. */
-#if SMEAR_RANGES
 void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant *instant);
-#else
-#define smear_draws_find_ranges(c, instant) ((void)0)
-#endif
 
 /* Find out which of what is kept is not what the frame wants: of a temporal method, and of sharp frames alone. */
 #if SMEAR_WITH_DAMAGE

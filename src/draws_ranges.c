@@ -4,7 +4,6 @@
 
 #include "geometry/ranges.h"
 
-#if SMEAR_RANGES
 
 /* Makes ranges as short as it pays, and as a part of the pool has room for the boxes of. Returns how many there are; 0 where the
  * draws alone are too many. */
@@ -27,7 +26,7 @@ void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant
 {
     struct smear_assembler as = c->assembler;
     struct smear_bins *g = as.bins;
-    if (bins_kept(g) != 0 || frame_has_layers(c) || frame_has_pictures(c))      /* of which each has others */
+    if (!SMEAR_RANGES || bins_kept(g) != 0 || frame_has_layers(c) || frame_has_pictures(c))      /* of which each has others */
         return;
     g->kept_words = cut_ranges(c, g);
     struct smear_tile_box *box = ranges_all(g);
@@ -55,4 +54,3 @@ void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant
     c->assembler.cache_has_paths = as.cache_has_paths;
 }
 
-#endif

@@ -76,7 +76,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
-    rows_set_scratch_end(&c->rows, t->work, (size_t)d->workers * t->work_bytes);
+    c->rows.scratch_end = t->work != NULL ? t->work + (size_t)d->workers * t->work_bytes : NULL;
     if (has_lines(d))               /* not among what cores assemble parts in */
         lay_out_lines(t, a, d);
 }

@@ -23,12 +23,7 @@ static inline int32_t sub_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_
 static inline int32_t mul_wrap(int32_t a, int32_t b) { return (int32_t)((uint32_t)a * (uint32_t)b); }
 static inline int32_t shl_wrap(int32_t a, int shift) { return (int32_t)((uint32_t)a << shift); }
 
-#if SMEAR_ONE_COPY
-#define mulh_i32 smear_mulh_i32
-#define mulh_u32 smear_mulh_u32
-#define scale_sat smear_scale_sat
-#endif
-#if SMEAR_ONE_COPY && !defined(SMEAR_COPY_IS_HERE)
+#if SMEAR_COPY_ELSEWHERE
 int32_t mulh_i32(int32_t a, int32_t b);
 uint32_t mulh_u32(uint32_t a, uint32_t b);
 int32_t scale_sat(int32_t a, int shift);

@@ -19,16 +19,7 @@ static inline int32_t divide_floor(int32_t a, int32_t b, int32_t *remainder)
     return q;
 }
 
-#if SMEAR_ONE_COPY
-#define count_leading_zeros smear_count_leading_zeros
-#define count_leading_zeros_64 smear_count_leading_zeros_64
-#define recip_norm smear_recip_norm
-#define recip_norm_precise smear_recip_norm_precise
-#define ratio_q30 smear_ratio_q30
-#define sqrt_floor_64 smear_sqrt_floor_64
-#define sqrt_q3 smear_sqrt_of_q3
-#endif
-#if SMEAR_ONE_COPY && !defined(SMEAR_COPY_IS_HERE)
+#if SMEAR_COPY_ELSEWHERE
 int count_leading_zeros(uint32_t x);
 int count_leading_zeros_64(uint64_t x);
 uint32_t recip_norm(uint32_t m);

@@ -50,17 +50,6 @@ static inline void word_show(unsigned *word, unsigned value)
 }
 #endif
 
-/* Cores can add to a word that they share: not where nobody but the program knows whether they watch each other's exclusive
- * accesses (ARMv7-M and later). */
-#ifndef SMEAR_CLAIMS
-#if SMEAR_GNU && defined(__GCC_ATOMIC_INT_LOCK_FREE) && __GCC_ATOMIC_INT_LOCK_FREE == 2 \
-    && !(defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M')
-#define SMEAR_CLAIMS 1
-#else
-#define SMEAR_CLAIMS 0
-#endif
-#endif
-
 /* Cores take turns elsewhere: word_show() is seen before word_look() looks at another word. All files must agree. */
 #ifndef SMEAR_TICKETS
 #define SMEAR_TICKETS 0

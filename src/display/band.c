@@ -129,7 +129,6 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
         convert(r, in + (end - x0), end, x1, y);
 }
 
-#if SMEAR_ROWS_AT_ONCE
 /* Converts pixels with nothing over them, as many rows at once as lie one behind the other in their ring. False where rows are
  * converted one by one. */
 static bool convert_at_once(const struct row_job *r, const struct smear_raster_target *t, const struct overlay_box *box)
@@ -147,7 +146,6 @@ static bool convert_at_once(const struct row_job *r, const struct smear_raster_t
     }
     return true;
 }
-#endif
 
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
                              int32_t x1)
@@ -156,10 +154,8 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
     const bool covered = rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
     if (rows_have_points(r->rows))
         smear_points_draw(r->rows, t, &box);
-#if SMEAR_ROWS_AT_ONCE
-    if (!covered && x0 < x1 && convert_at_once(r, t, &box))
+    if (SMEAR_ROWS_AT_ONCE && !covered && x0 < x1 && convert_at_once(r, t, &box))
         return;
-#endif
     for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++) {
         const uint32_t *in = t->color + target_row(&t->color_rows, t, y) + x0;
         if (SMEAR_WITH_OVERLAY && covered)

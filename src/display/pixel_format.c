@@ -177,12 +177,11 @@ void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_
         row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
 }
 
-#if SMEAR_ROWS_AT_ONCE
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
                        int32_t y, smear_format format, smear_dither dither)
 {
     uint16_t *const out = (uint16_t *)(void *)band + x;
-    if (!format_is_16bit(format) || !SMEAR_WITH_DITHER || dither != SMEAR_DITHER_ORDERED || ((n | x) & 7) != 0
+    if (!SMEAR_ROWS_AT_ONCE || !format_is_16bit(format) || !SMEAR_WITH_DITHER || dither != SMEAR_DITHER_ORDERED || ((n | x) & 7) != 0
         || (((uintptr_t)out | stride) & 3u) != 0)
         return false;
     const struct dithered_rows r = { .out = out, .in = in, .out_stride = (ptrdiff_t)(stride / 2), .in_stride = in_stride,
@@ -190,5 +189,4 @@ bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32
     smear_rows_dithered_blocks(&r, layout_of(format));
     return true;
 }
-#endif
 

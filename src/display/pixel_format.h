@@ -22,12 +22,10 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format);
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                       int32_t y0, smear_format format, smear_dither dither);
 
-#if SMEAR_ROWS_AT_ONCE
 /* Writes `rows` rows of n pixels, `in_stride` pixels apart, into `band`, whose first row is y. False where that is no faster than
  * row by row: then nothing is written. */
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,
                        int32_t y, smear_format format, smear_dither dither);
-#endif
 
 /* Whether the bytes of a pixel are not in this machine's order; smear_format_swap exchanges them. */
 static inline bool smear_format_is_swapped(smear_format format)

@@ -4,7 +4,6 @@
 
 #include "kernels/fill.h"
 
-#if SMEAR_RASTER_CACHE
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes)
 {
     const struct smear_bins *g = &rows->bins;
@@ -15,7 +14,6 @@ void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_byt
     rows->cache = smear_raster_cache_make(takes_other ? other : (void *)(g->pool + first), takes_other ? other_bytes : bytes,
                                           rows->jobs.workers, g);
 }
-#endif
 
 void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, struct smear_raster_target *t)
 {

@@ -66,9 +66,7 @@ struct smear_rows {
     uint32_t clear;             /* 0x00RRGGBB */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */
     uint32_t *scratch;          /* finished pixels of a tile or strip per worker */
-#if SMEAR_WITH_SUBFRAMES
     uint8_t *scratch_end;       /* of that and all that temporal methods work in behind it, which other methods may use */
-#endif
     int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
     uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */
 };
@@ -76,18 +74,6 @@ struct smear_rows {
 static inline bool rows_have_overlay(const struct smear_rows *rows)
 {
     return SMEAR_WITH_OVERLAY && rows->overlay != NULL;
-}
-
-/* `bytes` from `last` on, or null where there are none, are the last of the scratch memory. */
-static inline void rows_set_scratch_end(struct smear_rows *rows, uint8_t *last, size_t bytes)
-{
-#if SMEAR_WITH_SUBFRAMES
-    rows->scratch_end = last != NULL ? last + bytes : NULL;
-#else
-    (void)rows;
-    (void)last;
-    (void)bytes;
-#endif
 }
 
 /* ------------------------------------------------------------------ time */

@@ -33,11 +33,7 @@ void smear_assembler_reset(struct smear_assembler *a)
 static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
                                struct smear_cached_vertex *v, uint32_t tag)
 {
-#if SMEAR_FAST_STACK
-    struct smear_homogeneous passing, *now = &passing;
-#else
-    struct smear_homogeneous *now = &v->now;
-#endif
+    struct smear_homogeneous passing, *const kept = cached_now(v), *const now = kept != NULL ? kept : &passing;
     v->tag = tag;
     v->stored = 0;
     v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
@@ -266,7 +262,6 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
 
 /* ------------------------------------------------------------------ triangles by fours */
 
-#if SMEAR_PLACES
 /* Triangle k of four. */
 struct seen {
     const struct places *places;
@@ -401,7 +396,7 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
             v[i].outcode = outcode_sides(&v[i].screen, viewport);
             v[i].tag = t->index[i];
             if (segment_moves(b->segment) != 0)
-                placement_transform(&v[i].now, &b->d->at, t->index[i]);
+                placement_transform(cached_now(&v[i]), &b->d->at, t->index[i]);
         }
         v[i].stored = r->stored[t->index[i]];
     }
@@ -464,6 +459,8 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
 /* Adds triangles [begin, end): by fours where the pool has room for where vertices are. */
 static bool assemble_run(struct batch *b, uint32_t begin, uint32_t end)
 {
+    if (!SMEAR_PLACES)
+        return assemble_cached(b, begin, end);
     struct places r = { .setup = places_setup(b) };
     for (uint32_t i = begin; i < end;) {
         const uint32_t last = smear_places_open(&r, b, i, end);
@@ -480,9 +477,6 @@ static bool assemble_run(struct batch *b, uint32_t begin, uint32_t end)
     }
     return true;
 }
-#else
-#define assemble_run assemble_cached
-#endif
 
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
 {

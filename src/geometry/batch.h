@@ -6,18 +6,13 @@
 #include "geometry/vertex.h"
 #include "kernels/vector.h"
 
-/* Triangles are looked at by fours, whose vertices lie in an array, where the machine has vectors. */
-#ifndef SMEAR_PLACES
-#define SMEAR_PLACES (SMEAR_VECTORS && !SMEAR_FAST_STACK)
-#endif
-
 static inline uint32_t index_of(const struct smear_cached_vertex *v)
 {
     return v->tag & 0xffffu;
 }
 
 /* Returns where a vertex is now, before the division; null where the cache has no room for that. */
-static inline const struct smear_homogeneous *cached_now(const struct smear_cached_vertex *v)
+static inline struct smear_homogeneous *cached_now(struct smear_cached_vertex *v)
 {
 #if SMEAR_FAST_STACK
     (void)v;

@@ -235,4 +235,15 @@ uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, ui
 uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
                           int32_t y);
 
+/* Returns twice the signed area between two edges; of pixels q8 positive where the second is clockwise of the first on the screen (y down).
+ * Short edges take products of 32 bits where others are calls. */
+static inline int64_t edges_area(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
+{
+    const uint32_t small = 1 << 15;
+    if (!SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+        && (((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
+        return x1 * y2 - x2 * y1;
+    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
+}
+
 #endif

@@ -26,9 +26,8 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
 /* Tells the sign of the distance: a < -2048 w where floor(a / 2048) < -w. */
 static bool is_outside(const struct smear_clip_vertex *v, const struct smear_depths *depths, enum plane plane)
 {
-#if SMEAR_ONE_COPY
-    return distance_to(v, depths, plane) < 0;
-#else
+    if (SMEAR_ONE_COPY)
+        return distance_to(v, depths, plane) < 0;
     const struct smear_homogeneous *h = &v->now;
     const int guard_log2 = GUARD_LOG2 - depths->coarse;
     int32_t a = plane >= PLANE_TOP ? h->y : h->x;
@@ -39,17 +38,14 @@ static bool is_outside(const struct smear_clip_vertex *v, const struct smear_dep
     case PLANE_TOP:     return a >> guard_log2 < -h->w;
     default:            return -a >> guard_log2 < -h->w;
     }
-#endif
 }
 
 /* Returns a + (b - a) t to nearest, t in q30. */
 static int32_t mix(int32_t a, int32_t b, int32_t t)
 {
-#if SMEAR_HAS_MUL64
-    return (int32_t)(((int64_t)a * ((1 << 30) - t) + (int64_t)b * t + (1 << 29)) >> 30);
-#else
+    if (SMEAR_HAS_MUL64)
+        return (int32_t)(((int64_t)a * ((1 << 30) - t) + (int64_t)b * t + (1 << 29)) >> 30);
     return (int32_t)(a + ((((int64_t)b - a) * t + (1 << 29)) >> 30));
-#endif
 }
 
 /* Brings a new vertex onto its plane: rounding may leave it a step outside, and W must be positive to divide by it. */

@@ -15,7 +15,6 @@ static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
 }
 
-#if SMEAR_LIGHT_IS_DEAR
 /* Returns floor(sqrt(x)), exactly, of 33 to 48 bits: as sqrt_floor_64, in half of the precision. Normals have so many. */
 static inline uint32_t sqrt_floor_48(uint64_t x)
 {
@@ -41,16 +40,13 @@ static SMEAR_RARE uint32_t length_of_any(uint64_t square)
 {
     return sqrt_floor_64(square);
 }
-#endif
 
 /* This file has one copy, whose name linker scripts can choose for fast memory. */
 static SMEAR_RARE uint32_t length_from(uint64_t square)
 {
-#if SMEAR_LIGHT_IS_DEAR
-    return square >> 48 == 0 && square >> 32 != 0 ? sqrt_floor_48(square) : length_of_any(square);
-#else
-    return sqrt_floor_64(square);
-#endif
+    if (SMEAR_LIGHT_IS_DEAR && square >> 48 == 0 && square >> 32 != 0)
+        return sqrt_floor_48(square);
+    return SMEAR_LIGHT_IS_DEAR ? length_of_any(square) : sqrt_floor_64(square);
 }
 
 /* Returns by how much to shift right for `largest` to have that many bits; negative: left. */
@@ -135,9 +131,7 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *m, bool has_normals, bool linear, const struct smear_sun *sun)
 {
-#if SMEAR_LIGHT_IS_DEAR
     s->last = NULL;
-#endif
     s->sun = sun;
     s->linear = linear;
     s->lit = !m->unlit;
@@ -169,10 +163,10 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
 /* Returns how far a normal in the world, of 24 bits, lies along the light, q6 times its length; and the square of that. */
 static inline int32_t along_light(uint64_t *square, const int32_t world[3], const int32_t direction[3])
 {
-#if UINTPTR_MAX > 0xffffffffu && SMEAR_HAS_MUL64
-    *square = square_sum(world[0], world[1], world[2]);
-    return dot_q(world, direction, 8);
-#else
+    if (SMEAR_ON_64 && SMEAR_HAS_MUL64) {
+        *square = square_sum(world[0], world[1], world[2]);
+        return dot_q(world, direction, 8);
+    }
     /* h 2^12 + l: sums of products of the halves fit into 32 bits. */
     int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
     for (int i = 0; i < 3; i++) {
@@ -185,7 +179,6 @@ static inline int32_t along_light(uint64_t *square, const int32_t world[3], cons
     }
     *square = ((uint64_t)(uint32_t)high << 24) + (uint64_t)((int64_t)cross * 8192) + (uint32_t)low;
     return along_high * 16 + (along_low >> 8);
-#endif
 }
 
 /* Returns max(0, cosine) for an object-space normal of any length, components up to 2^14. */
@@ -225,8 +218,7 @@ uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3
 /* The same of a face, whose normal may be that of the face before. */
 static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32_t n[3])
 {
-#if SMEAR_LIGHT_IS_DEAR
-    struct smear_lit *const last = s->last;
+    struct smear_lit *const last = SMEAR_LIGHT_IS_DEAR ? s->last : NULL;
     if (last != NULL && n[0] == last->normal[0] && n[1] == last->normal[1] && n[2] == last->normal[2])
         return last->cosine;
     const uint32_t cosine = cosine_of(s, n);
@@ -236,9 +228,6 @@ static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32
         last->cosine = cosine;
     }
     return cosine;
-#else
-    return cosine_of(s, n);
-#endif
 }
 
 static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
@@ -344,7 +333,6 @@ uint32_t smear_color_pack(const struct smear_color *color, bool linear)
          | smear_srgb_encode[c[2] >> 4];
 }
 
-#if SMEAR_SHADES_FACES
 uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine)
 {
     if (!s->lit || shading_is_linear(s) || !s->white || !s->sun->white) {
@@ -358,4 +346,3 @@ uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4],
         packed = packed << 8 | encode(times_lin(65535u, smear_srgb_decode[color[i]]) * light >> 20);
     return packed;
 }
-#endif

@@ -17,7 +17,6 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
-#if SMEAR_LIGHT_IS_DEAR
 /* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
 struct smear_lit {
     int32_t normal[3];              /* of any length; INT32_MAX first: none */
@@ -25,7 +24,6 @@ struct smear_lit {
     const uint8_t *color;           /* of the face whose colour is `packed`; null: none */
     uint32_t color_cosine, packed;
 };
-#endif
 
 /* The light seen from a draw's object space. */
 struct smear_shading {
@@ -38,9 +36,7 @@ struct smear_shading {
     bool linear;                    /* working values: linear light, else sRGB codes */
     bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
-#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit *last;         /* or null */
-#endif
 };
 
 static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }
@@ -66,10 +62,8 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
 
-#if SMEAR_SHADES_FACES
 /* Shades a face's colour and packs it, as smear_shade and smear_color_pack do. */
 uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine);
-#endif
 
 /* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */
 uint32_t smear_color_pack(const struct smear_color *color, bool linear);

@@ -67,7 +67,6 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
 /* Where products of 64 bits are calls, or shifts of them take many instructions, and size does not count, much is found without them. */
 #define PRODUCTS_ARE_DEAR (!(SMEAR_HAS_MUL64 && SMEAR_HAS_CLZ) && !SMEAR_ONE_COPY)
 
-#if PRODUCTS_ARE_DEAR
 /* Returns a b 2^-down to nearest, down 2 .. 32, where it has 32 bits. */
 static inline int32_t product_down(int32_t a, int32_t b, int down)
 {
@@ -110,10 +109,6 @@ static bool scale_block(int32_t out[3][3], int *exponent, int32_t unit[3][3], in
     *exponent = down;
     return true;
 }
-#else
-#define take_block(unit, exponent, camera, object) false
-#define scale_block(out, exponent, unit, scale) false
-#endif
 
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
                         const smear_mesh *mesh, const smear_transform *camera)
@@ -124,7 +119,7 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
     int64_t offset[3];
     int32_t unit[3][3];
     int exponent = 0, scaled_exponent = 0;
-    const bool is_straight = take_block(unit, &exponent, camera->basis, object->basis);
+    const bool is_straight = PRODUCTS_ARE_DEAR && take_block(unit, &exponent, camera->basis, object->basis);
     for (int j = 0; j < 3; j++)
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
     for (int i = 0; i < 3; i++) {
@@ -136,7 +131,7 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
     if (!is_straight)
         exponent = normalize_block(unit, turned) - 48;
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
-    if (!scale_block(view->basis, &scaled_exponent, unit, scale)) {
+    if (!PRODUCTS_ARE_DEAR || !scale_block(view->basis, &scaled_exponent, unit, scale)) {
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
@@ -176,10 +171,8 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
 /* Returns a b 2^shift to nearest, where it has 31 bits. */
 static inline int32_t product_scaled(int32_t a, int32_t b, int shift)
 {
-#if PRODUCTS_ARE_DEAR
-    if (shift <= -2 && shift >= -32)
+    if (PRODUCTS_ARE_DEAR && shift <= -2 && shift >= -32)
         return product_down(a, b, -shift);
-#endif
     return scale_inline((int64_t)a * b, shift);
 }
 

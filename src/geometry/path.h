@@ -35,12 +35,10 @@ static inline int32_t path_phase(int32_t time)
  * are no wide ones. */
 static inline int32_t phase_times(int32_t a, int32_t u)
 {
-#if SMEAR_HAS_MUL64
-    return mulh_i32(a, u);
-#else
+    if (SMEAR_HAS_MUL64)
+        return mulh_i32(a, u);
     const int32_t part = u >> 15;
     return ((a >> 16) * part + ((int32_t)((uint32_t)a & 0xffffu) * part >> 16)) >> 1;
-#endif
 }
 
 /* Returns a coordinate on its path, middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a

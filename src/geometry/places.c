@@ -4,7 +4,6 @@
 
 #include "kernels/places.h"
 
-#if SMEAR_PLACES
 static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
 {
     const struct smear_assembly *d = b->d;
@@ -56,7 +55,7 @@ uint32_t smear_places_open(struct places *r, const struct batch *b, uint32_t fir
     const uint32_t free = g->pool_words - begin - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
     struct index_range all = { UINT16_MAX, 0 };
     uint32_t last = first;
-    while (last < end) {
+    while (SMEAR_PLACES && last < end) {
         const uint32_t next = min_u32(last + PLACES_BLOCK, end);
         const struct index_range range = indices_range(mesh->index + 3 * last, (int32_t)(3 * (next - last)));
         const struct index_range more = { min_u32(all.least, range.least), max_u32(all.most, range.most) };
@@ -77,4 +76,3 @@ uint32_t smear_places_open(struct places *r, const struct batch *b, uint32_t fir
     find_places(b, r);
     return last;
 }
-#endif

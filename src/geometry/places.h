@@ -6,7 +6,6 @@
 #include "geometry/batch.h"
 #include "kernels/triangles.h"
 
-#if SMEAR_PLACES
 /* Vertices [first, end) of the mesh on the screen, by their index. They lie in the pool between its vertices and its
  * triangles, which must not grow beyond `bottom` and `top`. */
 struct places {
@@ -60,6 +59,5 @@ static inline bool segment_has_room(struct batch *b, uint32_t triangle)
 /* Takes as many triangles of [first, end) as name vertices that there is room for, and finds these. Returns the end of
  * them; `first` where there is no room, or an index that the mesh does not have. */
 uint32_t smear_places_open(struct places *r, const struct batch *b, uint32_t first, uint32_t end);
-#endif
 
 #endif

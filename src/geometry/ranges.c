@@ -6,7 +6,6 @@
 #include "geometry/assemble_path.h"
 #include "geometry/places.h"
 
-#if SMEAR_RANGES
 
 /* Adds pixels to a box, which is as large as the frame at most. */
 static void add_pixels(struct smear_tile_box *box, const struct smear_assembler *a, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
@@ -58,7 +57,6 @@ static bool assemble(struct smear_assembler *a, struct smear_assembly *d)
     return assembly_has_path(d) ? smear_assemble_path(a, d) : smear_assemble(a, d);
 }
 
-#if SMEAR_PLACES
 /* Stands for the box of a range of which a triangle has to be clipped, or is too large to be looked at. */
 static const struct smear_tile_box unknown = { 1, 0, 1, 0 };
 
@@ -103,10 +101,6 @@ static void look_at_ranges(struct smear_assembler *a, const struct smear_assembl
             add_looked(box, a, d->mesh->index, &r, i, end);
     }
 }
-#else
-#define look_at_ranges(a, d, box) ((void)0)
-#define box_is_unknown(box) true
-#endif
 
 void smear_ranges_find(struct smear_assembler *a, struct smear_assembly *d, struct smear_tile_box *box)
 {
@@ -132,4 +126,3 @@ void smear_ranges_find(struct smear_assembler *a, struct smear_assembly *d, stru
     }
 }
 
-#endif

@@ -58,10 +58,8 @@ static inline uint32_t ranges_next(const struct smear_assembler *a, struct smear
     return min_u32(past << shift, end);
 }
 
-#if SMEAR_RANGES
 /* Makes ranges as short as it pays, and as the pool has room for their boxes. `draws` have mesh[0 .. draws). */
 /* Finds the boxes of a draw, from `box` on. What is in the store is lost. */
 void smear_ranges_find(struct smear_assembler *a, struct smear_assembly *d, struct smear_tile_box *box);
-#endif
 
 #endif

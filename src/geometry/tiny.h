@@ -43,11 +43,9 @@ static inline void tiny_start(struct tiny_edges *e, int32_t vx, int32_t vy, int3
 /* Returns floor(a w / 2^15) for a weight q15 of at most one. */
 static inline int32_t tiny_part(int32_t a, int32_t w)
 {
-#if SMEAR_HAS_MUL64
-    return (int32_t)((int64_t)a * w >> 15);
-#else
+    if (SMEAR_HAS_MUL64)
+        return (int32_t)((int64_t)a * w >> 15);
     return (a >> 15) * w + ((a & 0x7fff) * w >> 15);
-#endif
 }
 
 /* Mixes a channel of the vertices (16 bits each) by weights q14; 2^14 is one. */

@@ -48,15 +48,13 @@ struct smear_viewport {
  * summed one by one: the lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
-#if SMEAR_HAS_MUL64
-    return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
-#else
+    if (SMEAR_HAS_MUL64)
+        return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
     uint32_t high = (uint32_t)(v[0] * (m[0] >> 16)) + (uint32_t)(v[1] * (m[1] >> 16))
                   + (uint32_t)(v[2] * (m[2] >> 16));
     int32_t low = v[0] * (int32_t)((uint32_t)m[0] << 16 >> 18) + v[1] * (int32_t)((uint32_t)m[1] << 16 >> 18)
                 + v[2] * (int32_t)((uint32_t)m[2] << 16 >> 18);
     return (int32_t)(high + (uint32_t)(low >> 14)) + m[3];
-#endif
 }
 
 static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p,
@@ -111,14 +109,6 @@ static inline void project_inline(struct smear_screen *out, const struct smear_d
     const int32_t depth = scale_sat(mulh_i32(d->depth_mantissa, r), clamp_i32(d->depth_shift + zeros, -31, 31));
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
-
-#if SMEAR_ONE_COPY
-#define transform_vertex smear_transform_vertex
-#define project smear_project
-#else
-#define transform_vertex transform_inline
-#define project project_inline
-#endif
 
 /* Returns the sides of a vertex that has no place on the screen: those of the planes through the eye and the frame's
  * borders that it lies beyond. All that lies beyond one of them is not seen, in front of the near plane or not. */

@@ -141,7 +141,6 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
     return s;
 }
 
-#if SMEAR_FIND_FLAT
 bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 {
     const struct even_faces faces = {
@@ -149,7 +148,6 @@ bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
     };
     return (faces.normal != NULL || faces.color != NULL) && even_faces(&faces);
 }
-#endif
 
 /* Returns the cosine of the light at a vertex with a normal, or at its back. */
 static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool flip)
@@ -212,20 +210,16 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
         record[s->color + c / 2] = (uint32_t)v->color[c] | (uint32_t)v->color[c + 1] << 16;
 }
 
-#if SMEAR_LIGHT_IS_DEAR
 static inline bool same_color(const uint8_t *a, const uint8_t *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
-#endif
 
 /* Returns the shaded colour of a face, packed. */
 static inline uint32_t shaded_face(const struct smear_assembly *d, const struct smear_face *face)
 {
-#if SMEAR_SHADES_FACES
-    if (face->vertex_color == NULL && face->color != NULL)
+    if (SMEAR_SHADES_FACES && face->vertex_color == NULL && face->color != NULL)
         return smear_shade_face(&d->shading, face->color, face->cosine);
-#endif
     struct smear_color color;
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
     return smear_color_pack(&color, shading_is_linear(&d->shading));
@@ -236,20 +230,16 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
-#if SMEAR_LIGHT_IS_DEAR
-    struct smear_lit *const last = d->shading.last;
+    struct smear_lit *const last = SMEAR_LIGHT_IS_DEAR ? d->shading.last : NULL;
     const bool is_plain = last != NULL && face->vertex_color == NULL && face->color != NULL;
     if (is_plain && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, face->color))
         return last->packed;
-#endif
     const uint32_t packed = shaded_face(d, face);
-#if SMEAR_LIGHT_IS_DEAR
     if (is_plain) {
         last->color = face->color;
         last->color_cosine = face->cosine;
         last->packed = packed;
     }
-#endif
     return packed;
 }
 

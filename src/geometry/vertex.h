@@ -151,21 +151,17 @@ struct smear_assembly {
         struct smear_placement key[SMEAR_WITH_SUBFRAMES ? 2 : 1];   /* shutter open and close */
     } motion;
     struct smear_shading shading;
-#if SMEAR_LIGHT_IS_DEAR
     struct smear_lit lit;               /* of shading.last */
-#endif
 };
 
 /* Faces may take what was found of those before them: once the shading is made. */
 static inline void assembly_remember_light(struct smear_assembly *d)
 {
-#if SMEAR_LIGHT_IS_DEAR
-    d->lit.normal[0] = INT32_MAX;
-    d->lit.color = NULL;
-    d->shading.last = &d->lit;
-#else
-    (void)d;
-#endif
+    if (SMEAR_LIGHT_IS_DEAR) {
+        d->lit.normal[0] = INT32_MAX;
+        d->lit.color = NULL;
+        d->shading.last = &d->lit;
+    }
 }
 
 /* These are false at compile time where the methods and surfaces that need them were left out. */
@@ -318,23 +314,10 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
                           const struct smear_face *face);
 
-/* Returns twice the signed area in q16 pixels of a triangle with edges (x1, y1) and (x2, y2), positive when it is
- * clockwise on the screen (y down). */
-static inline int64_t area_of_edges(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
-{
-#if !SMEAR_HAS_MUL64
-    const uint32_t small = 1 << 15;
-    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small)
-         | ((uint32_t)y2 + small)) < 2 * small)
-        return x1 * y2 - x2 * y1;
-#endif
-    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
-}
-
 static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
                               const struct smear_screen *c)
 {
-    return area_of_edges(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
+    return edges_area(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
 }
 
 /* Returns a number of the sign of area_of. */
@@ -345,7 +328,7 @@ static inline int32_t side_of(const struct smear_screen *a, const struct smear_s
     if (!SMEAR_HAS_MUL64 && !SMEAR_SMALL_CODE
         && (((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
         return x1 * y2 - x2 * y1;
-    const int64_t area = area_of_edges(x1, y1, x2, y2);
+    const int64_t area = edges_area(x1, y1, x2, y2);
     return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 

@@ -93,6 +93,11 @@
 #define SMEAR_ON_WASM 0
 #endif
 
+/* Triangles are looked at by fours, whose vertices lie in an array. */
+#ifndef SMEAR_PLACES
+#define SMEAR_PLACES (SMEAR_VECTORS && !SMEAR_FAST_STACK)
+#endif
+
 /* 1 where words of 64 bits are those of the core. */
 #define SMEAR_ON_64 (UINTPTR_MAX > 0xffffffffu)
 
@@ -106,6 +111,17 @@
 /* Clang would call functions that are nowhere for atomic words of ARMv6-M (jobs.h). */
 #if SMEAR_GNU && defined(__clang__) && defined(__ARM_ARCH_6M__) && !defined(SMEAR_BARRIER)
 #define SMEAR_BARRIER __asm__ volatile ("dmb" : : : "memory")
+#endif
+
+/* Cores can add to a word that they share: not where nobody but the program knows whether they watch each other's exclusive
+ * accesses (ARMv7-M and later). */
+#ifndef SMEAR_CLAIMS
+#if SMEAR_GNU && defined(__GCC_ATOMIC_INT_LOCK_FREE) && __GCC_ATOMIC_INT_LOCK_FREE == 2 \
+    && !(defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M')
+#define SMEAR_CLAIMS 1
+#else
+#define SMEAR_CLAIMS 0
+#endif
 #endif
 
 /* ------------------------------------------------------------------ size */
@@ -161,8 +177,10 @@
 #endif
 #if SMEAR_GNU
 #define SMEAR_NOINLINE __attribute__((noinline))
+#define SMEAR_CALLED static __attribute__((noinline, unused))       /* of a header, which some files call */
 #else
 #define SMEAR_NOINLINE
+#define SMEAR_CALLED static inline
 #endif
 
 /* SMEAR_RARE: what is rarely called is not inlined into what is called often, unless size counts. */
@@ -179,9 +197,31 @@
 #if SMEAR_SMALL_FILE && !SMEAR_HAS_MUL64
 #define SMEAR_ONE_COPY 1
 #define SMEAR_SHARED
+#define mulh_i32 smear_mulh_i32
+#define mulh_u32 smear_mulh_u32
+#define scale_sat smear_scale_sat
+#define count_leading_zeros smear_count_leading_zeros
+#define count_leading_zeros_64 smear_count_leading_zeros_64
+#define recip_norm smear_recip_norm
+#define recip_norm_precise smear_recip_norm_precise
+#define ratio_q30 smear_ratio_q30
+#define sqrt_floor_64 smear_sqrt_floor_64
+#define sqrt_q3 smear_sqrt_of_q3
+#define transform_vertex smear_transform_vertex
+#define project smear_project
 #else
 #define SMEAR_ONE_COPY 0
 #define SMEAR_SHARED static inline
+#define transform_vertex transform_inline
+#define project project_inline
+#endif
+#define SMEAR_COPY_ELSEWHERE (SMEAR_ONE_COPY && !SMEAR_COPY_IS_HERE)
+
+/* Functions of several products of 64 bits, which are calls where those take many instructions. */
+#if SMEAR_HAS_MUL64
+#define SMEAR_PRODUCT_CALL inline
+#else
+#define SMEAR_PRODUCT_CALL SMEAR_NOINLINE
 #endif
 
 /* ------------------------------------------------------------------ what pays on this core */

@@ -1,10 +1,73 @@
 /* SPDX-License-Identifier: MIT */
-/* gradient.h - how what changes along two edges of a triangle changes per pixel: gradient() and cross() of raster/setup.c in assembly
- * for Cortex-M0 and M0+. */
+/* gradient.h - how what changes along two edges of a triangle changes per pixel. */
 #ifndef SMEAR_KERNELS_GRADIENT_H
 #define SMEAR_KERNELS_GRADIENT_H
 
+#include "base/fixmath.h"
 #include "kernels/kernels.h"
+
+/* Products of 64 bits: where the core has none, from two of 32. */
+static inline int64_t product(int32_t a, int32_t b)
+{
+    if (SMEAR_HAS_MUL64)
+        return (int64_t)a * b;
+    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
+}
+
+/* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
+static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
+    if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
+        int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
+        int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
+        return ((int64_t)low1 - low2) + (int64_t)((uint64_t)(int64_t)high << 16);
+    }
+#endif
+    return product(a, b) - product(c, d);
+}
+
+/* n 256 / area with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1 and a2 along the two
+ * edges; to nearest, clamped. recip: 2^61 / area, whose highest bit was shifted up by so many zeros. */
+SMEAR_INLINE int32_t gradient_of(int64_t n, uint32_t recip, int area_zeros)
+{
+    if (n == 0)
+        return 0;
+    uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
+    int zeros; /* n = top 2^(33 - zeros) */
+#if UINTPTR_MAX > 0xffffffffu || SMEAR_ONE_COPY
+    zeros = count_leading_zeros_64(size);
+    uint32_t high = (uint32_t)(size << zeros >> 32);
+#else
+    uint32_t high = (uint32_t)(size >> 32), low = (uint32_t)size;
+    if (high != 0) {
+        zeros = count_leading_zeros(high);
+        high = high << zeros | low >> 1 >> (31 - zeros);
+    } else {
+        zeros = count_leading_zeros(low);
+        high = low << zeros;
+        zeros += 32;
+    }
+#endif
+    int32_t top = (int32_t)(high >> 1);
+    int32_t g = mulh_i32(top, (int32_t)recip);
+    g = scale_sat(g, clamp_i32(area_zeros - zeros - 20, -31, 31));
+    return n < 0 ? -g : g;
+}
+
+/* (frac q8) x slope / 256, exact floor without a wide product. */
+static inline int32_t slope_part(int32_t slope, int32_t frac)
+{
+    return mul_wrap(slope >> 8, frac) + ((slope & 255) * frac >> 8);
+}
+
+/* gradient_of cross(d1, y2, d2, y1) in the lower word and cross(d2, x1, d1, x2) in the upper one, of the edges x1, y1, x2 and y2. */
+static inline uint64_t gradients_reference(const int32_t *edge, int32_t d1, int32_t d2, uint32_t recip, int area_zeros)
+{
+    const int32_t dx = gradient_of(cross(d1, edge[3], d2, edge[1]), recip, area_zeros);
+    const int32_t dy = gradient_of(cross(d2, edge[0], d1, edge[2]), recip, area_zeros);
+    return (uint64_t)(uint32_t)dy << 32 | (uint32_t)dx;
+}
 
 #ifdef __OPTIMIZE_SIZE__
 #define GRADIENT_ARMV6M 0
@@ -13,6 +76,7 @@
 #endif
 
 #if GRADIENT_ARMV6M
+#define gradients gradients_armv6m
 
 /* The product of r0 and r1: its high word into r1, its low word into r4. */
 #define ARMV6M_PRODUCT         \
@@ -162,9 +226,7 @@
     "8: movs r0, r4\n\t"       \
     "b 7b\n"
 
-/* gradient() of cross(d1, y2, d2, y1) in the lower word and that of cross(d2, x1, d1, x2) in the upper one, of the edges x1, y1, x2
- * and y2: the second is that of cross(d1, x2, d2, x1) with the other sign. Compilers take half as many instructions again, and
- * twice the room. */
+/* The second is that of cross(d1, x2, d2, x1) with the other sign. Compilers take half as many instructions again, and twice the room. */
 static SMEAR_NOINLINE uint64_t gradients_armv6m(const int32_t *edge, int32_t d1, int32_t d2, uint32_t recip, int area_zeros)
 {
     register uint32_t low __asm__("r0") = (uint32_t)(uintptr_t)edge;
@@ -193,6 +255,8 @@ static SMEAR_NOINLINE uint64_t gradients_armv6m(const int32_t *edge, int32_t d1,
     return (uint64_t)high << 32 | low;
 }
 
+#else
+#define gradients gradients_reference
 #endif
 
 #endif

@@ -49,6 +49,11 @@ static inline uint64_t packed_step(uint32_t du, uint32_t dv)
     return ((uint64_t)dv << 32) + (uint64_t)(int64_t)(int32_t)du;
 }
 
+/* A polynomial of x and y, modulo 2^32. */
+struct curve {
+    int32_t at, dx, dy, dxx, dxy, dyy;
+};
+
 /* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
  * rounds codes (tiny_pixel). */
 struct tiny_channel {

@@ -92,10 +92,8 @@ void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed
 /* Sums are set by the first instant rather than emptied before, where nothing faster adds. */
 #define PACKED_SETS (!SMEAR_VECTORS)
 
-#if PACKED_SETS
 /* Does what smear_packed_add does for sums that are not yet begun, whatever they hold. */
 void smear_packed_set(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n);
-#endif
 
 /* Divides by n, 2 .. PACKED_INSTANTS_MAX, in 16 bits: (sum + n / 2) times 2^(16 + shift) / n, rounded up. A mean that is
  * whole stays so, and others go up from 1/2 - 1/128 on. */

@@ -151,10 +151,10 @@ struct dithered_rows {
 void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                enum row_16bit format);
 
+#endif
 /* The same of rows that have the thresholds of smear_dither_ordered, whatever r says of thresholds. They are whole blocks: x and n are
  * multiples of eight, and each begins at a multiple of four bytes. */
 void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit format);
-#endif
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
 /* Stores eight pixels a round, by any thresholds; mask is 7 or 31. */
 void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,

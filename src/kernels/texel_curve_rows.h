@@ -7,11 +7,6 @@
 #include "kernels/texel_places.h"
 #include "kernels/texels_draw.h"
 
-/* A polynomial of x and y, modulo 2^32. */
-struct texel_polynomial {
-    uint32_t at, dx, dy, dxx, dxy, dyy;
-};
-
 /* Rows one below the other, and coordinates of their pixels. */
 struct texel_curve_rows {
     const struct span_side *side;
@@ -22,7 +17,7 @@ struct texel_curve_rows {
     int32_t x0;
     uint32_t dz_down;           /* how z changes from row to row */
     int32_t stride;             /* bytes */
-    struct texel_polynomial u, v;
+    struct curve u, v;
     uint32_t dz, ddu, ddv;      /* ddu is 2 dxx of u */
     int32_t to_depth;           /* bytes from a pixel to its depth */
     const void *texels;
@@ -30,16 +25,16 @@ struct texel_curve_rows {
 
 #if TEXEL_CURVE_ROWS
 SMEAR_STATIC_ASSERT(offsetof(struct texel_curve_rows, u) == 32 && offsetof(struct texel_curve_rows, dz) == 80
-                        && sizeof(struct texel_polynomial) == 24 && sizeof(struct span_side) == 12
+                        && sizeof(struct curve) == 24 && sizeof(struct span_side) == 12
                         && offsetof(struct span_side, right) == 4,
                     "the assembly knows struct texel_curve_rows and struct span_side");
 #endif
 
-static inline uint32_t texel_polynomial_at(const struct texel_polynomial *p, uint32_t x, uint32_t y, uint32_t *step)
+static inline uint32_t curve_at(const struct curve *p, uint32_t x, uint32_t y, uint32_t *step)
 {
-    const uint32_t dx = p->dxy * y + p->dx + p->dxx * x;
-    *step = dx + p->dxx * (x + 1u);
-    return p->at + (p->dyy * y + p->dy) * y + dx * x;
+    const uint32_t dxx = (uint32_t)p->dxx, dx = (uint32_t)p->dxy * y + (uint32_t)p->dx + dxx * x;
+    *step = dx + dxx * (x + 1u);
+    return (uint32_t)p->at + ((uint32_t)p->dyy * y + (uint32_t)p->dy) * y + dx * x;
 }
 
 /* Assembly begins each row by going on to the next one. */
@@ -57,8 +52,8 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
         const int32_t left = r->side[row].left, n = r->side[row].right - left, bytes = row * r->stride + 2 * left;
         struct texel_run run = { .dz = r->dz, .texels = r->texels };
         struct texcoord c = { .curvature_u = 0u - r->ddu, .curvature_v = 0u - r->ddv };
-        c.u = texel_polynomial_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.du);
-        c.v = texel_polynomial_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.dv);
+        c.u = curve_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.du);
+        c.v = curve_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.dv);
         texcoord_run(&run, c);
         texel_run_start(&run, log2_width, log2_height);
         run.z = r->z + r->dz_down * (uint32_t)row + r->dz * (uint32_t)left;

@@ -63,6 +63,30 @@ SMEAR_INLINE void texel_run_skip(struct texel_run *r, uint32_t n)
     r->uv += r->duv * n + r->dduv * (n * (n - 1u) / 2u);
     r->duv += r->dduv * n;
 }
+
+/* Both coordinates' polynomials, and a row's run from pixel (x, y) of them on. */
+struct curves {
+    uint64_t at, dx, dy, dxx, dxy, dyy;
+};
+
+SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
+{
+    k->at = packed_step((uint32_t)u->at, (uint32_t)v->at);
+    k->dx = packed_step((uint32_t)u->dx, (uint32_t)v->dx);
+    k->dy = packed_step((uint32_t)u->dy, (uint32_t)v->dy);
+    k->dxx = packed_step((uint32_t)u->dxx, (uint32_t)v->dxx);
+    k->dxy = packed_step((uint32_t)u->dxy, (uint32_t)v->dxy);
+    k->dyy = packed_step((uint32_t)u->dyy, (uint32_t)v->dyy);
+    r->dduv = 2 * k->dxx;
+}
+
+SMEAR_INLINE void curves_run(const struct curves *k, int32_t column, int32_t row, struct texel_run *r)
+{
+    const uint64_t x = (uint64_t)(int64_t)column, y = (uint64_t)(int64_t)row;
+    const uint64_t dx = k->dx + k->dxy * y + k->dxx * x;
+    r->uv = k->at + (k->dy + k->dyy * y) * y + dx * x;
+    r->duv = dx + k->dxx * (x + 1);
+}
 #else
 #define TEXELS_PACKED 0
 struct texel_run {              /* the order in which the assembly loads registers */
@@ -98,6 +122,38 @@ SMEAR_INLINE void texel_run_skip(struct texel_run *r, uint32_t n)
     r->v += r->dv * n + r->ddv * pairs;
     r->du += r->ddu * n;
     r->dv += r->ddv * n;
+}
+
+/* As they are needed: small cores have few registers. */
+struct curve_words {
+    uint32_t dxy, dx, dyy, dy, at, dxx;
+};
+
+struct curves {
+    struct curve_words u, v;
+};
+
+SMEAR_INLINE void curves_start(struct curves *k, const struct curve *u, const struct curve *v, struct texel_run *r)
+{
+    k->u = (struct curve_words){ (uint32_t)u->dxy, (uint32_t)u->dx, (uint32_t)u->dyy, (uint32_t)u->dy, (uint32_t)u->at,
+                                 (uint32_t)u->dxx };
+    k->v = (struct curve_words){ (uint32_t)v->dxy, (uint32_t)v->dx, (uint32_t)v->dyy, (uint32_t)v->dy, (uint32_t)v->at,
+                                 (uint32_t)v->dxx };
+    r->ddu = 2 * k->u.dxx;
+    r->ddv = 2 * k->v.dxx;
+}
+
+SMEAR_INLINE uint32_t curve_value(const struct curve_words *k, uint32_t x, uint32_t y, uint32_t *step)
+{
+    const uint32_t dx = k->dxy * y + k->dx, at = (k->dyy * y + k->dy) * y + k->at, along = k->dxx * x;
+    *step = dx + along + along + k->dxx;
+    return (dx + along) * x + at;
+}
+
+SMEAR_CALLED void curves_run(const struct curves *k, int32_t x, int32_t y, struct texel_run *r)
+{
+    r->u = curve_value(&k->u, (uint32_t)x, (uint32_t)y, &r->du);
+    r->v = curve_value(&k->v, (uint32_t)x, (uint32_t)y, &r->dv);
 }
 #endif
 

@@ -276,7 +276,7 @@ static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_
         "stm r0!, {r4}\n\t"
 
 /* 100 instructions, and 119 where blocks are bent: two thirds of the compiler's. r7 is u's plane until its quotient is known. */
-static SMEAR_NOINLINE void texel_track_start_armv6m(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
+SMEAR_CALLED void texel_track_start_armv6m(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
 {
     register struct texel_track *r0 __asm__("r0") = k;
     register const int32_t *r1 __asm__("r1") = plane;

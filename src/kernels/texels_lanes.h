@@ -174,5 +174,9 @@ SMEAR_INLINE void texels_row_lanes(struct texel_track *k, int32_t rest, int log2
     k->place = at;
 }
 
+#else
+bool texels_fit_lanes(int log2_width, int log2_height);     /* nowhere, and not called */
+void texels_row_lanes(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind);
 #endif
+
 #endif

@@ -10,7 +10,6 @@
 #include "base/arena.h"
 #include "display/band.h"
 
-#if SMEAR_SHARP_APART
 
 enum {
     BUFFERS_MOST = 8,
@@ -213,7 +212,7 @@ bool smear_sharp_rows_apart(struct smear_rows *rows, int first, int end, int *re
 {
     enum { ROWS_LEAST = 16 };
     const uint32_t start = stage_start(rows);
-    struct apart *a = cut_apart(rows, end - first);
+    struct apart *a = SMEAR_SHARP_APART ? cut_apart(rows, end - first) : NULL;
     if (a == NULL)
         return false;
     const bool halves = rows->bins.row_px >= ROWS_LEAST && drawn_format(rows->desc) != SMEAR_L1_PAGES;
@@ -225,4 +224,3 @@ bool smear_sharp_rows_apart(struct smear_rows *rows, int first, int end, int *re
     return true;
 }
 
-#endif

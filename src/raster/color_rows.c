@@ -8,7 +8,7 @@
 #include "kernels/shade_run.h"
 #include "raster/texcoord.h"
 
-#if SMEAR_SPAN_ROWS && (SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG)
+#if SMEAR_WITH_GOURAUD || SMEAR_WITH_FOG
 
 static SMEAR_NOINLINE void shade_codes(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
                                        const struct shade *k)

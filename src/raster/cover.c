@@ -213,7 +213,6 @@ static inline void box_edges(struct tiny_edges *e, const struct setup *s, int32_
     tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, s->x1 * s->y2 - s->x2 * s->y1, x, y);
 }
 
-#if SMEAR_SPAN_ROWS
 /* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
 struct gather {
     struct span_rows rows;
@@ -280,7 +279,6 @@ static void cover_small_rows(const struct setup *s, const struct pixel_box *box,
         gather_draw(&g, s, draw);
     }
 }
-#endif
 
 /* ------------------------------------------------------------------ small triangles */
 
@@ -319,12 +317,10 @@ static void cover_small(const struct setup *s, const struct pixel_box *box, smea
 
 /* ------------------------------------------------------------------ any triangle */
 
-#if SMEAR_SPAN_ROWS
 void smear_cover_choose(struct setup *s, bool small)
 {
-    s->rows = s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
+    s->rows = !SMEAR_SPAN_ROWS || s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
 }
-#endif
 
 void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
 {
@@ -332,16 +328,14 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         smear_flat_cover(s);
         return;
     }
-#if SMEAR_SPAN_ROWS
-    if (s->rows != NULL && small) {
+    if (SMEAR_SPAN_ROWS && s->rows != NULL && small) {
         cover_small_rows(s, box, s->rows);
         return;
     }
-    if (s->rows != NULL) {
+    if (SMEAR_SPAN_ROWS && s->rows != NULL) {
         cover_rows(s, s->rows, max_i32(box->left, 0) < s->target->x0 || min_i32(box->right, s->frame->width) > s->target->x1);
         return;
     }
-#endif
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
         write = smear_span_level;

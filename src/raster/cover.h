@@ -19,16 +19,8 @@ static inline bool cover_is_small(const struct setup *s, bool small)
 /* Does what smear_tiny_box does, and pixels that it draws have the velocity of what has no motion of its own. Velocities are there. */
 void smear_velocity_tiny(struct tiny_look *l, const struct setup *s, const struct pixel_box *box, const struct tiny_depths *depths);
 
-#if SMEAR_SPAN_ROWS
 /* Chooses what draws a triangle's rows at once; `small`: it has at most so many columns and rows. */
 void smear_cover_choose(struct setup *s, bool small);
-#else
-static inline void smear_cover_choose(struct setup *s, bool small)
-{
-    (void)s;
-    (void)small;
-}
-#endif
 
 /* Draws a triangle that is ready: gradients and planes are made, its rows chosen. The box holds its pixels in the target's
  * rows. */

@@ -6,7 +6,6 @@
 #include "kernels/flat_lines_bind.h"
 #include "kernels/gradient.h"
 #include "raster/cover.h"
-#include "raster/gradient.h"
 #include "raster/kept.h"
 
 /* Columns of its box. */
@@ -49,17 +48,12 @@ static inline struct depth_slopes depth_slopes_of(const int32_t *const v0, const
         return (struct depth_slopes){ 0, 0 };
     const int32_t x1 = v1[VERTEX_X] - v0[VERTEX_X], y1 = v1[VERTEX_Y] - v0[VERTEX_Y];
     const int32_t x2 = v2[VERTEX_X] - v0[VERTEX_X], y2 = v2[VERTEX_Y] - v0[VERTEX_Y];
-    const uint64_t area = edges_area(x1, y1, x2, y2);
+    const uint64_t area = (uint64_t)edges_area(x1, y1, x2, y2);
     const int zeros = count_leading_zeros_64(area);
     const uint32_t recip = recip_norm_precise((uint32_t)(area << zeros >> 32));
-#if GRADIENT_ARMV6M
     const int32_t edges[] = { x1, y1, x2, y2 };
-    const uint64_t both = gradients_armv6m(edges, d1, d2, recip, zeros);
+    const uint64_t both = gradients(edges, d1, d2, recip, zeros);
     const int32_t dx = (int32_t)(uint32_t)both, dy = (int32_t)(uint32_t)(both >> 32);
-#else
-    const int32_t dx = gradient_of(cross(d1, y2, d2, y1), recip, zeros);
-    const int32_t dy = gradient_of(cross(d2, x1, d1, x2), recip, zeros);
-#endif
     if ((uint32_t)dx + PLANE_STEEP > 2u * PLANE_STEEP || (uint32_t)dy + PLANE_STEEP > 2u * PLANE_STEEP)
         return (struct depth_slopes){ 0, 0 };
     return (struct depth_slopes){ dx, dy };

@@ -79,14 +79,9 @@ int32_t smear_fog_part(const struct smear_fog_levels *fog, int32_t units)
         return 0;
     if (SMEAR_WITH_VIEWS && fog->flat_depth)
         return clamp_i32(fog->base - (int32_t)(mulh_u32(fog->scale, q) >> clamp_i32(fog->shift, 0, 31)), 0, 65536);
-#if SMEAR_HAS_CLZ
-    const int zeros = count_leading_zeros(q);
-    q <<= zeros;
-#else
-    int zeros = fog->zeros;         /* few are left, as fog ends where it does */
-    for (q <<= zeros; (int32_t)q >= 0; q <<= 1)
+    int zeros = SMEAR_HAS_CLZ ? count_leading_zeros(q) : fog->zeros;        /* few are left, as fog ends where it does */
+    for (q <<= zeros; !SMEAR_HAS_CLZ && (int32_t)q >= 0; q <<= 1)
         zeros++;
-#endif
     const uint32_t over = fog->scale * ((recip_norm(q) + (1u << 13)) >> 14);        /* 1 / q = r 2^(zeros - 61) */
     return clamp_i32((int32_t)(over >> clamp_i32(fog->shift - zeros, 1, 31)) - fog->base, 0, 65536);
 }

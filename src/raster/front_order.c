@@ -7,7 +7,6 @@
  * reaches its levels, so that those two stay in order. */
 #include "raster/front_order.h"
 
-#if SMEAR_FRONT_ORDER
 
 #include "base/fixmath.h"
 #include "kernels/hidden_box.h"
@@ -178,4 +177,3 @@ bool smear_front_hides(const struct smear_raster_frame *frame, const struct smea
     return hidden_box((const pixel_word *)(const void *)(depth + even), rows->stride >> 1, (right - even + 1) >> 1, bottom - top, half);
 }
 
-#endif

@@ -8,29 +8,20 @@
 
 #include "kernels/gradient.h"
 #include "raster/fog.h"
-#include "raster/gradient.h"
 
 /* ------------------------------------------------------------------ gradients */
 
-#if GRADIENT_ARMV6M
 SMEAR_STATIC_ASSERT(offsetof(struct setup, y1) == offsetof(struct setup, x1) + 4
                         && offsetof(struct setup, x2) == offsetof(struct setup, x1) + 8
                         && offsetof(struct setup, y2) == offsetof(struct setup, x1) + 12,
-                    "the assembly knows the edges");
-#endif
+                    "kernels know the edges");
 
 static inline uint64_t product_u32(uint32_t a, uint32_t b)
 {
-#if SMEAR_HAS_MUL64
-    return (uint64_t)a * b;
-#else
+    if (SMEAR_HAS_MUL64)
+        return (uint64_t)a * b;
     return (uint64_t)mulh_u32(a, b) << 32 | a * b;
-#endif
 }
-
-#if !GRADIENT_ARMV6M
-static int32_t gradient(int64_t n, uint32_t recip, int area_zeros) { return gradient_of(n, recip, area_zeros); }
-#endif
 
 /* Slopes from the differences along the two edges; none beyond `steep`: a plane so steep has no exact pixels, its triangle is a
  * sliver. */
@@ -39,13 +30,8 @@ static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int
     p->dx = p->dy = 0;
     if ((d1 | d2) == 0)
         return;
-#if GRADIENT_ARMV6M
-    const uint64_t both = gradients_armv6m(&s->x1, d1, d2, s->area_recip, s->area_zeros);
+    const uint64_t both = gradients(&s->x1, d1, d2, s->area_recip, s->area_zeros);
     const int32_t dx = (int32_t)(uint32_t)both, dy = (int32_t)(uint32_t)(both >> 32);
-#else
-    const int32_t dx = gradient(cross(d1, s->y2, d2, s->y1), s->area_recip, s->area_zeros);
-    const int32_t dy = gradient(cross(d2, s->x1, d1, s->x2), s->area_recip, s->area_zeros);
-#endif
     if (dx <= steep && dx >= -steep && dy <= steep && dy >= -steep) {
         p->dx = dx;
         p->dy = dy;

@@ -10,6 +10,7 @@
 
 #include "base/fixmath.h"
 #include "base/tables.h"
+#include "kernels/kernels.h"
 
 struct plane {
     int32_t at;             /* at the centre of pixel (0, 0) of the frame, modulo 2^32 */
@@ -20,11 +21,6 @@ static inline int32_t plane_at(const struct plane *p, int32_t x, int32_t y)
 {
     return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
-
-/* A polynomial of x and y, modulo 2^32. */
-struct curve {
-    int32_t at, dx, dy, dxx, dxy, dyy;
-};
 
 /* smear.h, smear_depth_units */
 enum depth_slope {
@@ -213,17 +209,6 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
 /* A plane through three values; values and their differences fit 32 bits. */
 void smear_plane_make(const struct setup *s, struct plane *p, int32_t a0, int32_t a1, int32_t a2);
 
-/* Twice the area between two edges, q16. */
-static inline uint64_t edges_area(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
-{
-#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
-    const uint32_t small = 1 << 15;
-    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
-        return (uint32_t)(x1 * y2) - (uint32_t)(x2 * y1);       /* positive: fits */
-#endif
-    return (uint64_t)((int64_t)x1 * y2 - (int64_t)x2 * y1);
-}
-
 /* Finds the edge vectors. Returns twice the area, q16. */
 static inline uint64_t setup_edges(struct setup *s)
 {
@@ -231,7 +216,7 @@ static inline uint64_t setup_edges(struct setup *s)
     s->y1 = s->v[1][VERTEX_Y] - s->v[0][VERTEX_Y];
     s->x2 = s->v[2][VERTEX_X] - s->v[0][VERTEX_X];
     s->y2 = s->v[2][VERTEX_Y] - s->v[0][VERTEX_Y];
-    return edges_area(s->x1, s->y1, s->x2, s->y2);
+    return (uint64_t)edges_area(s->x1, s->y1, s->x2, s->y2);
 }
 
 /* Makes gradients and planes of a triangle whose edges are known, but for its velocity. */

@@ -32,27 +32,14 @@ static inline int32_t weigh(struct beyond b, int32_t g1, int32_t g2)
 }
 
 /* floor(a g / 2^15), modulo 2^32. */
-#if SMEAR_HAS_MUL64
-static inline int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
-#else
-static SMEAR_NOINLINE int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
-#endif
-
-/* What is called where products of 64 bits take many instructions. */
-#if SMEAR_HAS_MUL64
-#define SLOPE_CALL inline
-#else
-#define SLOPE_CALL SMEAR_NOINLINE
-#endif
+static SMEAR_PRODUCT_CALL int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
 
 /* The same for |g| <= 2^16. */
 static inline int32_t part_of_q15(int32_t a, int32_t g)
 {
-#if SMEAR_HAS_MUL64
-    return part_q15(a, g);
-#else
+    if (SMEAR_HAS_MUL64)
+        return part_q15(a, g);
     return add_wrap(mul_wrap(a >> 15, g), (a & 0x7fff) * g >> 15);
-#endif
 }
 
 /* (frac q8) x slope / 256, floor. */
@@ -70,7 +57,7 @@ static void place(struct plane *p, const struct setup *s, int32_t a0)
 }
 
 /* One edge component over the area, q15. recip: 2^61 / (area << up). */
-static SLOPE_CALL int32_t slope(int32_t edge, int32_t recip, int down)
+static SMEAR_PRODUCT_CALL int32_t slope(int32_t edge, int32_t recip, int down)
 {
     return (mulh_i32(edge * (1 << 18), recip) + (1 << down >> 1)) >> down;
 }

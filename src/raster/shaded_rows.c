@@ -3,9 +3,7 @@
  * that are polynomials. The same pixels as those of span.c. */
 #include "raster/texture_rows.h"
 
-#if SMEAR_SHADED_ROWS
 #include "kernels/texels_shade.h"
-#include "raster/texture_curves.h"
 
 static bool is_white(const struct setup *s)
 {
@@ -87,4 +85,3 @@ smear_rows_fn *smear_shaded_rows_choose(const struct setup *s)
         return is_white(s) ? rows_white_linear : rows_colored_linear;
     return is_white(s) ? rows_white : rows_colored;
 }
-#endif

@@ -5,13 +5,13 @@
 #include "raster/texture_rows.h"
 
 #include "kernels/texel_blocks_armv7em.h"
+#include "kernels/texel_curves_armv6m.h"
+#include "kernels/texel_curves_armv7em.h"
 #include "kernels/texels_draw.h"
 #include "raster/fog.h"
 #include "raster/texcoord.h"
-#include "raster/texture_curves.h"
 #include "raster/texture_track.h"
 
-#if SMEAR_SPAN_ROWS
 
 /* ------------------------------------------------------------------ runs */
 
@@ -264,12 +264,10 @@ SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2
         texel_blocks(k, blocks, rest - (blocks << k->log2), log2_width, log2_height);
         return;
     }
-#if TEXELS_LANES
-    if (!texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
+    if (TEXELS_LANES && !texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
         texels_row_lanes(k, rest, log2_width, log2_height, kind);
         return;
     }
-#endif
     for (int32_t n = block; rest > 0;) {
         if (rest > block) {
             track_block(k);
@@ -376,6 +374,23 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
 
 /* ------------------------------------------------------------------ polynomials */
 
+/* Whole rows of copied texels. */
+SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
+{
+    const struct smear_raster_target *target = s->target;
+    const struct texture_setup *t = &s->texture;
+    struct texel_curve_rows rows = {
+        .side = r->side, .count = r->count, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
+        .depth = target->depth + r->at, .x0 = t->x0, .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .stride = 2 * target->window_rows.stride, .u = t->curve[0], .v = t->curve[1],
+        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
+        .to_depth = (int32_t)((uintptr_t)target->depth - (uintptr_t)target->direct), .texels = s->draw->sampler.texels
+    };
+    rows.ddu = 2 * (uint32_t)rows.u.dxx;
+    rows.ddv = 2 * (uint32_t)rows.v.dxx;
+    texel_curve_rows_draw(&rows, log2_width, log2_height);
+}
+
 /* A row, in pieces of one light. p: its first run, where that is not all of it; else null. */
 SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, int32_t row, struct texel_run *run,
                              struct row_run *p, int log2_width, int log2_height, enum texel_kind kind)
@@ -440,7 +455,6 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     }
 }
 
-#if TEXEL_TABLES
 /* Whether rows have so many pixels that a table for their light is worth it, of 32 and 64 levels. */
 static bool rows_are_many(const struct span_rows *r)
 {
@@ -452,13 +466,11 @@ static bool rows_are_many(const struct span_rows *r)
 
 #define LIGHT_TABLE(LIGHT, R) \
     struct texel_table table; \
-    if (!(SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) && (LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 && rows_are_many(R)) { \
+    if (TEXEL_TABLES && !(SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) && (LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 \
+        && rows_are_many(R)) { \
         smear_texel_light_table(&table, &(LIGHT)); \
         (LIGHT).table = &table; \
     }
-#else
-#define LIGHT_TABLE(LIGHT, R) (void)(R);
-#endif
 
 #define BLOCK_ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
     static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
@@ -503,7 +515,6 @@ ROWS(wide_64, 6, 6, TEXELS_WIDE)
 ROWS(wide_128, 7, 7, TEXELS_WIDE)
 ROWS(wide_256, 8, 8, TEXELS_WIDE)
 LIT_ROWS(lit, TEXELS_LIT)
-#if SMEAR_DIRECT
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
 /* Of whole rows there may be a kernel; others are few then. */
 #define NARROW_ROWS(NAME, LOG2_SIZE) \
@@ -521,7 +532,6 @@ NARROW_ROWS(narrow_64, 6)
 NARROW_ROWS(narrow_128, 7)
 NARROW_ROWS(narrow_256, 8)
 LIT_ROWS(lit_narrow, TEXELS_LIT_NARROW)
-#endif
 
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
                          : (T)->width == 128 ? KIND##_128 : (T)->width == 256 ? KIND##_256 : KIND##_any)
@@ -532,6 +542,8 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
 {
     const struct smear_sampler *t = &s->draw->sampler;
     const bool narrow = target_is_direct(s->target), is_curved = s->texture.mode == TEXTURE_CURVED;
+    if (!SMEAR_SPAN_ROWS)
+        return NULL;
     if (s->segment->uv == 0)
         return choose_untextured(s);
     if (s->draw->alpha != SMEAR_OPAQUE || !t->turns || t->log2_width == 0
@@ -541,18 +553,13 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     if (!copied || fog_of(s) != FOG_NONE) {
         if (segment_gouraud(s->segment) && !s->even_color)
             return SMEAR_SHADED_ROWS && fog_of(s) == FOG_NONE ? smear_shaded_rows_choose(s) : NULL;
-#if SMEAR_DIRECT
-        if (narrow)
+        if (SMEAR_DIRECT && narrow)
             return is_curved ? curves_lit_narrow : rows_lit_narrow;
-#endif
         return is_curved ? curves_lit : rows_lit;
     }
-#if SMEAR_DIRECT
-    if (narrow)
+    if (SMEAR_DIRECT && narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
-#endif
     if (!WIDE_SIZES)
         return is_curved ? curves_wide_any : rows_wide_any;
     return is_curved ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
 }
-#endif

@@ -7,7 +7,6 @@
 #include "raster/texcoord.h"
 #include "raster/texture_rows.h"
 
-#if SMEAR_SPAN_ROWS
 /* On Cortex-M0+ a pointer of its own: members lie too far from the setup's start for its loads. */
 static inline const struct texture_setup *texture_of(const struct setup *s)
 {
@@ -71,6 +70,5 @@ TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setu
     k->v = plane_at(&t->uv[1], x, y);
     k->place = place_at(t, t->mode, NULL, k->q, k->u, k->v, true);
 }
-#endif
 
 #endif

@@ -104,13 +104,7 @@ static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int3
 {
     const int32_t x1 = b[VERTEX_X] - a[VERTEX_X], y1 = b[VERTEX_Y] - a[VERTEX_Y];
     const int32_t x2 = c[VERTEX_X] - a[VERTEX_X], y2 = c[VERTEX_Y] - a[VERTEX_Y];
-#if !SMEAR_HAS_MUL64
-    const uint32_t small = 1 << 15;
-    if ((((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small))
-        < 2 * small)
-        return x1 * y2 <= x2 * y1;
-#endif
-    return (int64_t)x1 * y2 <= (int64_t)x2 * y1;
+    return edges_area(x1, y1, x2, y2) <= 0;
 }
 
 /* Finds the box of the vertices within the tiles. False where it is empty, or they are turned away. */

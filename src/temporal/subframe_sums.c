@@ -70,14 +70,9 @@ void smear_subframe_sums_add(const struct subframes *f, const struct subframe_bo
             smear_light_add(color, background, sums, n, &light, f->blends);
             continue;
         }
-#if PACKED_SETS
-        if (sets) {
+        if (PACKED_SETS && sets)
             smear_packed_set(color, background, sums, n);
-            continue;
-        }
-#else
-        (void)sets;
-#endif
-        smear_packed_add(color, background, sums, n, f->blends);
+        else
+            smear_packed_add(color, background, sums, n, f->blends);
     }
 }

@@ -24,7 +24,6 @@ struct look_sums {
     uint32_t along, beside, moving;
 };
 
-#if DIFFERENCES_ASM_ARMV6M
 /* Returns 1 where rows of the tiles have the pixels that lie dy farther, -1 where those as much nearer, 0 where neither. */
 static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int32_t dy)
 {
@@ -54,34 +53,6 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
     }
     return sum;
 }
-#else
-/* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
- * the tiles. */
-static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
-{
-    const struct smear_raster_target *s = &f->t->background;
-    const int32_t pitch = f->t->pitch;
-    uint32_t sum = 0;
-    for (int32_t y = l->first; y < l->y1; y += 2) {
-        int32_t x = dx, down = dy;
-        if (y + down < s->y0 || y + down >= s->y1) {
-            x = -x;
-            down = -down;
-            if (y + down < s->y0 || y + down >= s->y1)
-                continue;
-        }
-        const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
-        const int32_t at = (y - s->y0) * pitch - s->x0 + first, behind = target_row(&s->color_rows, s, y) + first;
-        if (n <= 0)
-            continue;
-        const struct difference_rows rows = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
-                                              down * pitch + x,
-                                              target_row(&s->color_rows, s, y + down) + first + x - behind };
-        sum += differences_reference(&rows, n, moving);
-    }
-    return sum;
-}
-#endif
 
 static bool is_slant(const struct look *l) { return l->dx != 0 && l->dy != 0 && abs_i32(l->dx) != abs_i32(l->dy); }
 

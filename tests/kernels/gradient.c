@@ -40,39 +40,20 @@ static void prepare(struct kernel_call *c)
     }
 }
 
-/* n 2^8 / area to nearest, in so many of its bits as 31 hold. */
-static int32_t gradient(int64_t n, uint32_t recip, int area_zeros)
-{
-    if (n == 0)
-        return 0;
-    const uint64_t size = n < 0 ? 0u - (uint64_t)n : (uint64_t)n;
-    const int zeros = count_leading_zeros_64(size);
-    const int32_t g = mulh_i32((int32_t)(size << zeros >> 33), (int32_t)recip);
-    const int32_t scaled = scale_sat(g, clamp_i32(area_zeros - zeros - 20, -31, 31));
-    return n < 0 ? -scaled : scaled;
-}
-
-static void reference(struct kernel_call *c)
-{
-    int32_t *out = c->plane[1];
-    for (int32_t i = 0; i < c->n; i++) {
-        const int32_t *w = (const int32_t *)c->plane[0] + WORDS * i;
-        out[2 * i] = gradient((int64_t)w[D1] * w[Y2] - (int64_t)w[D2] * w[Y1], (uint32_t)w[RECIP], w[ZEROS]);
-        out[2 * i + 1] = gradient((int64_t)w[D2] * w[X1] - (int64_t)w[D1] * w[X2], (uint32_t)w[RECIP], w[ZEROS]);
+#define GRADIENTS(NAME) \
+    static void NAME(struct kernel_call *c) \
+    { \
+        int32_t *out = c->plane[1]; \
+        for (int32_t i = 0; i < c->n; i++) { \
+            const int32_t *w = (const int32_t *)c->plane[0] + WORDS * i; \
+            const uint64_t both = gradients_##NAME(w, w[D1], w[D2], (uint32_t)w[RECIP], w[ZEROS]); \
+            out[2 * i] = (int32_t)(uint32_t)both; \
+            out[2 * i + 1] = (int32_t)(uint32_t)(both >> 32); \
+        } \
     }
-}
-
+GRADIENTS(reference)
 #if GRADIENT_ARMV6M
-static void armv6m(struct kernel_call *c)
-{
-    int32_t *out = c->plane[1];
-    for (int32_t i = 0; i < c->n; i++) {
-        const int32_t *w = (const int32_t *)c->plane[0] + WORDS * i;
-        const uint64_t both = gradients_armv6m(w, w[D1], w[D2], (uint32_t)w[RECIP], w[ZEROS]);
-        out[2 * i] = (int32_t)(uint32_t)both;
-        out[2 * i + 1] = (int32_t)(uint32_t)(both >> 32);
-    }
-}
+GRADIENTS(armv6m)
 #endif
 
 extern const struct kernel kernels_gradient[];

@@ -122,7 +122,7 @@ CALLS(armv6m)
 enum { STRIDE = 35 };
 
 static struct span_side sides[4];
-static struct texel_polynomial polynomials[2];
+static struct curve polynomials[2];
 
 /* Rows of pixels within the stride, some of none. */
 static void curves_prepare(struct kernel_call *c)
@@ -133,8 +133,8 @@ static void curves_prepare(struct kernel_call *c)
         sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
     }
     for (int i = 0; i < 2; i++)
-        polynomials[i] = (struct texel_polynomial){ kernel_random(), kernel_random(), kernel_random(), kernel_random() >> 12,
-                                                    kernel_random(), kernel_random() };
+        polynomials[i] = (struct curve){ (int32_t)kernel_random(), (int32_t)kernel_random(), (int32_t)kernel_random(),
+                                         (int32_t)(kernel_random() >> 12), (int32_t)kernel_random(), (int32_t)kernel_random() };
 }
 
 SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int))

@@ -16,8 +16,10 @@ if grep -n '^#include "' include/*.h | grep -v -e '"smear[a-z_]*\.h"'; then
     exit 1
 fi
 if [ $mode = check ]; then
-    if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*(__ARM|SMEAR_ASM|__thumb|__wasm__|OPTIMIZE_SIZE|SMALL_(CODE|FILE)|SMEAR_ON_|__SSE|__NEON|__x86|__arm)" src |
-        grep -v '^src/kernels/'; then
+    machine="_ARM|SMEAR_ASM|__thumb|__wasm__|OPTIMIZE_SIZE|SMALL_(CODE|FILE)|SMEAR_ON_|__SSE|__NEON|__x86|__arm|UINTPTR_MAX|SMEAR_HAS_"
+    machine="$machine|SMEAR_(VECTORS|PLACES|RANGES|DIRECT|ONE_COPY|RASTER_CACHE|FRONT_ORDER|FIND_FLAT|LIGHT_IS_DEAR|SHADES_FACES|SHARP_APART|ASSEMBLY_JOBS|[A-Z]+_ROWS|ROWS_AT_ONCE)"
+    machine="$machine|(TEXEL|PACKED|GRADIENT|PATH|DIFFERENCES|PRODUCTS)[A-Z]*_"
+    if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*($machine)" src | grep -vE '^src/kernels/|_H$'; then
         echo "layers: above src/kernels a plain if asks for what bind.h says of the machine"
         exit 1
     fi
