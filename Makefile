@@ -419,7 +419,7 @@ proofs: build/proofs/reciprocals build/proofs/polygons
 	sh tests/proofs/proofs.sh $^ $(STEP)
 
 build/proofs/reciprocals: src/base/fixmath.h src/base/fixed.h
-build/proofs/polygons: src/geometry/clip.c src/geometry/clip.h src/geometry/transform.c src/base/fixmath.h src/base/fixed.h
+build/proofs/polygons: src/geometry/clip.c src/geometry/clip.h src/geometry/matrix.c src/base/fixmath.h src/base/fixed.h
 build/proofs/%: tests/proofs/%.c src/base/tables.c
 	$(call say,CC,$<)
 	@mkdir -p $(@D)

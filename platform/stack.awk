@@ -19,7 +19,6 @@ BEGIN {
     if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
     is_callback["src/display/row.h"] = is_callback["src/display/band.c"] = is_callback["src/methods/sharp.c"] = 1
-    is_callback["src/methods/sharp_apart.c"] = 1
 }
 function field(name,    text) {
     if (!match($0, name ": \"[^\"]*\""))

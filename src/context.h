@@ -8,7 +8,6 @@
 
 #include "display/damage.h"
 #include "geometry/assemble.h"
-#include "geometry/history.h"
 #include "geometry/pose.h"
 #include "methods/temporal.h"
 

@@ -3,7 +3,7 @@
 #include "draws.h"
 
 #include "base/compiled.h"
-#include "geometry/assemble_path.h"
+#include "geometry/assemble.h"
 #include "geometry/parts.h"
 #include "geometry/ranges.h"
 

@@ -1,8 +1,70 @@
 /* SPDX-License-Identifier: MIT */
 /* draws_prepare.c - what the frame's draws are, before any is assembled: which of them move, and how they look. */
-#include "draws.h"
-
 #include "base/compiled.h"
+#include "context.h"
+#include "draws.h"
+#include "geometry/pose.h"
+#include "geometry/ranges.h"
+
+/* ------------------------------------------------------------------ curves */
+
+/* Makes the track of a draw. Returns false where it has no motion of its own. */
+static bool find_track(struct smear_track *track, const struct smear_context *c, struct smear_submitted *s)
+{
+    const smear_draw *d = &s->draw;
+    *track = (struct smear_track){ { &s->pose[0], &s->pose[1], &s->pose[2] }, d->close != NULL,
+                                   d->path != SMEAR_PATH_DEFAULT ? d->path : c->shot.path, c->shot.object_scale };
+    return d->open != NULL && !d->cut && d->motion == SMEAR_MOTION_FULL;
+}
+
+/* Whether layers of the frame may have cameras of their own. */
+static bool has_cameras(const struct smear_context *c)
+{
+    return SMEAR_WITH_LAYERS && smear_method_has_layers(c->frame.method);
+}
+
+static bool frame_is_curved(struct smear_context *c)
+{
+    struct smear_track track;
+    bool curved = c->shot.camera_moves && smear_cameras_are_curved(&c->shot, c->shot.camera, c->shot.has_older);
+    for (uint32_t i = 0; i < c->draw_count && !curved; i++)
+        curved = (find_track(&track, c, &c->submitted[i]) && smear_track_is_curved(&track))
+              || (SMEAR_WITH_DEFORM && smear_draw_bends(&c->submitted[i].draw, &c->shot));
+    return curved || (has_cameras(c) && smear_layers_are_curved(c));
+}
+
+/* What stays where it is before the camera does so at every moment, whatever the curves of both are. */
+static void find_attached(struct smear_context *c)
+{
+    struct smear_submitted *s = c->submitted;
+    struct smear_track track;
+    for (uint32_t i = 0; c->shot.camera_moves && i < c->draw_count; i++, s++)
+        if (find_track(&track, c, s) && s->draw.open_position == NULL && track.scale == 256
+            && smear_pose_is_attached(&s->pose[1], &c->shot.camera[1], &s->pose[0], &c->shot.camera[0]))
+            s->draw.motion = SMEAR_MOTION_NONE;
+}
+
+void smear_draws_find_curves(struct smear_context *c)
+{
+    struct smear_track track;
+    if (!SMEAR_WITH_CURVES || c->frame.method == SMEAR_NONE || c->shot.shutter_poses || c->shot.cut || !frame_is_curved(c))
+        return;
+    c->shot.curved = true;
+    find_attached(c);
+    if (c->shot.camera_moves)
+        smear_cameras_bend(&c->shot, c->shot.camera, c->shot.has_older);
+    if (has_cameras(c))
+        smear_layers_bend(c);
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        struct smear_submitted *s = &c->submitted[i];
+        if (!SMEAR_WITH_DEFORM || !smear_draw_bends(&s->draw, &c->shot))
+            s->draw.close_position = NULL;
+        if (!find_track(&track, c, s))
+            continue;
+        smear_track_bend(&track, &c->shot);
+        s->draw.close = &s->pose[2];
+    }
+}
 
 /* Finds, where velocities come from depth, whether a draw has one of its own, or stays where it is before the camera. */
 static void find_own_motion(struct smear_raster_draw *r, const struct smear_draw_poses *p, uint8_t motion)
@@ -87,4 +149,132 @@ void smear_draws_place_points(struct smear_context *c, int32_t from, int32_t to)
     const struct smear_instant close = still ? smear_instant_now : smear_instant_at(&c->shot, to);
     smear_points_place(&c->rows, &c->shot, &open, &close);
 }
+#endif
+
+/* ------------------------------------------------------------------ where triangles are seen, when the store is too small */
+
+/* Makes ranges as short as it pays, and as a part of the pool has room for the boxes of. Returns how many there are; 0 where the
+ * draws alone are too many. */
+static uint32_t cut_ranges(const struct smear_context *c, struct smear_bins *g)
+{
+    enum { PATHS_SHIFT = 5, STILL_SHIFT = 7, POOL_PART = 8 };       /* triangles without a path cost less than to begin a range */
+    const uint32_t most = (g->pool_words - POOL_WORDS_LEAST) / POOL_PART;
+    uint32_t n = c->draw_count;
+    for (g->range_shift = assembler_keeps_paths(&c->assembler) ? PATHS_SHIFT : STILL_SHIFT; c->draw_count <= most; g->range_shift++) {
+        n = 0;
+        for (uint32_t i = 0; i < c->draw_count; i++)
+            n += ranges_of(g, c->submitted[i].draw.mesh->triangle_count);
+        if (n <= most)
+            return n;
+    }
+    return 0;
+}
+
+void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant *instant)
+{
+    struct smear_assembler as = c->assembler;
+    struct smear_bins *g = as.bins;
+    if (!SMEAR_RANGES || bins_kept(g) != 0 || frame_has_layers(c) || frame_has_pictures(c))      /* of which each has others */
+        return;
+    g->kept_words = cut_ranges(c, g);
+    struct smear_tile_box *box = ranges_all(g);
+    if (box == NULL)
+        return;
+    uint32_t beside = 0;
+    as.damaged = NULL;
+    as.ranges = NULL;
+    as.path_x0 = 0;
+    as.path_x1 = INT16_MAX;
+    for (uint32_t i = 0; i < c->draw_count; i++) {
+        const uint32_t n = ranges_of(g, c->submitted[i].draw.mesh->triangle_count);
+        struct smear_assembly a;
+        for (uint32_t k = 0; k < n; k++)
+            box[k] = tile_box_none();
+        if (smear_draws_make_assembly(c, i, instant, &a))
+            smear_ranges_find(&as, &a, box);
+        else
+            beside++;
+        box += n;
+    }
+    c->stats.draws_beside += beside;
+    c->assembler.triangles_dropped = as.triangles_dropped;
+    c->assembler.serial = as.serial;
+    c->assembler.cache_has_paths = as.cache_has_paths;
+}
+
+/* ------------------------------------------------------------------ what is damaged */
+
+#if SMEAR_WITH_DAMAGE
+
+void smear_draws_begin_damage(struct smear_context *c)
+{
+    struct smear_damage *d = c->damage;
+    if (d != NULL && d->compares != COMPARES_NEVER)
+        d->compares = c->frame.method == SMEAR_NONE ? COMPARES_THIS : COMPARES_OTHERS;
+    if (!smear_method_is_temporal(c->frame.method) && !damage_compares(d))
+        damage_forget(d);
+}
+
+void smear_draws_end_damage(struct smear_context *c, int result)
+{
+    if (result == SMEAR_OK && c->damage != NULL && (c->frame.method != SMEAR_NONE || damage_compares(c->damage)))
+        smear_damage_end(c->damage, &c->rows, c->frame.method != SMEAR_NONE && c->assembler.path_static_count != 0);
+}
+
+/* Finds out whether all that the frame's draws share is the last frame's; `with_static`: and what does not move. */
+static void begin_damage(struct smear_context *c, bool with_static)
+{
+    struct smear_damage *d = c->damage;
+    const uint8_t kind = (uint8_t)(c->frame.light_space | c->frame.edges << 1 | damage_compares(d) << 7);
+    smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, kind, &c->sun);
+    for (uint32_t i = 0; with_static && i < c->draw_count; i++)
+        if (!c->raster_draw[i].moves)
+            smear_damage_add(d, &c->submitted[i].draw);
+    smear_damage_find(d, &c->rows, c->frame.refresh);
+    if (SMEAR_OVERLAY_MOST)
+        smear_damage_find_overlay(d, &c->rows);
+    if (damage_has_tiles(d))
+        c->assembler.damaged = &d->tiles;
+}
+
+void smear_draws_find_damage(struct smear_context *c)
+{
+    if (c->damage == NULL)
+        return;
+    begin_damage(c, true);
+    c->assembler.path_static_count = 0;
+}
+
+static struct smear_tile_box tiles_of_draw(const struct smear_context *c, uint32_t i)
+{
+    const smear_draw *draw = &c->submitted[i].draw;
+    struct smear_draw_poses poses;
+    struct smear_placement at;
+    smear_draw_poses_make(&poses, &c->shot, draw, NULL);
+    smear_draw_poses_place(&at, &poses, &c->shot, draw->mesh, &smear_instant_now);
+    return smear_vertex_tiles(&at, draw->mesh, &c->assembler.viewport, &c->damage->tiles);
+}
+
+/* All damaged tiles are known before the first draw is assembled: draws that changed are seen within their bounds. Where exactly,
+ * their triangles tell for the next frame, but not where cores assemble parts of whole frames. */
+void smear_draws_find_changes(struct smear_context *c)
+{
+    struct smear_damage *d = c->damage;
+    if (!damage_compares(d))
+        return;
+    begin_damage(c, false);
+    const bool in_parts = !d->is_same && c->rows.jobs.workers > 1;
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        if (smear_damage_compare(d, &c->submitted[i].draw, i)) {
+            const struct smear_tile_box none = tile_box_none(), box = d->is_same || in_parts ? tiles_of_draw(c, i) : none;
+            smear_damage_move(d, i, &box, c->desc.reuse.buffer_age);
+            if (!in_parts)
+                damage_draws(d)[i].box = none;
+        }
+    smear_damage_drop(d, c->draw_count, &c->desc);
+    d->tiles.only = d->is_same;
+    if (in_parts)
+        c->assembler.damaged = NULL;
+}
+
 #endif

@@ -3,6 +3,7 @@
 #ifndef SMEAR_FRAME_H
 #define SMEAR_FRAME_H
 
+#include "base/base.h"
 #include "context.h"
 
 /* Draws what was submitted and hands it to flush. Returns SMEAR_OK, or what flush returned if negative. */
@@ -15,5 +16,9 @@ void smear_frame_keep(struct smear_context *c, const smear_frame *f);
  * come from depth. */
 void smear_frame_prepare(struct smear_context *c, bool by_depth);
 void smear_frame_sum_up(struct smear_context *c);
+
+/* Measures or cuts all that a context needs beside itself; `c` receives the addresses, which mean nothing while
+ * measuring. The desc is valid, its defaults filled in. */
+void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layout.c - see layout.h. smear_memory.h has the same sum of usual descs as a constant. */
-#include "layout.h"
+/* layout.c - cuts a context's memory. smear_memory.h has the same sum of usual descs as a constant. */
+#include "frame.h"
 
 #include "smear_memory.h"
 

@@ -7,14 +7,13 @@
 
 #include "smear.h"
 
-#include "base/arena.h"
 #include "base/base.h"
 
 struct smear_assembly;
 struct smear_context;
 struct smear_instant;
 
-/* Lay out what the method needs of a context's memory: layout.h. */
+/* Lay out what the method needs of a context's memory: layout.c. */
 void smear_accumulate_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 void smear_filtered_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 void smear_layers_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);

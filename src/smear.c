@@ -3,12 +3,10 @@
 #include "frame.h"
 
 #include "base/compiled.h"
-#include "layout.h"
 #include "others.h"
 #include "raster/fog.h"
 #include "validate.h"
 
-#include "base/compiled.h"
 #include "smear_overlay.h"
 
 /* ------------------------------------------------------------------ memory */

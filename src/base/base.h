@@ -90,4 +90,17 @@ static inline int32_t clamp_i32(int32_t a, int32_t low, int32_t high)
     return a < low ? low : a > high ? high : a;
 }
 
+struct smear_arena {
+    uint8_t *memory;            /* 8-byte aligned, or null to measure */
+    size_t used;
+};
+
+/* Takes the next `count` x `size` bytes, 8-byte aligned; returns null while measuring. */
+static inline void *arena_take(struct smear_arena *a, size_t count, size_t size)
+{
+    void *block = a->memory != NULL ? a->memory + a->used : NULL;
+    a->used += (count * size + 7u) & ~(size_t)7u;
+    return block;
+}
+
 #endif

@@ -3,10 +3,30 @@
 #ifndef SMEAR_BAND_H
 #define SMEAR_BAND_H
 
-#include "display/diffuse.h"
-#include "display/doubled.h"
+#include "smear.h"
+
+#include "base/base.h"
 #include "display/pixel_format.h"
 #include "display/row.h"
+
+static inline bool is_doubled(const smear_desc *d)
+{
+    return SMEAR_WITH_DISPLAY && d->display.doubled != SMEAR_DOUBLED_NONE;
+}
+
+/* Return how many columns or rows of the display so many of the picture are. */
+static inline int32_t doubled_x(const smear_desc *d, int32_t columns)
+{
+    return SMEAR_WITH_DISPLAY ? columns << (d->display.doubled & SMEAR_DOUBLED_X) : columns;
+}
+
+static inline int32_t doubled_y(const smear_desc *d, int32_t rows)
+{
+    return SMEAR_WITH_DISPLAY ? rows << (d->display.doubled >> 1) : rows;
+}
+
+/* Doubles finished pixels of a band in place. The buffer has room for what comes of them. */
+void smear_double_band(uint8_t *pixels, int32_t width, int32_t rows, smear_format format, int doubled);
 
 /* Returns what tiles are converted to. */
 static inline smear_format drawn_format(const smear_desc *d)

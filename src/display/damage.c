@@ -6,7 +6,7 @@
  * texels only by their place (smear_frame.refresh). */
 #include "display/damage.h"
 
-#include "display/overlay.h"
+#include "display/points.h"
 
 #if SMEAR_WITH_DAMAGE
 

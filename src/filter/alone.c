@@ -3,9 +3,8 @@
 #include "filter/filtered.h"
 
 #include "smear_overlay.h"
-#include "faults.h"
-#include "frame.h"
 #include "validate.h"
+#include "frame.h"
 
 #if SMEAR_WITH_RECONSTRUCT
 /* Returns the depth code of a distance in q16: near NEAR / distance in units, then the two slopes. */

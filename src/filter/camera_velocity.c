@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* camera_velocity.c - one pass over the depth codes of a row, whatever is drawn there. */
-#include "filter/camera_velocity.h"
+#include "filter/filter.h"
 
-#include "raster/velocity.h"
 
 static inline bool is_unknown(const struct smear_window *w, int32_t at)
 {

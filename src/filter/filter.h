@@ -6,10 +6,24 @@
 #ifndef SMEAR_FILTER_H
 #define SMEAR_FILTER_H
 
-#include "base/noise.h"
-#include "base/tables.h"
-#include "raster/window.h"
 #include "smear.h"
+
+#include "base/base.h"
+#include "base/fixed.h"
+#include "base/tables.h"
+#include "geometry/reproject.h"
+#include "raster/window.h"
+
+/* Interleaved gradient noise [Jimenez14]: frac(52.9829189 frac(0.06711056 x + 0.00583715 y)). The inner factors in q32; adding them
+ * steps from pixel to pixel. */
+#define NOISE_X 288237660u
+#define NOISE_Y 25070368u
+
+/* Returns the noise, q16. The outer factor is 53 - 0.0170811, 35822 in q21. */
+static inline uint32_t noise_of(uint32_t inner)
+{
+    return (inner * 53u - ((inner >> 16) * 35822u >> 5)) >> 16;
+}
 
 struct smear_blur_settings {
     bool linear;                /* average linear light, else codes */
@@ -77,5 +91,53 @@ uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const s
 /* Copies a tile that nothing moves in. */
 void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
                      int32_t column);
+
+/* Reduces the velocities of tile `column` of tile row `row`. */
+void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column);
+
+/* Finds the 3 x 3 neighbourhood of every tile in `row`, where rows up to `known` have been reduced: the row being
+ * finished knows all three, the one below it is looked at with two. With `corner`, a diagonal neighbour counts only if
+ * its motion points along the diagonal [Guertin14]. Where the reach exceeds a tile, all tiles within it count whose
+ * motion leads here. */
+void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t known, bool corner);
+
+/* A window at half the size, with colour, depth and velocity of 2 x 2 pixels each, and its result at full
+ * size.
+ *
+ * A filter runs in it as in any window, on a quarter of the pixels, with half the reach. Its result is blended with the
+ * frame by how fast each pixel moves: a static pixel keeps all its detail, bit for bit, but gets what the blur changes
+ * there; a moving one gets the blur and, of the detail within 2 x 2 pixels, keeps what lies across its motion. */
+
+/* Fills tile `column` of tile row `row` from the window of the whole frame: with the mean colour (of linear light, or
+ * of codes) and with the depth and velocity of the nearest pixel. */
+void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row,
+                       int32_t column, bool linear);
+
+/* Writes the tile of the whole frame to `out`, rows full->tile apart: `blurred` is the
+ * tile of half the size, rows half->tile apart. */
+void smear_half_blend(uint32_t *out, const uint32_t *blurred, const struct smear_window *half,
+                      const struct smear_window *full, int32_t row, int32_t column);
+
+/* How velocities are stored, as in struct smear_raster_frame. */
+struct smear_camera_store {
+    int32_t velocity_scale, inspect_scale, reach_q3;
+    int32_t *inspect;           /* a plane like the window's; or null */
+};
+
+/* Gives pixels of unknown velocity in [x0, x1) x [y0, y1) of the window that of their depth. Blocks of `step` x `step`
+ * pixels (step is 1, 2 or 4) share one velocity, that of the nearest depth in the middle of the block; what is more
+ * than 1/16 farther away gets its own. Marks the tiles that move. */
+void smear_camera_velocity(const struct smear_window *w, const struct smear_reprojection *r,
+                           const struct smear_camera_store *store, int32_t step, int32_t x0, int32_t x1,
+                           int32_t y0, int32_t y1);
+
+/* Both components of a velocity that is still to be told from depth: in
+ * 8 or in 16 bits it lies beyond every reach. */
+#define SMEAR_VELOCITY_UNKNOWN8 ((int8_t)-128)
+#define SMEAR_VELOCITY_UNKNOWN16 ((int16_t)-32640)     /* the same byte twice */
+
+/* A displacement between two poses, q8 px, times `scale` (q16) is half the exposure's, q16 px. It is brought within the
+ * reach: the direction is kept. */
+void smear_velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2]);
 
 #endif

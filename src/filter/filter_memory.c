@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* filter_memory.c - what filters need of a context's memory, and what a frame says of them. */
-#include "filter/filtered.h"
-
 #include "context.h"
-#include "faults.h"
+#include "filter/filtered.h"
+#include "filter/probe.h"
 #include "needs.h"
 #include "others.h"
 #include "smear_memory.h"
+#include "validate.h"
 
 #if SMEAR_WITH_RECONSTRUCT
 
@@ -95,3 +95,9 @@ int smear_filter_resolve(smear_frame *f, const smear_desc *d)
 }
 
 #endif
+
+struct smear_probe smear_probe(const smear_context *c)
+{
+    return (struct smear_probe){ &c->rows, c->filtered, &c->temporal, c->frame.method, c->frame.samples, c->shot.half_exposure,
+                                 c->direct };
+}

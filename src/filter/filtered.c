@@ -9,10 +9,8 @@
 #include "draws.h"
 #include "display/band.h"
 #include "display/points.h"
-#include "filter/tilemax.h"
-#include "filter/half.h"
+#include "filter/filter.h"
 #include "methods/sharp.h"
-#include "raster/velocity.h"
 
 #if SMEAR_WITH_RECONSTRUCT
 

@@ -5,9 +5,9 @@
 #ifndef SMEAR_FILTERED_H
 #define SMEAR_FILTERED_H
 
-#include "base/arena.h"
+#include "base/base.h"
 #include "display/row.h"
-#include "filter/camera_velocity.h"
+#include "filter/filter.h"
 #include "filter/pingpong.h"
 
 struct smear_filtered {

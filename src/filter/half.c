@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* half.c - reduces 2 x 2 pixels to one, and blends them with what a filter makes of that one. */
-#include "filter/half.h"
+#include "filter/filter.h"
 
 #include "base/pixel.h"
 

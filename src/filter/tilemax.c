@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* tilemax.c - the tile maximum and neighbour maximum of [McGuire12], exact at every size. */
-#include "filter/tilemax.h"
+#include "filter/filter.h"
 
 #include "base/fixmath.h"
 

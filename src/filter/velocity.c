@@ -5,7 +5,7 @@
  * displacement itself is a plane. */
 #include "raster/cover.h"
 
-#include "raster/velocity.h"
+#include "filter/filter.h"
 
 /* d / ratio (q20 > 0) in q8, clamped. */
 static int32_t over_ratio(int32_t d, int32_t ratio)

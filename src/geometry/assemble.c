@@ -6,10 +6,130 @@
  * take a path of their own; those of one or two unshaded pixels are finished here: they become points. */
 #include "geometry/assemble.h"
 
-#include "geometry/batch_cover.h"
-#include "geometry/batch_store.h"
+#include "geometry/batch.h"
 #include "geometry/places.h"
 #include "geometry/ranges.h"
+#include "geometry/tiny.h"
+#include "geometry/vertex.h"
+
+/* ------------------------------------------------------------------ records of vertices */
+
+static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    struct smear_face face = smear_face_of(b->d, triangle, back);
+    return smear_face_color(b->d, b->segment, &face);
+}
+
+static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, bool back)
+{
+    if (b->face_color != NULL) {
+        const uint8_t *c = b->face_color + 4 * triangle;
+        return pixel_of_bytes(c);
+    }
+    return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
+}
+
+/* Stores a vertex; returns the first word of its record. `known`: where it is now, before the division, or null. */
+static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen,
+                                            const struct smear_homogeneous *known, uint32_t triangle, bool back)
+{
+    const struct smear_assembly *d = b->d;
+    const struct smear_segment *s = b->segment;
+    const smear_mesh *mesh = d->mesh;
+    struct smear_bins *g = b->a->bins;
+    uint32_t word = g->vertex_words;
+    uint32_t *record = g->pool + word;
+    g->vertex_words = word + s->stride;
+    store_place(record, screen);
+    if (segment_textured(s))
+        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
+    if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
+        const uint8_t *c = b->vertex_color + 4 * index;
+        record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
+        record[s->color + 1] = (uint32_t)c[2] << 8 | c[3] * 257u << 16;
+    } else if (segment_colored(s)) {
+        smear_vertex_store_color(record + s->color, d, index, triangle, back);
+    }
+    if (segment_moves(s) != 0)
+        smear_batch_store_motion(record + s->motion, b, index, screen, known);
+    return word;
+}
+
+/* Returns the first word of the vertex's record, which it stores where that has not been done. */
+static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
+                                     bool back)
+{
+    const bool shares = batch_shares(b, back);
+    if (shares && v->stored > b->segment->base)
+        return v->stored - 1;
+    uint32_t word = store_vertex(b, index_of(v), &v->screen, cached_now(v), triangle, back);
+    if (shares)
+        v->stored = word + 1;
+    return word;
+}
+
+/* ------------------------------------------------------------------ what tiny triangles cover */
+
+/* A pixel that a triangle covers, and its edge functions there: twice the areas opposite to corners 1 and 2, q16. */
+struct covered {
+    int32_t x, y, e1, e2;
+};
+
+enum { TINY_BOX = 2, COVERED_KEPT = 2 };
+struct tiny_cover {
+    int32_t area;                   /* twice the area, q16 px */
+    int32_t count;                  /* centres covered */
+    struct covered covered[COVERED_KEPT];       /* the first of them, row by row */
+};
+
+/* Counts a pixel of which no edge function is negative, and keeps it while there is room. */
+SMEAR_INLINE void tiny_cover_keep(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
+{
+    if ((e0 | e1 | e2) < 0)
+        return;
+    if (t->count < COVERED_KEPT)
+        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
+    t->count++;
+}
+
+/* Finds which centres of the box are covered: one after the other where size counts. */
+static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
+                         const struct smear_screen *v2)
+{
+    const int32_t x = box->x0, y = box->y0;
+    const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
+    struct tiny_edges e;
+    t->area = x1 * y2 - x2 * y1;
+    t->count = 0;
+    tiny_start(&e, v0->x, v0->y, x1, y1, x2, y2, t->area, x, y);
+    if (SMEAR_SMALL_CODE) {
+        for (int32_t row = y; row < box->y1; row++) {
+            int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
+            for (int32_t column = x; column < box->x1; column++) {
+                tiny_cover_keep(t, column, row, e0, e1, e2);
+                e0 += e.right0;
+                e1 += e.right1;
+                e2 += e.right2;
+            }
+            e.e0 += e.down0;
+            e.e1 += e.down1;
+            e.e2 += e.down2;
+        }
+        return;
+    }
+    const bool wide = box->x1 - x > 1;
+    tiny_cover_keep(t, x, y, e.e0, e.e1, e.e2);
+    if (wide)
+        tiny_cover_keep(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+    if (box->y1 - y > 1) {
+        e.e0 += e.down0;
+        e.e1 += e.down1;
+        e.e2 += e.down2;
+        tiny_cover_keep(t, x, y + 1, e.e0, e.e1, e.e2);
+        if (wide)
+            tiny_cover_keep(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
+    }
+}
 
 static void forget_all(struct smear_assembler *a)
 {

@@ -4,7 +4,7 @@
  * A triangle is kept if it may be seen at any time of the exposure. It is listed under the first tile row that it may
  * touch, together with the bounds of its path (struct smear_path_bounds): all that a tile needs to choose its
  * method. */
-#include "geometry/assemble_path.h"
+#include "geometry/assemble.h"
 
 #include "geometry/path.h"
 #include "geometry/ranges.h"

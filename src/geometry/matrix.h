@@ -13,7 +13,7 @@
 struct smear_depths {
     int32_t near_distance, far_distance;    /* in the units of `distance`; far INT32_MAX: none */
     int32_t depth_mantissa;     /* depth units q11 = mulh(mantissa, 1/distance)
-                                 * 2^depth_shift, see transform.c */
+                                 * 2^depth_shift, see matrix.c */
     int16_t depth_shift;
     bool orthographic;
     uint8_t coarse;             /* X / W and Y / W are in units of 2^coarse pixels, up to 2^11 */

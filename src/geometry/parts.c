@@ -2,7 +2,7 @@
 /* parts.c - see parts.h. */
 #include "geometry/parts.h"
 
-#include "base/arena.h"
+#include "base/base.h"
 #include "geometry/assemble.h"
 
 #if SMEAR_WITH_WORKERS

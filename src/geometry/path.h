@@ -114,4 +114,14 @@ static inline int32_t path_curvature(const int32_t *record, const struct smear_s
     return max_i32(x < 0 ? -x : x, y < 0 ? -y : y);
 }
 
+/* Makes the samples of a shutter whose openness is given at SMEAR_SHUTTER_POINTS even steps over the exposure, with
+ * straight lines between; null is a box. Returns false where it is closed throughout. */
+bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness);
+
+/* Returns the middle of instant i of n of equal weight, q16 of the exposure. */
+int32_t smear_shutter_instant(const struct smear_shutter_times *shutter, int32_t i, int32_t n);
+
+/* Whether all samples have one length. */
+bool smear_shutter_is_box(const struct smear_shutter_times *shutter);
+
 #endif

@@ -3,7 +3,6 @@
 #include "geometry/ranges.h"
 
 #include "geometry/assemble.h"
-#include "geometry/assemble_path.h"
 #include "geometry/places.h"
 
 

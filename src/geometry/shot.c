@@ -3,7 +3,7 @@
 #include "geometry/shot.h"
 
 #include "base/fixmath.h"
-#include "geometry/curve.h"
+#include "geometry/arc.h"
 
 /* ------------------------------------------------------------------ instants */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shutter.c - inverts the integral of the openness: every time sample lets the same light through. */
-#include "geometry/shutter.h"
+#include "geometry/path.h"
 
 #include "smear.h"
 

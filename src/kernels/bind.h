@@ -158,7 +158,7 @@
 #define SMEAR_SHADED_ROWS (SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD && SMEAR_WITH_TEXTURE && !SMEAR_ON_ARMV6M)
 #endif
 
-/* Textured triangles are drawn from the front (front_order.h): not in a page or in the GBA's fast memory. */
+/* Textured triangles are drawn from the front (kept.h): not in a page or in the GBA's fast memory. */
 #define SMEAR_FRONT_ORDER (SMEAR_RASTER_CACHE && SMEAR_WITH_TEXTURE && !SMEAR_ON_WASM && !SMEAR_ON_ARMV4T)
 
 /* Inner loops that take constants are inlined, so that each call becomes a loop of its own, unless size counts. Builds that

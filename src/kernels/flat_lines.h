@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_FLAT_LINES_H
 #define SMEAR_KERNELS_FLAT_LINES_H
 
-#include "kernels/edge_fine.h"
+#include "kernels/edge_walk.h"
 #include "kernels/flat_run.h"
 #include "kernels/fill.h"
 

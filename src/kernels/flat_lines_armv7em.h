@@ -5,7 +5,7 @@
 #define SMEAR_KERNELS_FLAT_LINES_ARMV7EM_H
 
 #include "kernels/flat_lines.h"
-#include "kernels/flat_run_armv7em.h"
+#include "kernels/flat_run.h"
 
 #if SMEAR_ASM_ARMV7EM
 

@@ -87,22 +87,4 @@ struct tiny_box {
     bool shaded, linear, narrow;
 };
 
-/* An entry of a list: entry i lies i entries before `top`. */
-struct point_entry {
-    uint16_t x, y, depth, kind;     /* kind: POINT_ENTRY, or it is no point */
-    uint32_t next;                  /* or UINT32_MAX */
-    uint32_t color;                 /* 0x??RRGGBB */
-};
-enum { POINT_ENTRY = 0xffff };
-
-/* Where they are drawn: x in [x0, x0 + width), y in [y0, y0 + height), which are not empty; pixel (x0, y0) is the planes' first. All
- * is below 2^15. */
-struct points_plane {
-    const void *top;
-    uint32_t x0, width, y0, height;
-    int32_t stride;
-    uint16_t *depth;
-    void *pixels;
-};
-
 #endif

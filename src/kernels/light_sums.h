@@ -9,7 +9,7 @@
 #define SMEAR_KERNELS_LIGHT_SUMS_H
 
 #include "base/tables.h"
-#include "kernels/gap_taps.h"
+#include "kernels/gap_means.h"
 
 enum { LIGHT_WHITE = 4095, LIGHT_WHOLE = 16, LIGHT_INSTANTS_MAX = 1024 };
 

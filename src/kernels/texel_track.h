@@ -3,7 +3,7 @@
 #ifndef SMEAR_KERNELS_TEXEL_TRACK_H
 #define SMEAR_KERNELS_TEXEL_TRACK_H
 
-#include "kernels/texel_places.h"
+#include "kernels/texel_run.h"
 
 /* A run, and planes and place where its block ends; how planes change over a whole block of 2^log2 pixels, and what else a triangle's
  * places are made by (struct texel_planes). */

@@ -3,9 +3,7 @@
 #include "draws.h"
 
 #include "filter/filtered.h"
-#include "layers/layer_gather.h"
-#include "layers/layered.h"
-#include "layers/streak.h"
+#include "layers/layer.h"
 #include "needs.h"
 #include "smear_memory.h"
 
@@ -73,7 +71,7 @@ void smear_layers_keep(struct smear_context *c, const smear_frame *f)
     }
 }
 
-/* ------------------------------------------------------------------ what draws.c and curves.c ask */
+/* ------------------------------------------------------------------ what draws.c and draws_prepare.c ask */
 
 bool smear_layers_are_curved(struct smear_context *c)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* groups.c - sorts draws into groups by their velocity, and groups by their depth. */
-#include "layers/groups.h"
+#include "layers/layer.h"
 
 /* Returns a draw's layer: the first that shares a bit with it. */
 static uint8_t find_layer(const struct smear_layers *l, const smear_draw *draw)

@@ -2,7 +2,7 @@
 /* layer_gather.c - what a pixel sees of a moving layer: each tap is a place that the layer's surface may have come
  * from. A tap counts if its own velocity carries it here, and for the share of the exposure that it spends on the
  * stretch it stands for; what is left of the exposure shows the background. */
-#include "layers/layer_gather.h"
+#include "layers/layer.h"
 
 #include "filter/gather.h"
 

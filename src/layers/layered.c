@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* layered.c - see layered.h.
+/* layered.c - see layer.h.
  *
  *     static      triangles of no group, into the row
  *     list        where each group lies in the row and around it
@@ -9,13 +9,11 @@
  *     finish      blended draws, conversion; flush
  *
  * A group that does not reach the row costs nothing there. */
-#include "layers/layered.h"
+#include "layers/layer.h"
 
 #include "kernels/fill.h"
 #include "display/band.h"
 #include "display/points.h"
-#include "layers/layer_gather.h"
-#include "layers/streak.h"
 
 #if SMEAR_WITH_LAYERS
 

@@ -10,7 +10,7 @@
  *     finish      mixes pixels between nodes, over the background by coverage and depth. Where the background lies within the
  *                 group's depths, the mean is taken again of what is in front of it; where groups pass through each other, their
  *                 depths tell which is in front */
-#include "layers/streak.h"
+#include "layers/layer.h"
 
 #include "base/fixmath.h"
 #include "base/pixel.h"

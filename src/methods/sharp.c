@@ -2,11 +2,226 @@
 /* sharp.c - see sharp.h. */
 #include "methods/sharp.h"
 
-#include "methods/sharp_apart.h"
-#include "kernels/fill.h"
+#include "base/base.h"
 #include "display/band.h"
 #include "display/pixel_format.h"
 #include "display/points.h"
+#include "kernels/fill.h"
+
+/* ------------------------------------------------------------------ rows of several cores */
+
+enum {
+    BUFFERS_MOST = 8,
+    FLUSH_AFTER = 16            /* triangles: core 0 looks after the display between so many */
+};
+
+/* What one core has for itself. */
+struct apart_window {
+    uint32_t *color;            /* null: the frame's window */
+    uint16_t *depth;
+    uint32_t *number;           /* triangles of its row */
+};
+
+struct apart {
+    struct smear_rows *rows;
+    int first, count;           /* tile rows */
+    int whole;                  /* of them drawn by one core each; of the others, each half is a job */
+    uint32_t handed;            /* bands that had been handed out before */
+    int result;
+    /* Where finished rows lie, in turn. The first are the bands' own, in which the last rows lie: they may still be sent when
+     * the memory here is used again. */
+    uint8_t *buffer[BUFFERS_MOST];
+    int buffers;
+    /* Words that cores share. */
+    unsigned listed;            /* jobs whose triangles have been listed; written by the next one */
+    unsigned flushed;           /* rows that core 0 has handed out */
+    unsigned failed;            /* it could not */
+    unsigned ready[BUFFERS_MOST][2];    /* 1 + the number of the row whose upper and lower half lies finished there */
+    struct apart_window window[SMEAR_WORKERS_MAX];
+};
+
+static void wait_apart(const struct smear_rows *rows)
+{
+    if (rows->desc->idle != NULL)
+        rows->desc->idle(rows->desc->user);
+}
+
+/* Returns which buffer row number i has. */
+static int buffer_of(const struct apart *a, int i)
+{
+    return (i + a->rows->desc->bands + a->count * (a->buffers - 1)) % a->buffers;
+}
+
+/* Returns how many rows have been sent; less than 0 where some of the last frame have not. */
+static int rows_sent(const struct apart *a)
+{
+    return a->rows->desc->bands == 2 ? (int)(word_read(&a->rows->bands.sent) - a->handed) : (int)word_read(&a->flushed);
+}
+
+static bool buffer_is_free(const struct apart *a, int i)
+{
+    return (i < a->buffers && buffer_of(a, i) >= a->rows->desc->bands) || rows_sent(a) >= max_i32(i + 1 - a->buffers, 0);
+}
+
+/* Core 0 hands out what is finished, in order, and never a third band. */
+static void flush_ready(struct apart *a)
+{
+    for (int i; (i = (int)word_own(&a->flushed)) < a->count && word_own(&a->failed) == 0;) {
+        const int at = buffer_of(a, i);
+        if (word_read(&a->ready[at][0]) != (unsigned)i + 1u || word_read(&a->ready[at][1]) != (unsigned)i + 1u
+            || i - rows_sent(a) >= a->rows->desc->bands)
+            return;
+        const struct row_job job = { .rows = a->rows, .row = a->first + i, .band = a->buffer[at] };
+        a->result = smear_band_flush(&job);
+        word_write(a->result == SMEAR_OK ? &a->flushed : &a->failed, (unsigned)i + 1u);
+    }
+}
+
+/* A job: row number `row`, pixel rows [y0, y1). */
+struct apart_place {
+    int row;
+    int32_t y0, y1;
+    bool upper, lower;
+};
+
+static struct apart_place place_of(const struct apart *a, int job)
+{
+    const struct smear_rows *rows = a->rows;
+    const int beyond = max_i32(job - a->whole, 0), row = min_i32(job, a->whole) + beyond / 2;
+    const int32_t top = row_top(rows, a->first + row), bottom = row_bottom(rows, a->first + row),
+                  middle = min_i32(top + rows->bins.row_px / 2, bottom);
+    const bool upper = job < a->whole || beyond % 2 == 0, lower = job < a->whole || beyond % 2 != 0;
+    return (struct apart_place){ row, upper ? top : middle, lower ? bottom : middle, upper, lower };
+}
+
+/* Lists the triangles of a job's row, after those before; returns how many there are. */
+static uint32_t list_apart(struct apart *a, int job, const struct apart_place *p, int worker, uint32_t *number)
+{
+    struct smear_rows *rows = a->rows;
+    uint32_t n = 0;
+    while (word_read(&a->listed) != (unsigned)job) {
+        if (worker == 0)
+            flush_ready(a);
+        wait_apart(rows);
+    }
+    if (p->upper)
+        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, a->first + p->row);
+    for (uint32_t at = rows->opaque; at != SMEAR_NO_TRIANGLE; at = bins_triangle(&rows->bins, at)->next) {
+        SMEAR_ASSERT(n < bins_listed(&rows->bins));
+        number[n++] = at;
+    }
+    word_write(&a->listed, (unsigned)job + 1u);
+    return n;
+}
+
+static void draw_apart(struct apart *a, int job, const struct apart_place *p, int worker, struct smear_raster_target *t)
+{
+    const struct smear_rows *rows = a->rows;
+    const struct apart_window *w = &a->window[worker];
+    const uint32_t count = list_apart(a, job, p, worker, w->number);
+    smear_window_target(rows, p->y0, p->y1, t);
+    if (w->color != NULL) {
+        t->color = w->color;
+        t->depth = w->depth;
+        t->color_rows = t->window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->bins.row_px, 0 };
+    }
+    t->cache = smear_raster_cache_of(&rows->cache, worker);
+    smear_row_clear(t, rows->clear, 0);
+    for (uint32_t k = 0; k < count; k += FLUSH_AFTER) {
+        smear_raster_numbers(&rows->raster, t, w->number + k, min_u32(count - k, FLUSH_AFTER));
+        if (worker == 0)
+            flush_ready(a);
+    }
+}
+
+static void convert_apart(struct apart *a, const struct apart_place *p, const struct smear_raster_target *t)
+{
+    const struct smear_rows *rows = a->rows;
+    const smear_format format = drawn_format(rows->desc);
+    const int at = buffer_of(a, p->row), row = a->first + p->row;
+    struct row_job job = { .rows = a->rows, .row = row, .band = a->buffer[at], .y0 = p->y0, .y1 = p->y1 };
+    if (format == SMEAR_L1_PAGES)       /* whole rows */
+        __builtin_memset(job.band, 0, rows->bands.bytes);
+    else
+        job.band += (size_t)(p->y0 - row_top(rows, row)) * smear_format_stride(rows->window.width, format);
+    if (p->y0 < p->y1)
+        smear_band_convert_rows(&job, t, 0, rows->window.width);
+    if (p->upper)
+        word_write(&a->ready[at][0], (unsigned)p->row + 1u);
+    if (p->lower)
+        word_write(&a->ready[at][1], (unsigned)p->row + 1u);
+}
+
+/* Jobs behind the rows, one for each core, last until all rows have been handed out. */
+static void apart_job(void *argument, int job, int worker)
+{
+    struct apart *a = (struct apart *)argument;
+    const struct apart_place p = place_of(a, job);
+    const bool is_row = p.row < a->count;
+    struct smear_raster_target t;
+    if (is_row)
+        draw_apart(a, job, &p, worker, &t);
+    while (word_read(&a->failed) == 0 && (is_row ? !buffer_is_free(a, p.row) : (int)word_read(&a->flushed) < a->count)) {
+        if (worker == 0)
+            flush_ready(a);
+        wait_apart(a->rows);
+    }
+    if (!is_row || word_read(&a->failed) != 0)
+        return;
+    convert_apart(a, &p, &t);
+    if (worker == 0)
+        flush_ready(a);
+}
+
+/* Takes the buffers of the bands, and more where half of the memory that is left has room for them. */
+static void cut_buffers(struct apart *a, struct smear_arena *arena, size_t bytes)
+{
+    const struct smear_rows *rows = a->rows;
+    const int bands = a->buffers = rows->desc->bands;
+    const size_t end = arena->used + (bytes - arena->used) / 2;
+    for (int i = 0; i < bands; i++)
+        a->buffer[i] = rows->bands.buffer[bands == 2 ? (a->handed + (uint32_t)(a->count + i)) & 1u : 0];
+    while (a->buffers < BUFFERS_MOST && end - arena->used >= rows->bands.bytes + 8u)
+        a->buffer[a->buffers++] = arena_take(arena, rows->bands.bytes, 1);
+}
+
+/* Cuts the memory; what is left keeps setups, where it kept them before. Null where it is too small. */
+static struct apart *cut_apart(struct smear_rows *rows, int count)
+{
+    const uintptr_t from = (uintptr_t)rows->scratch, to = (uintptr_t)rows->scratch_end, cache = (uintptr_t)rows->cache.entry;
+    const size_t n = (size_t)rows->jobs.workers, pixels = (size_t)rows->window.width * (size_t)rows->bins.row_px;
+    const size_t numbers = bins_listed(&rows->bins) * sizeof(uint32_t), bytes = to - from;
+    struct smear_arena arena = { (uint8_t *)rows->scratch, 0 };
+    if (to < from || bytes < sizeof(struct apart) + 8 + (n - 1) * (pixels * 6 + 16) + n * (numbers + 8))
+        return NULL;
+    struct apart *a = arena_take(&arena, 1, sizeof *a);
+    *a = (struct apart){ .rows = rows, .count = count, .handed = rows->bands.handed };
+    for (size_t i = 0; i < n; i++) {
+        a->window[i].number = arena_take(&arena, numbers, 1);
+        a->window[i].color = i != 0 ? arena_take(&arena, pixels, sizeof *a->window[i].color) : NULL;
+        a->window[i].depth = i != 0 ? arena_take(&arena, pixels, sizeof *a->window[i].depth) : NULL;
+    }
+    cut_buffers(a, &arena, bytes);
+    if (SMEAR_RASTER_CACHE && cache >= from && cache < to)
+        rows->cache = smear_raster_cache_make(arena.memory + arena.used, bytes - arena.used, (int)n, &rows->bins);
+    return a;
+}
+
+bool smear_sharp_rows_apart(struct smear_rows *rows, int first, int end, int *result)
+{
+    enum { ROWS_LEAST = 16 };
+    const uint32_t start = stage_start(rows);
+    struct apart *a = SMEAR_SHARP_APART ? cut_apart(rows, end - first) : NULL;
+    if (a == NULL)
+        return false;
+    const bool halves = rows->bins.row_px >= ROWS_LEAST && drawn_format(rows->desc) != SMEAR_L1_PAGES;
+    a->first = first;
+    a->whole = halves ? a->count - rows->jobs.workers : a->count;
+    smear_jobs_run(&rows->jobs, apart_job, a, a->whole + 2 * (a->count - a->whole) + rows->jobs.workers);
+    *result = a->result;
+    stage_end(rows, &rows->stats->time.raster, start);
+    return true;
+}
 
 /* ------------------------------------------------------------------ into the window */
 

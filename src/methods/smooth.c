@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* smooth.c - see smooth.h.
+/* smooth.c - see temporal.h.
  *
  *     below       the pixel row below the tile row, which the last one is compared with
  *     find        where colours differ from pixel to pixel (raster/edges.h)
  *     for each run of columns that there is memory for, and for each other place within the pixel:
  *         draw    what is static, where there are edges
  *     mean        of all places */
-#include "methods/smooth.h"
+#include "methods/temporal.h"
 
 #include "raster/edges.h"
 

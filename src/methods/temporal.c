@@ -11,7 +11,6 @@
 
 #include "display/band.h"
 #include "display/points.h"
-#include "methods/smooth.h"
 #include "smear_memory.h"
 
 #if SMEAR_WITH_SUBFRAMES

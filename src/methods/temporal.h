@@ -4,7 +4,7 @@
 #define SMEAR_TEMPORAL_H
 
 #include "display/damage.h"
-#include "geometry/shutter.h"
+#include "geometry/path.h"
 #include "temporal/line_movers.h"
 #include "temporal/row_lists.h"
 
@@ -39,5 +39,9 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
 /* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled; along lines each is
  * finished when the row below it is drawn. Returns as smear_band_flush. */
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end);
+
+/* Smooths edges in a tile row that is drawn, before anything moves in it. Rows come from top to bottom. Takes the work memory
+ * of the method and the scratch of the rows. */
+void smear_smooth_static(struct smear_rows *rows, int row, const struct smear_temporal *temporal);
 
 #endif

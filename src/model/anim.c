@@ -9,7 +9,7 @@
  * of head room are enough for high products. */
 #include "smear_model.h"
 
-#include "base/arena.h"
+#include "base/base.h"
 #include "base/compiled.h"
 #include "base/fixmath.h"
 #include "model/skin.h"

@@ -2,7 +2,7 @@
 /* model.c - blobs: what they are checked for, and how they become a smear_model without being copied. */
 #include "smear_model.h"
 
-#include "base/arena.h"
+#include "base/base.h"
 #include "model/blob.h"
 #include "base/crc32.h"
 

@@ -2,7 +2,7 @@
 /* color_rows.c - colours between vertices: interpolated, opaque, without a texture. The same pixels as those of
  * span.c, whose blocks begin and end here, too; where two meet, colours are found once. */
 #include "raster/fog.h"
-#include "raster/texture_rows.h"
+#include "raster/span.h"
 
 #include "kernels/flat_run.h"
 #include "kernels/shade_run.h"

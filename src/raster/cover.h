@@ -3,7 +3,8 @@
 #ifndef SMEAR_COVER_H
 #define SMEAR_COVER_H
 
-#include "raster/texture_rows.h"
+#include "raster/setup.h"
+#include "raster/span.h"
 #include "raster/tiny_draw.h"
 
 /* Boxes of at most SMALL_PX pixels in both directions, or so many where they are textured, are walked with edge functions (tiny.h), which
@@ -36,5 +37,21 @@ static inline bool cover_has_texels(const struct setup *s, int32_t pixels)
 /* Draws such a triangle, of which only the edges are known, and twice the area. Returns false, and draws nothing, where that
  * would be too inexact. */
 bool smear_cover_texels(const struct setup *s, int32_t area, const struct pixel_box *box);
+
+/* Where size counts, draw_any has all but points. */
+enum { HAS_FLAT_ROWS = !SMEAR_SMALL_CODE };
+
+/* Draws an opaque triangle of this colour, clockwise on the screen, where pixels say nothing but colour and depth. The bits are
+ * those of setup.c and cover.c. False where it is tiny (tiny_draw.h): it is drawn there. `given`: the box of its vertices, or
+ * null. `whole`: the target has all columns of the frame. `number`: by which it is kept for the rows below (kept.h), or
+ * SMEAR_NO_TRIANGLE. */
+bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
+                         bool whole, uint32_t number);
+
+/* Draws the target's rows of one that is ready: not small, without velocity. */
+void smear_flat_cover(const struct setup *s);
+
+/* Returns the bytes that one takes that is kept. */
+size_t smear_flat_kept_bytes(void);
 
 #endif

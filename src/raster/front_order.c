@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* front_order.c - see front_order.h.
+/* front_order.c - see kept.h.
  *
  * Two triangles may change places where no pixel of one has the same depth code as one of the other, or none lies in the same
  * columns: then the nearer one is seen, whichever comes first. Depths are counted in levels, columns in strips. A triangle's
  * place is the level of its farthest vertex; but behind that of each one before it in the list which lies in its strips and
  * reaches its levels, so that those two stay in order. */
-#include "raster/front_order.h"
+#include "raster/kept.h"
 
 
 #include "base/fixmath.h"

@@ -6,6 +6,7 @@
 #define SMEAR_RASTER_KEPT_H
 
 #include "raster/setup.h"
+#include "raster/target.h"
 
 /* Before the words of a setup. In memory of its own, between the pool's vertices and triangles (draws.c). */
 struct kept {
@@ -65,5 +66,27 @@ static inline void leave_kept(struct kept *k, bool goes_on)
     if (!goes_on)
         k->triangle = SMEAR_NO_TRIANGLE;
 }
+
+/* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
+struct front_memory {
+    uint32_t bytes;         /* of both */
+};
+
+/* Returns the bytes, a multiple of four, that the order of a frame's list takes; 0 where lists stay as they are. */
+size_t smear_front_order_bytes(const struct smear_bins *bins);
+
+/* The order of a target's list; null where there is no memory for it. */
+static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
+{
+    const struct front_memory *const m = cache->entry != NULL ? (const struct front_memory *)cache->entry - 1 : NULL;
+    return m != NULL && m->bytes > sizeof(uintptr_t) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
+}
+
+/* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any
+ * pixel. Returns how many there are; 0 where the list is to be drawn as it is. */
+uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head);
+
+/* Whether something nearer hides all pixels of a triangle. */
+bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t);
 
 #endif

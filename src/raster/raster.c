@@ -1,15 +1,87 @@
 /* SPDX-License-Identifier: MIT */
 /* raster.c - triangles of lists, in order, each in one of four forms: a point, which assembly has finished; a box of few pixels
- * (tiny_draw.h); rows of one colour (flat_list.h); all others, which are made ready (setup.c), covered (cover.c), and kept where they
+ * (tiny_draw.h); rows of one colour (cover.h); all others, which are made ready (setup.c), covered (cover.c), and kept where they
  * go on in the next rows. */
 #include "raster/raster.h"
 
+#include "base/pixel.h"
+#include "kernels/kernels.h"
 #include "raster/cover.h"
-#include "raster/flat_list.h"
 #include "raster/fog.h"
-#include "raster/front_order.h"
 #include "raster/kept.h"
-#include "raster/point.h"
+#include "raster/span.h"
+
+/* ------------------------------------------------------------------ points */
+
+/* A finished pixel; in fog there are none. */
+static inline void draw_point(const struct smear_raster_frame *frame,
+                              const struct smear_raster_target *target, const struct smear_triangle *t,
+                              bool moved)
+{
+    int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
+    if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
+        return;
+    int32_t ring_row = target->window_rows.ring_row + y;
+    if (ring_row >= target->window_rows.ring)
+        ring_row -= target->window_rows.ring;
+    int32_t at = ring_row * target->window_rows.stride + x - target->window_rows.x0;
+    if (t->vertex[POINT_DEPTH] <= target->depth[at])
+        return;
+    target->depth[at] = t->vertex[POINT_DEPTH];
+    target_put(target, at, t->color);
+    if (moved && target_has_velocity(target))
+        smear_velocity_still(target, at, frame_has_depth_velocity(frame));
+}
+
+/* Where points are drawn: x in [x0, x0 + width), y in [y0, y0 + height), which are not empty; pixel (x0, y0) is the planes' first. */
+struct points_plane {
+    const struct smear_triangle *top;   /* entry i lies i entries before */
+    uint32_t x0, width, y0, height;
+    int32_t stride;
+    uint16_t *depth;
+    void *pixels;
+};
+
+/* Takes what points of a list are drawn by at once. False where rows of the plane go round, or pixels say more than colour and depth. */
+static bool points_make(struct points_plane *p, const struct smear_raster_frame *frame, const struct smear_raster_target *t)
+{
+    const struct smear_plane_rows *rows = &t->window_rows;
+    const int32_t at = rows->ring_row * rows->stride + t->x0 - rows->x0;
+    *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
+                                (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
+                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at };
+    return rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
+}
+
+/* Draws points from entry `head` on, where they are nearer. Returns the first entry that is no point, or UINT32_MAX. Pixels are
+ * RGB565 where they are narrow. */
+SMEAR_INLINE uint32_t points_list(const struct points_plane *p, uint32_t head, bool narrow)
+{
+    const struct points_plane k = *p;
+    while (head != UINT32_MAX) {
+        const struct smear_triangle e = *(k.top - head);
+        if (e.segment != SMEAR_POINT)
+            break;
+        head = e.next;
+        const uint32_t x = e.vertex[POINT_X] - k.x0, y = e.vertex[POINT_Y] - k.y0;
+        if (x >= k.width || y >= k.height)
+            continue;
+        const int32_t at = (int32_t)y * k.stride + (int32_t)x;
+        if (e.vertex[POINT_DEPTH] <= k.depth[at])
+            continue;
+        k.depth[at] = e.vertex[POINT_DEPTH];
+        if (narrow)
+            ((uint16_t *)k.pixels)[at] = (uint16_t)rgb565_nearest(e.color);
+        else
+            ((uint32_t *)k.pixels)[at] = e.color & 0xffffffu;
+    }
+    return head;
+}
+
+static SMEAR_NOINLINE uint32_t draw_points(const struct points_plane *p, uint32_t head, bool narrow)
+{
+    return narrow ? points_list(p, head, true) : points_list(p, head, false);
+}
 
 /* ------------------------------------------------------------------ a triangle */
 
@@ -196,10 +268,10 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
                       const struct numbers *given)
 {
     struct smear_raster_pass p;
-    struct points_plane points;
+    struct points_plane points = { .depth = NULL };
     uint32_t i = 0, hidden = 0;
     smear_raster_begin(&p, frame, target);
-    const bool at_once = !SMEAR_SMALL_CODE && given == NULL && smear_raster_points_make(&points, frame, target);
+    const bool at_once = !SMEAR_SMALL_CODE && given == NULL && points_make(&points, frame, target);
     for (;; i++) {
         uint32_t number = head;
         if (given != NULL) {
@@ -213,7 +285,7 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
         head = t->next;
         if (t->segment == SMEAR_POINT) {
             if (at_once)
-                head = smear_raster_points(&points, number, target_is_direct(target));
+                head = draw_points(&points, number, target_is_direct(target));
             else
                 draw_point(frame, target, t, p.moved);
             continue;

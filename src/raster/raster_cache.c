@@ -2,8 +2,7 @@
 /* raster_cache.c - memory for what is found out about a frame's triangles: setups of those that go on in the next rows, and orders
  * of lists. */
 #include "kernels/fill.h"
-#include "raster/flat_list.h"
-#include "raster/front_order.h"
+#include "raster/cover.h"
 #include "raster/kept.h"
 #include "raster/raster.h"
 

@@ -76,7 +76,7 @@ enum {
 struct setup;
 struct span_rows;
 
-/* Draws rows of a triangle at once, velocities included (texture_rows.h). */
+/* Draws rows of a triangle at once, velocities included (span.h). */
 typedef void smear_rows_fn(const struct setup *s, const struct span_rows *r);
 
 /* What is still to be done about a triangle's fog. */

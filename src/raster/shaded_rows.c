@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* shaded_rows.c - texels in a light that changes along the row: opaque, nearest, sizes powers of two, repeated, coordinates
  * that are polynomials. The same pixels as those of span.c. */
-#include "raster/texture_rows.h"
+#include "raster/span.h"
 
 #include "kernels/texels_shade.h"
 

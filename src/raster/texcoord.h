@@ -6,7 +6,7 @@
 
 #include "raster/setup.h"
 
-#include "kernels/texel_places.h"
+#include "kernels/texel_run.h"
 
 /* a / n for n up to 16, good to 2^-16 of it; exact where n is a power of two. */
 static inline int32_t part_of(int32_t a, int32_t n) { return part_by(a, inverse[n]); }

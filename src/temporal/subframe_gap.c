@@ -4,12 +4,11 @@
  * A sum of N instants is a comb of N teeth where the truth is a box. Where all moving triangles go alike, a tooth is as
  * far from the next at all pixels, and the sum's own mean over that distance closes the comb: shifted in space is shifted
  * in time. Only what moves is meant: the background lies beneath, with the weight of the instants that are left. */
-#include "temporal/subframe_gap.h"
+#include "temporal/subframe_tile.h"
 
 #include "base/fixmath.h"
 #include "kernels/gap_means.h"
 #include "kernels/light_sums.h"
-#include "temporal/subframe_background.h"
 #include "temporal/tile_method.h"
 
 union gap_mean {

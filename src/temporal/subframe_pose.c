@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* subframe_pose.c - a triangle of some tiles at an instant: its vertices along their paths. */
-#include "temporal/subframe_pose.h"
+#include "temporal/subframe_tile.h"
 
 #include "base/fixmath.h"
 #include "geometry/transform.h"

@@ -4,8 +4,10 @@
 #define SMEAR_SUBFRAME_TILE_H
 
 #include "geometry/space.h"
+#include "kernels/depth_range.h"
 #include "kernels/packed_sums.h"
 #include "temporal/moving.h"
+#include "temporal/subframes.h"
 
 /* Pixels [x0, x1) x [y0, y1). */
 struct subframe_box {
@@ -90,5 +92,49 @@ static inline bool sums_light(const struct subframes *f)
 {
     return SMEAR_WITH_LINEAR && (frame_is_linear(f->t->frame) || f->instants > PACKED_INSTANTS_MAX);
 }
+
+struct smear_tile_plan;
+
+/* Puts means in place of the background where anything was summed, which is within `all`. Gaps are closed as the plan's
+ * blocks say, unless it is null. */
+void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_tile_plan *plan);
+
+/* The first instant sets the sums of its box, which need not be emptied. */
+static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS && !sums_light(f) && !f->blends; }
+
+/* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
+void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
+
+/* Brings sums of the light of `before` instants to what f->instants add, both at most LIGHT_WHOLE: by bits that are 0. */
+void smear_subframe_sums_rescale(const struct subframes *f, uint32_t before);
+
+/* Adds the box of instant k to the sums, or sets them, and makes its colours background again. */
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets);
+
+/* Copies its colours and depths. */
+void smear_subframe_take_background(const struct subframes *f);
+
+/* Copies its depths in a box and, where tiles begin with whole words, perhaps one pixel more to either side. */
+void smear_subframe_restore_depth(const struct subframes *f, const struct subframe_box *b);
+
+/* The range of its depth codes in a box of the work planes, and up to `margin` pixels beyond. */
+struct depth_range smear_subframe_depths(const struct subframes *f, const struct subframe_box *b, int32_t margin);
+
+/* A triangle with its vertices at an instant. */
+struct posed {
+    const struct smear_segment *segment;
+    uint32_t color;
+    const int32_t *v[3];        /* `record`, or the vertices themselves where they do not move */
+    struct bounds bounds;       /* of the vertices */
+    struct subframe_box box;       /* within the tiles */
+    int count, next;            /* corners of what was cut (space.h), and the next one of its fan */
+    struct path_record record[SMEAR_CLIP_MAX];          /* without paths, which come last */
+};
+
+/* False where the triangle is not seen in the tiles at this time, 0 .. SHUTTER_CLOSE: elsewhere, or turned away. */
+bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t triangle, int32_t time);
+
+/* Goes on to the next triangle that is left of one that was cut. False where there is none. */
+bool smear_subframe_pose_next(struct posed *p, const struct subframes *f);
 
 #endif

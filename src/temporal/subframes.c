@@ -13,12 +13,9 @@
 #include "temporal/subframes.h"
 
 #include "display/row.h"
-#include "geometry/shutter.h"
+#include "geometry/path.h"
 #include "raster/raster.h"
-#include "temporal/subframe_background.h"
-#include "temporal/subframe_gap.h"
-#include "temporal/subframe_pose.h"
-#include "temporal/subframe_sums.h"
+#include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
 enum {

@@ -4,7 +4,7 @@
 
 #include "geometry/path.h"
 #include "kernels/differences.h"
-#include "temporal/subframe_pose.h"
+#include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
 /* A block [x, x1) x [y, y1) of pixels of a tile, its displacement, and the same to the next pixels that are looked at: 2 px. */

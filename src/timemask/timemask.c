@@ -3,11 +3,9 @@
  * the exposure, into time samples over the background; then their mean. */
 #include "temporal/timemask.h"
 
-#include "geometry/shutter.h"
+#include "geometry/path.h"
 #include "geometry/space.h"
 #include "timemask/timemask_cover.h"
-#include "timemask/timemask_shade.h"
-#include "timemask/timemask_samples.h"
 #include "geometry/transform.h"
 
 /* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_samples.c - entries of pixels: taken, lost, merged, averaged. */
-#include "timemask/timemask_samples.h"
+#include "timemask/timemask_cover.h"
 
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
                                   int32_t samples_log2, bool linear)

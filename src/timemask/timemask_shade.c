@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask_shade.c - planes in time of a moving triangle's attributes, and colours from them. */
-#include "timemask/timemask_shade.h"
+#include "timemask/timemask_cover.h"
 
 #include "base/pixel.h"
 #include "raster/fog.h"

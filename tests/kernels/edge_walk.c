@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* edge_walk.c - how check_kernels calls kernels/edge_walk.h and edge_sides.h. */
-#include "kernels/edge_sides.h"
+#include "kernels/edge_walk.h"
 #include "kernels/flat_lines_armv6m.h"
 
 #include "tests/kernels/kernels.h"

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
  * those it doesn't, as of lit ones; and texel_curve_rows.h. */
-#include "kernels/texel_curves_armv6m.h"
-#include "kernels/texel_curves_armv7em.h"
+#include "kernels/texel_curve_rows.h"
 #include "kernels/texels_draw.h"
 
 #include "tests/kernels/kernels.h"

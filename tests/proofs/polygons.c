@@ -4,7 +4,7 @@
  * SMEAR_CLIP_MAX corners, none of them outside and each a vertex of its own, so that any cut may follow it, and the triangle's
  * vertices as they were. A place out of bounds stops the program. */
 #include "geometry/clip.c"
-#include "geometry/transform.c"
+#include "geometry/matrix.c"
 
 #include <stdio.h>
 

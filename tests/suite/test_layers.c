@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_layers.c - SMEAR_OBJECT and SMEAR_LAYERED: how far they are from the truth on the scenes of the quality suite, what
  * must stay as it is bit for bit, layers with settings of their own, memory. */
-#include "layers/streak.h"
+#include "layers/layer.h"
 #include "tools/bench/kinds.h"
 #include "tools/bench/take.h"
 #include "tests/host.h"

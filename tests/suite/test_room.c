@@ -6,7 +6,6 @@
 #include "smear_math.h"
 
 #include "geometry/assemble.h"
-#include "geometry/assemble_path.h"
 #include "geometry/ranges.h"
 #include "geometry/shot.h"
 #include "tests/rig.h"

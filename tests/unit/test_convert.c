@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_convert.c - display formats: levels, white and black, sizes, diffused error, the CRC. Golden frames hold the rest. Needs neither
  * libc nor floating point. */
-#include "display/diffuse.h"
 #include "display/pixel_format.h"
 
 #include "base/crc32.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_raster.c - coverage of triangles against exact integer arithmetic; which pixel wins; and that cutting the frame into columns
  * and bands, and drawing from the front, never show. Golden frames hold what pixels have. Needs neither libc nor floating point. */
-#include "raster/front_order.h"
 #include "raster/kept.h"
 #include "raster/raster.h"
 

@@ -20,7 +20,7 @@ WEB_FAST := $(filter src/kernels/% src/filter/% src/layers/layer_gather.c src/ra
     src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC))
 
 # Loops over pixels that the compiler makes vectors of; nothing else gains.
-WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/uniform.c src/filter/weights.c src/display/pixel_format.c src/display/band.c src/kernels/pixel_rows.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
+WEB_VECTORS := $(filter src/filter/reconstruct.c src/filter/weights.c src/display/pixel_format.c src/display/band.c src/kernels/pixel_rows.c src/filter/tilemax.c src/frame.c,$(LIB_SRC))
 
 WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_DISPLAY=0 -DSMEAR_WITH_WORKERS=0 -nostdinc -isystem tools/web/libc -isystem $(shell $(WEB_CC) -print-resource-dir)/include \
     -Iinclude -Isrc -I. -D_POSIX_C_SOURCE=200809L -U__OPTIMIZE_SIZE__ -mbulk-memory -fno-math-errno -ffp-contract=off -Wall -Wextra -MMD -MP
