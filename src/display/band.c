@@ -8,8 +8,6 @@
 
 /* ------------------------------------------------------------------ doubled displays */
 
-#if SMEAR_WITH_DISPLAY
-
 /* Return the bits of a byte or of a nibble, each twice. */
 static inline uint32_t nibbles_twice(uint32_t byte)
 {
@@ -59,7 +57,8 @@ static void heighten_page(uint8_t *upper, const uint8_t *in, uint32_t bytes, uin
     }
 }
 
-void smear_double_band(uint8_t *pixels, int32_t width, int32_t rows, smear_format format, int doubled)
+/* Doubles finished pixels of a band in place. The buffer has room for what comes of them. */
+static void double_band(uint8_t *pixels, int32_t width, int32_t rows, smear_format format, int doubled)
 {
     const uint32_t x = (uint32_t)doubled & SMEAR_DOUBLED_X, y = (uint32_t)doubled >> 1;
     const uint32_t stride = smear_format_stride(width, format), wide = smear_format_stride(width << x, format);
@@ -77,8 +76,6 @@ void smear_double_band(uint8_t *pixels, int32_t width, int32_t rows, smear_forma
             __builtin_memcpy(out + wide, out, wide);
     }
 }
-
-#endif
 
 uint8_t *smear_band_begin(struct smear_rows *rows)
 {
@@ -129,7 +126,7 @@ static void finish(const struct smear_rows *rows, uint8_t *pixels, int32_t width
     if (format_diffuses(d))                 /* bands are whole rows then */
         smear_diffuse_band(pixels, width, y, height, format, rows->bands.buffer[0] + rows->bands.bytes);
     if (is_doubled(d))
-        smear_double_band(pixels, width, height, format, d->display.doubled);
+        double_band(pixels, width, height, format, d->display.doubled);
     stage_end(rows, &rows->stats->time.convert, start);
 }
 

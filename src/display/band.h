@@ -25,9 +25,6 @@ static inline int32_t doubled_y(const smear_desc *d, int32_t rows)
     return SMEAR_WITH_DISPLAY ? rows << (d->display.doubled >> 1) : rows;
 }
 
-/* Doubles finished pixels of a band in place. The buffer has room for what comes of them. */
-void smear_double_band(uint8_t *pixels, int32_t width, int32_t rows, smear_format format, int doubled);
-
 /* Returns what tiles are converted to. */
 static inline smear_format drawn_format(const smear_desc *d)
 {

@@ -205,7 +205,9 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
     }
 }
 
-void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before)
+/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by
+ * changes linearly. */
+static void turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before)
 {
     int32_t m[3][3];
     for (int i = 0; i < 9; i++)
@@ -217,8 +219,10 @@ void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_tra
     }
 }
 
-void smear_turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9],
-                     const smear_transform *now, int32_t time, uint32_t angle)
+/* Finds the basis of the pose at a time, as smear_arc_between does, from that after the whole turn. `angle` is what it has
+ * turned since now. */
+static void turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9],
+                      const smear_transform *now, int32_t time, uint32_t angle)
 {
     int32_t m[3][3], rest[9], cosine, sine;
     for (int i = 0; i < 9; i++)
@@ -247,8 +251,8 @@ void smear_arc_between(smear_transform *out, const smear_transform *before, cons
     smear_turn_between(&turn, &axes[0], &axes[1]);
     for (int i = 0; i < 3; i++)
         origin[i] = extended(before->origin[i], now->origin[i], time);
-    smear_turn_whole(turned, &turn, before);
-    smear_turn_part(out->basis, &turn, turned, now, time, turn_angle(&turn, time));
+    turn_whole(turned, &turn, before);
+    turn_part(out->basis, &turn, turned, now, time, turn_angle(&turn, time));
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }
@@ -367,7 +371,7 @@ bool smear_curve_find(struct smear_curve *c, const smear_transform *now, const s
     *c = (struct smear_curve){ .now = now, .last = last };
     if (path != SMEAR_PATH_LINE)
         curve_turn(c, &axes);
-    smear_turn_whole(c->turned, &c->turn, last);
+    turn_whole(c->turned, &c->turn, last);
     if (path == SMEAR_PATH_LINE)
         return false;
     for (int i = 0; i < 3; i++)
@@ -442,7 +446,7 @@ void smear_curve_at(smear_transform *out, const struct smear_curve *c, int32_t t
     }
     origin_at(origin, c, time);
     const uint32_t angle = turn_angle(&c->turn, time) + (uint32_t)((c->faster >> 2) * (parabola(time) >> 4) >> 18);
-    smear_turn_part(out->basis, &c->turn, c->turned, c->now, time, angle);
+    turn_part(out->basis, &c->turn, c->turned, c->now, time, angle);
     for (int i = 0; i < 3; i++)
         out->origin[i] = origin[i];
 }

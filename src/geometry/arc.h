@@ -12,7 +12,7 @@ struct smear_turn {
     bool turns;             /* else the axis means nothing, and everything is linear */
     int32_t axis[3];        /* q30, right-handed */
     uint32_t angle;         /* q32 turns, 0 .. half a turn */
-    int32_t cosine, sine;   /* of the angle, q30, once smear_turn_whole has found them */
+    int32_t cosine, sine;   /* of the angle, q30, once turn_whole has found them */
 };
 
 /* The axes of a pose without their scales: axis[j] is where x, y or z points, q30. */
@@ -42,15 +42,6 @@ static inline int32_t extended(int32_t before, int32_t now, int32_t time)
     SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
     return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
 }
-
-/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by
- * changes linearly. */
-void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before);
-
-/* Finds the basis of the pose at a time, as smear_arc_between does, from that after the whole turn. `angle` is what it has
- * turned since now. */
-void smear_turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9],
-                     const smear_transform *now, int32_t time, uint32_t angle);
 
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis

@@ -179,14 +179,9 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     for (int i = 0; i < t->count; i++) {
         const struct covered *p = &t->covered[i];
         const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
-        struct smear_triangle *out = bins_add(g, &g->opaque_last[bins_row(g, p->y)]);
-        out->vertex[POINT_X] = (uint16_t)p->x;
-        out->vertex[POINT_Y] = (uint16_t)p->y;
-        out->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
-        out->segment = SMEAR_POINT;
-        out->color = !segment_colored(s) ? color
-                                         : tiny_color(channels[0], channels[1], channels[2], w1, w2,
-                                                      shading_is_linear(&b->d->shading));
+        if (segment_colored(s))
+            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+        bins_add(g, &g->opaque_last[bins_row(g, p->y)], (uint32_t)p->x, (uint32_t)p->y, tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }
 }
 
@@ -213,15 +208,11 @@ SMEAR_INLINE void add_stored(struct batch *b, struct smear_segment *s, struct sm
 {
     struct smear_bins *g = b->a->bins;
     uint32_t base = s->base;
-    uint16_t offset0 = (uint16_t)(stored_vertex(b, v0, triangle, back) - base);
-    uint16_t offset1 = (uint16_t)(stored_vertex(b, v1, triangle, back) - base);
-    uint16_t offset2 = (uint16_t)(stored_vertex(b, v2, triangle, back) - base);
-    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, box->y0)));
-    out->vertex[0] = offset0;
-    out->vertex[1] = offset1;
-    out->vertex[2] = offset2;
-    out->segment = (uint16_t)(s - g->segment);
-    out->color = color_of_face(b, triangle, back);
+    const uint32_t offset0 = stored_vertex(b, v0, triangle, back) - base;
+    const uint32_t offset1 = stored_vertex(b, v1, triangle, back) - base;
+    const uint32_t offset2 = stored_vertex(b, v2, triangle, back) - base;
+    bins_add(g, row_list(g, b->d, bins_row(g, box->y0)), offset0, offset1, offset2, (uint32_t)(s - g->segment),
+             color_of_face(b, triangle, back));
 }
 
 /* Adds a triangle that lies within the guard band and is clockwise on the screen; with `cut`, it may reach, with
@@ -410,15 +401,11 @@ static inline void add_listed(const struct batch *b, const struct seen *t)
     struct smear_bins *g = b->a->bins;
     const bool shares = batch_shares(b, t->back);
     const uint32_t base = b->segment->base;
-    const uint16_t offset0 = (uint16_t)(stored_place(b, t, 0, shares) - base);
-    const uint16_t offset1 = (uint16_t)(stored_place(b, t, 1, shares) - base);
-    const uint16_t offset2 = (uint16_t)(stored_place(b, t, 2, shares) - base);
-    struct smear_triangle *out = bins_add(g, row_list(g, b->d, bins_row(g, pair_y(t->four->low[t->k]))));
-    out->vertex[0] = offset0;
-    out->vertex[1] = offset1;
-    out->vertex[2] = offset2;
-    out->segment = (uint16_t)(b->segment - g->segment);
-    out->color = color_of_face(b, t->triangle, t->back);
+    const uint32_t offset0 = stored_place(b, t, 0, shares) - base;
+    const uint32_t offset1 = stored_place(b, t, 1, shares) - base;
+    const uint32_t offset2 = stored_place(b, t, 2, shares) - base;
+    bins_add(g, row_list(g, b->d, bins_row(g, pair_y(t->four->low[t->k]))), offset0, offset1, offset2,
+             (uint32_t)(b->segment - g->segment), color_of_face(b, t->triangle, t->back));
 }
 
 /* Whether four bits have no more than POINTS_MAX. */
@@ -467,13 +454,10 @@ static inline void add_seen_points(const struct batch *b, const struct seen *t)
         }
         const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
         const int32_t row = pair_y(four->low[k]) + y;
-        struct smear_triangle *p = bins_add(g, &g->opaque_last[bins_row(g, row)]);
-        p->vertex[POINT_X] = (uint16_t)(pair_x(four->low[k]) + x);
-        p->vertex[POINT_Y] = (uint16_t)row;
-        p->vertex[POINT_DEPTH] = (uint16_t)tiny_depth(q0, q1, q2, w1, w2);
-        p->segment = SMEAR_POINT;
-        p->color = !colored ? color
-                            : tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+        if (colored)
+            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+        bins_add(g, &g->opaque_last[bins_row(g, row)], (uint32_t)(pair_x(four->low[k]) + x), (uint32_t)row,
+                 tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }
 }
 

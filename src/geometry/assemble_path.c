@@ -281,11 +281,9 @@ static void add_listed(const struct path_batch *b, uint32_t *list, const struct 
                        uint32_t color)
 {
     struct smear_bins *g = b->a->bins;
-    struct smear_triangle *t = bins_add_path(g, &list[bins_row(g, bounds->y0)], bounds);
-    for (int i = 0; i < 3; i++)
-        t->vertex[i] = vertex[i];
-    t->segment = (uint16_t)(b->segment - g->segment);
-    t->color = color;
+    void *entry = bins_triangle(g, g->triangle_count++);
+    *(struct smear_path_bounds *)entry = *bounds;
+    bins_add(g, &list[bins_row(g, bounds->y0)], vertex[0], vertex[1], vertex[2], (uint32_t)(b->segment - g->segment), color);
 }
 
 /* Adds a triangle to its list. There must be room. */

@@ -129,13 +129,9 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
     b->parts++;
     const uint16_t first = store_corner(b, c, 0), second = store_corner(b, c, i - 1), third = store_corner(b, c, i);
     struct smear_bins *g = b->a->bins;
-    struct smear_triangle *t = bins_add(g, row_list(g, b->d, bins_row(g, box.y0)));
     b->a->triangles_drawn++;
-    t->segment = (uint16_t)(s - g->segment);
-    t->color = smear_face_color(b->d, s, &c->face);
-    t->vertex[0] = first;
-    t->vertex[1] = c->area > 0 ? second : third;
-    t->vertex[2] = c->area > 0 ? third : second;
+    bins_add(g, row_list(g, b->d, bins_row(g, box.y0)), first, c->area > 0 ? second : third, c->area > 0 ? third : second,
+             (uint32_t)(s - g->segment), smear_face_color(b->d, s, &c->face));
     return true;
 }
 

@@ -195,11 +195,18 @@ static inline int bins_row(const struct smear_bins *g, int32_t y)
 /* Starts a segment at the next free vertex word; null when the table is full. */
 struct smear_segment *smear_bins_open(struct smear_bins *g);
 
-/* Takes the next free entry and links it into the ring whose last triangle is *last_of_row. There must be room. */
-static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *last_of_row)
+/* Stores a triangle of three offsets in a segment, or a point (POINT_X ...), and links it into the ring whose last one is *last_of_row.
+ * All that is drawn comes by here. There must be room. */
+SMEAR_INLINE void bins_add(struct smear_bins *g, uint32_t *last_of_row, uint32_t v0, uint32_t v1, uint32_t v2, uint32_t segment,
+                           uint32_t color)
 {
     uint32_t i = g->triangle_count++, last = *last_of_row;
     struct smear_triangle *t = bins_triangle(g, i);
+    t->vertex[0] = (uint16_t)v0;
+    t->vertex[1] = (uint16_t)v1;
+    t->vertex[2] = (uint16_t)v2;
+    t->segment = (uint16_t)segment;
+    t->color = color;
     if (last == SMEAR_NO_TRIANGLE) {
         t->next = i;
     } else {
@@ -208,20 +215,10 @@ static inline struct smear_triangle *bins_add(struct smear_bins *g, uint32_t *la
         before->next = i;
     }
     *last_of_row = i;
-    return t;
 }
 
-/* Takes two entries for a triangle with a path and links the second one. There must be room. */
-static inline struct smear_triangle *bins_add_path(struct smear_bins *g, uint32_t *last_of_row,
-                                                   const struct smear_path_bounds *bounds)
-{
-    void *entry = bins_triangle(g, g->triangle_count++);
-    *(struct smear_path_bounds *)entry = *bounds;
-    return bins_add(g, last_of_row);
-}
-
-static inline const struct smear_path_bounds *bins_bounds(const struct smear_bins *g,
-                                                          uint32_t triangle)
+/* The bounds of a triangle with a path lie in the entry before. */
+static inline const struct smear_path_bounds *bins_bounds(const struct smear_bins *g, uint32_t triangle)
 {
     return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
 }

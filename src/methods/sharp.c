@@ -10,6 +10,17 @@
 
 /* ------------------------------------------------------------------ rows of several cores */
 
+/* Windows of other cores lie in the memory of temporal methods. */
+#define SMEAR_SHARP_APART (SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES && !SMEAR_SMALL_CODE)
+
+/* Whether there is anything to gain, and nothing that needs rows one after the other. */
+static inline bool may_be_apart(const struct smear_rows *rows, bool direct, int first, int end)
+{
+    return SMEAR_SHARP_APART && rows->jobs.workers > 1 && end - first > rows->jobs.workers && rows->refill == NULL
+        && rows->scratch_end != NULL && !direct && !rows->blends && !rows_have_overlay(rows) && rows->inspect == NULL && !rows->keeps_motion
+        && rows->desc->band_rows == rows->bins.row_px;
+}
+
 enum {
     BUFFERS_MOST = 8,
     FLUSH_AFTER = 16            /* triangles: core 0 looks after the display between so many */
@@ -207,7 +218,8 @@ static struct apart *cut_apart(struct smear_rows *rows, int count)
     return a;
 }
 
-bool smear_sharp_rows_apart(struct smear_rows *rows, int first, int end, int *result)
+/* Draws, converts and hands out the tile rows [first, end). False, and nothing is done, where there is no room. */
+static bool rows_apart(struct smear_rows *rows, int first, int end, int *result)
 {
     enum { ROWS_LEAST = 16 };
     const uint32_t start = stage_start(rows);
@@ -368,7 +380,7 @@ int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool 
             result = draw_damaged_row(rows, damage, row);
         return result;
     }
-    if (smear_sharp_may_be_apart(rows, direct, first, end) && smear_sharp_rows_apart(rows, first, end, &result))
+    if (may_be_apart(rows, direct, first, end) && rows_apart(rows, first, end, &result))
         return result;
     for (int row = first; row < end && result == SMEAR_OK; row++) {
         if (SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row)) {

@@ -4,7 +4,6 @@
 #define SMEAR_SHARP_H
 
 #include "display/damage.h"
-#include "display/points.h"
 #include "display/row.h"
 
 /* Draws opaque triangles of tile row `row` into the window: colour and depth. */
@@ -22,19 +21,5 @@ int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool 
 
 /* Whether frames of the context can be drawn directly; draws may still forbid it. */
 bool smear_sharp_may_be_direct(const smear_desc *desc, bool has_window);
-
-/* Windows of other cores lie in the memory of temporal methods. */
-#define SMEAR_SHARP_APART (SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES && !SMEAR_SMALL_CODE)
-
-/* Whether there is anything to gain, and nothing that needs rows one after the other. */
-static inline bool smear_sharp_may_be_apart(const struct smear_rows *rows, bool direct, int first, int end)
-{
-    return SMEAR_SHARP_APART && rows->jobs.workers > 1 && end - first > rows->jobs.workers && rows->refill == NULL
-        && rows->scratch_end != NULL && !direct && !rows->blends && !rows_have_overlay(rows) && rows->inspect == NULL && !rows->keeps_motion
-        && rows->desc->band_rows == rows->bins.row_px;
-}
-
-/* Draws, converts and hands out the tile rows [first, end). False, and nothing is done, where there is no room. */
-bool smear_sharp_rows_apart(struct smear_rows *rows, int first, int end, int *result);
 
 #endif

@@ -164,10 +164,8 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
 
 /* A triangle's two sides on their way down. */
 struct sides {
-    const int32_t *top, *middle, *bottom;
-    int32_t y, knee, end;               /* rows still to come; the middle vertex; past the last */
+    struct corners c;
     struct edge_walk left, right;
-    bool whole_is_left;                 /* the side without the middle vertex */
 };
 
 static SMEAR_RARE void side_start(struct edge_walk *e, const int32_t *a, const int32_t *b, int32_t y) { edge_start(e, a, b, y); }
@@ -175,49 +173,21 @@ static SMEAR_RARE void side_start(struct edge_walk *e, const int32_t *a, const i
 /* False when no row lies in the target. */
 static bool sides_start(struct sides *d, const struct setup *s)
 {
-    const struct smear_raster_target *t = s->target;
-    const int32_t *top = s->v[0], *middle = s->v[1], *bottom = s->v[2], *swap;
-    /* Clockwise from the top, the next vertex lies right of the long edge, so that is the
-     * left one; each swap turns the triangle over. */
-    bool whole_is_left = true;
-    if (middle[VERTEX_Y] < top[VERTEX_Y]) {
-        swap = top;
-        top = middle;
-        middle = swap;
-        whole_is_left = false;
-    }
-    if (bottom[VERTEX_Y] < middle[VERTEX_Y]) {
-        swap = middle;
-        middle = bottom;
-        bottom = swap;
-        whole_is_left = !whole_is_left;
-        if (middle[VERTEX_Y] < top[VERTEX_Y]) {
-            swap = top;
-            top = middle;
-            middle = swap;
-            whole_is_left = !whole_is_left;
-        }
-    }
-    d->whole_is_left = whole_is_left;
-    d->top = top;
-    d->middle = middle;
-    d->bottom = bottom;
-    d->y = max_i32((top[VERTEX_Y] + 127) >> 8, t->y0);
-    d->end = min_i32((bottom[VERTEX_Y] + 127) >> 8, t->y1);
-    d->knee = min_i32((middle[VERTEX_Y] + 127) >> 8, d->end);
-    if (d->y >= d->end)
+    struct corners *c = &d->c;
+    corners_find(c, s->v, s->target->y0, s->target->y1);
+    if (c->first >= c->end)
         return false;
-    side_start(d->whole_is_left ? &d->left : &d->right, top, bottom, d->y);
+    side_start(c->whole_is_left ? &d->left : &d->right, c->top, c->bottom, c->first);
     return true;
 }
 
 /* The short side of the rows that come now; returns the row in which it ends. */
 static int32_t sides_part(struct sides *d, int32_t y)
 {
-    bool upper = y < d->knee;
-    side_start(d->whole_is_left ? &d->right : &d->left, upper ? d->top : d->middle,
-               upper ? d->middle : d->bottom, y);
-    return upper ? d->knee : d->end;
+    const struct corners *c = &d->c;
+    const bool upper = y < c->knee;
+    side_start(c->whole_is_left ? &d->right : &d->left, upper ? c->top : c->middle, upper ? c->middle : c->bottom, y);
+    return upper ? c->knee : c->end;
 }
 
 static void cover_large(const struct setup *s, smear_span_fn *write)
@@ -226,8 +196,8 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
     struct row r;
     if (!sides_start(&d, s))
         return;
-    row_start(&r, s, d.y);
-    while (r.y < d.end) {
+    row_start(&r, s, d.c.first);
+    while (r.y < d.c.end) {
         int32_t stop = sides_part(&d, r.y);
         do {
             draw_span(s, &r, edge_pixel(&d.left), edge_pixel(&d.right), write);
@@ -276,9 +246,9 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     struct gather g;
     if (!sides_start(&d, s))
         return;
-    gather_start(&g, s, d.y);
+    gather_start(&g, s, d.c.first);
     g.rows.cut = cut;
-    while (g.rows.y < d.end) {
+    while (g.rows.y < d.c.end) {
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);

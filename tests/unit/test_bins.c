@@ -32,10 +32,9 @@ static void add(int first, int end, bool blend)
     uint32_t i = bins.triangle_count;
     int row = bins_row(&bins, first);
     row = row < bins.row_first ? bins.row_first : row;
-    struct smear_triangle *t = bins_add(&bins, blend ? &blend_last[row] : &opaque_last[row]);
-    t->segment = 0;
+    const uint32_t at = bins.vertex_words;
+    bins_add(&bins, blend ? &blend_last[row] : &opaque_last[row], at, at + VERTEX_BASE_WORDS, at + 2 * VERTEX_BASE_WORDS, 0, 0);
     for (int k = 0; k < 3; k++) {
-        t->vertex[k] = (uint16_t)bins.vertex_words;
         pool[bins.vertex_words + VERTEX_X] = 0;
         /* One vertex at the bottom, whose last covered centre is that of row end - 1. */
         pool[bins.vertex_words + VERTEX_Y] = (uint32_t)((k == 1 ? end : first) * 256);
