@@ -351,26 +351,27 @@ static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn,
 {
     enum { COLUMN = 8 };        /* what rounds of vectors take */
     struct smear_tile_run *const run = f->refilled;
-    const struct smear_raster_target work = f->work;
-    int32_t width = (work.x1 - work.x0) / f->fills & -COLUMN, refilled = width < COLUMN ? work.x1 - work.x0 : COLUMN;
-    for (run->fill_x1 = work.x0; run->fill_x1 < work.x1;) {
+    const int32_t x0 = f->work.x0, x1 = f->work.x1;
+    int32_t width = (x1 - x0) / f->fills & -COLUMN, refilled = width < COLUMN ? x1 - x0 : COLUMN;
+    for (run->fill_x1 = x0; run->fill_x1 < x1;) {
         bool at_once = false;
         run->fill_x0 = run->fill_x1;
         for (; !at_once && width >= COLUMN; width = at_once ? width : width / 2 & -COLUMN) {
-            run->fill_x1 = min_i32(run->fill_x0 + width, work.x1);
+            run->fill_x1 = min_i32(run->fill_x0 + width, x1);
             at_once = fill(f, FILL_MOVING, false) && !fill(f, FILL_MOVING, true);
         }
         if (!at_once) {
-            run->fill_x1 = min_i32(run->fill_x0 + refilled, work.x1);
+            run->fill_x1 = min_i32(run->fill_x0 + refilled, x1);
             refilled *= 2;
             width = COLUMN;
         }
-        const struct subframe_box column = { run->fill_x0, work.y0, run->fill_x1, work.y1 };
-        f->work = within(f, &column);
+        f->work.x0 = run->fill_x0;
+        f->work.x1 = run->fill_x1;
         f->refilled = at_once ? NULL : run;
         samples = draw_others(f, drawn, samples, all);
         f->refilled = run;
-        f->work = work;
+        f->work.x0 = x0;
+        f->work.x1 = x1;
     }
     return samples;
 }

@@ -271,7 +271,7 @@ static void test_planes_go_where_floating_point_has_them(void)
         double open[2], close[2], nearness;
         const bool is_seen = smear_plane_motion_at(&motion, &m, px, py);
         const double from = comes_from(open, &nearness, &s, order, 0, px, py), to = comes_from(close, &nearness, &s, order, 2, px, py);
-        if (!is_seen) {
+        if (!is_seen || motion.bend == PLACE_UNKNOWN) {
             refused++;
             continue;
         }
