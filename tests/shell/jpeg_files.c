@@ -8,6 +8,7 @@
 
 #include "tools/image/image.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST = 2 };
