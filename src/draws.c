@@ -58,7 +58,7 @@ static void place(struct smear_assembly *a, const struct smear_context *c, struc
 }
 
 /* Assembles a draw; that which is drawn over what lines have blurred into a list of its own. */
-static bool assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a)
+static SMEAR_NOINLINE bool assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a)
 {
     struct smear_bins *g = as->bins;
     uint32_t *const opaque = g->opaque_last;

@@ -282,7 +282,8 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
             return;
         }
         const struct smear_triangle *const t = bins_triangle(frame->bins, number);
-        head = t->next;
+        if (given == NULL)      /* lists that other workers open meanwhile are of no use */
+            head = t->next;
         if (t->segment == SMEAR_POINT) {
             if (at_once)
                 head = draw_points(&points, number, target_is_direct(target));

@@ -351,7 +351,7 @@ static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn,
 {
     enum { COLUMN = 8 };        /* what rounds of vectors take */
     struct smear_tile_run *const run = f->refilled;
-    const int32_t x0 = f->work.x0, x1 = f->work.x1;
+    const int32_t x0 = f->work.x0, x1 = f->work.x1, fill_x0 = run->fill_x0, fill_x1 = run->fill_x1;
     int32_t width = (x1 - x0) / f->fills & -COLUMN, refilled = width < COLUMN ? x1 - x0 : COLUMN;
     for (run->fill_x1 = x0; run->fill_x1 < x1;) {
         bool at_once = false;
@@ -373,6 +373,8 @@ static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn,
         f->work.x0 = x0;
         f->work.x1 = x1;
     }
+    run->fill_x0 = fill_x0;
+    run->fill_x1 = fill_x1;
     return samples;
 }
 
@@ -439,12 +441,11 @@ static inline void make(struct subframes *f, struct smear_space *space, const st
     f->work.color_rows = f->work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 }
 
-uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
+uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan)
 {
     struct subframes f;
     struct smear_space space;
     struct subframe_box all;
-    struct smear_tile_run own;
     make(&f, &space, t, instants);
     f.plans = plan != NULL && plan->chooser != NULL;
     bool is_still = false;
@@ -454,10 +455,8 @@ uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants,
         f.plans = sketched < 0;
         f.instants = (uint32_t)(f.plans ? instants : max_i32(sketched, 1));
     }
-    if (t->fill != NULL) {
-        own = *t;
-        f.t = f.refilled = &own;
-    }
+    if (t->fill != NULL)
+        f.refilled = t;
     smear_subframe_take_background(&f);
     struct subframe_box middle = no_box;
     uint32_t samples = 0;

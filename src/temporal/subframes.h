@@ -25,8 +25,9 @@ struct smear_tile_plan;
 /* Writes the mean of `instants` (1 .. 1024) sharp instants, which stand in the middles of sub-intervals of equal weight.
  * Static opaque surfaces come from the background; moving triangles and all blended draws are drawn at every instant.
  * With a plan (tile_method.h), not null, it is asked how many there are when the middle one is drawn, and gaps between
- * instants are closed, unless something is blended there. Returns the samples taken. */
-uint32_t smear_subframes_tiles(const struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
+ * instants are closed, unless something is blended there. Where the row's triangles do not find room at once, t->moving and
+ * t->blend are others afterwards. Returns the samples taken. */
+uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
 
 /* Finds depths in the middle of the exposure of what is opaque, of columns [x0, x1) of the tiles, when their pixels are done.
  * Returns them, in the work memory, in rows like those of `out`. */
