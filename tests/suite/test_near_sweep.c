@@ -220,8 +220,8 @@ static const struct {
     int over;
     double farthest, most_of_ten, most;
 } by[] = {
-    { SMEAR_AUTO, 0, "auto", 20, 2, 1.3, 2.6 },
-    { SMEAR_SUBFRAMES, 0, "subframes", 25, 3, 1.2, 3 },
+    { SMEAR_AUTO, 0, "auto", 5, 1.5, 1.3, 2.6 },
+    { SMEAR_SUBFRAMES, 0, "subframes", 5, 1.5, 1.2, 3 },
     { SMEAR_TIMEMASK, 16, "timemask", 100, 6, 2.2, 6 }
 };
 
