@@ -65,9 +65,9 @@ include platform/$(TARGET)/target.mk
 # Rooms, the lowest first: a file includes only what lies in its own room or in those before it (`make layers`).
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
 # with others lies in its root, below them.
-# The methods of other systems lie above it, in rooms that it does not know.
-OTHER_ROOMS := $(addprefix src/,filter layers accumulate timemask)
-SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal methods model) src $(OTHER_ROOMS)
+# What plays converted models, and the methods of other systems, lie above it, in rooms that it does not know.
+OTHER_ROOMS := $(addprefix src/,model filter layers accumulate timemask)
+SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal methods) src $(OTHER_ROOMS)
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game

@@ -95,7 +95,7 @@ const struct demo_blur *demo_blur_find(const char *name)
 void demo_blur_desc(const struct demo_blur *blur, const struct demo_screen *screen, smear_desc *desc)
 {
     desc->methods = (uint16_t)(SMEAR_SET(blur->method)
-                               | (blur->method == SMEAR_AUTO && blur->number > SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u));
+                               | (blur->method == SMEAR_AUTO && blur->number >= SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u));
     if (smear_method_is_temporal(blur->method))
         return;
     /* Where pages flip, twice as much of a sharp frame is damaged, and nothing is saved. */

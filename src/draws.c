@@ -39,12 +39,30 @@ static void place_fine(struct smear_placement *place, const struct smear_assembl
     smear_draw_poses_place(place, &poses, &c->shot, a->mesh, at);
 }
 
+/* Returns the instant of a draw in the picture that is assembled. */
+static inline const struct smear_instant *line_instant(const struct smear_context *c, uint32_t draw)
+{
+    const struct smear_lines *lines = c->temporal.lines;
+    return !draw_is_mover(c, draw) ? &lines->instant[lines->picture]
+                                   : &lines->mover_instant[lines->picture == LINE_BEHIND ? 0 : lines->picture];
+}
+
+/* Whether the picture that is assembled is none of those that a draw is in. */
+static inline bool draw_is_elsewhere(const struct smear_context *c, uint32_t draw)
+{
+    const struct smear_lines *lines = c->temporal.lines;
+    if (!frame_has_lines(c))
+        return false;
+    return lines->picture == LINE_BEHIND ? !line_is_behind(lines, draw)
+                                         : line_is_mover(lines, draw) && lines->picture >= line_mover_pictures(lines);
+}
+
 /* Finds where a draw is, at an instant and, with `has_path`, along its path. */
 static void place(struct smear_assembly *a, const struct smear_context *c, struct smear_draw_poses *p, bool moves, bool has_path,
                   const struct smear_instant *instant)
 {
     if (frame_has_lines(c) && !has_path)
-        instant = &c->temporal.lines->instant[c->temporal.lines->picture];
+        instant = line_instant(c, a->draw);
     a->place_fine = place_fine;
     a->place_of = c;
     a->instant = moves ? instant : &smear_instant_now;
@@ -65,7 +83,8 @@ static SMEAR_NOINLINE bool assemble_one(const struct smear_context *c, struct sm
     if (assembly_has_path(a))
         return smear_assemble_path(as, a);
     if (draw_is_mover(c, a->draw))
-        g->opaque_last = g->second_last;
+        g->opaque_last = bins_more(g, c->temporal.lines->picture == LINE_BEHIND ? line_list(LINE_BEHIND)
+                                                                                : line_movers_list(c->temporal.lines->picture));
     const bool done = smear_assemble(as, a);
     g->opaque_last = opaque;
     return done;
@@ -213,7 +232,7 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
             ranges += ranges_of(as->bins, c->submitted[i].draw.mesh->triangle_count);
         }
         if (!is_of_kind(c, i, kind) || !is_wanted(c, i, kind, f == NULL, &seen) || (f != NULL && !fill_lacks(c, f, k, i))
-            || (ranges != NULL && !draw_reaches(c, as, i)))
+            || (ranges != NULL && !draw_reaches(c, as, i)) || draw_is_elsewhere(c, i))
             continue;
         if (f != NULL && k == f->draw)
             as->resume = (struct smear_resume){ f->triangle, f->parts };
@@ -229,17 +248,22 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     return true;
 }
 
-/* Assembles all draws, and those that are static again for the second picture. */
+/* Assembles all draws, and those that are static again for each further picture. */
 static bool assemble_pictures(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant)
 {
     struct smear_bins *g = as->bins;
+    struct smear_lines *const lines = c->temporal.lines;
     uint32_t *const first = g->opaque_last;
     bool done = assemble_kind(c, as, instant, NULL, DRAWS_ALL);
     const uint32_t drawn = as->triangles_drawn, dropped = as->triangles_dropped, beside = c->stats.draws_beside;
-    g->opaque_last = g->second_last;
-    c->temporal.lines->picture = 1;
-    done = done && assemble_kind(c, as, instant, NULL, DRAWS_STATIC);
-    c->temporal.lines->picture = 0;
+    for (int k = 1; done && k < lines->pictures; k++) {
+        lines->picture = (uint8_t)k;
+        g->opaque_last = bins_more(g, line_list(k));
+        done = assemble_kind(c, as, instant, NULL, DRAWS_STATIC);
+    }
+    lines->picture = LINE_BEHIND;
+    done = done && (lines->behind == 0 || assemble_kind(c, as, instant, NULL, DRAWS_STATIC));
+    lines->picture = 0;
     g->opaque_last = first;
     as->triangles_drawn = drawn;
     as->triangles_dropped = dropped;
@@ -253,7 +277,7 @@ static bool assemble_pictures(struct smear_context *c, struct smear_assembler *a
 static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, const struct smear_instant *instant,
                            struct smear_refill *f)
 {
-    if (f == NULL && frame_has_pictures(c))
+    if (f == NULL && (frame_has_pictures(c) || frame_has_movers(c)))
         return assemble_pictures(c, as, instant);
     if (!assembler_has_damage(as))
         return assemble_kind(c, as, instant, f, DRAWS_ALL);
@@ -551,14 +575,14 @@ static void begin_lists(struct smear_context *c, int top, int first)
 {
     struct smear_rows *rows = &c->rows;
     rows->opaque = rows->blend = rows->moving = SMEAR_NO_TRIANGLE;
-    if (frame_has_lines(c))
-        c->temporal.lines->opaque = SMEAR_NO_TRIANGLE;
+    for (int list = 0; list < rows->bins.more_lists; list++)
+        c->temporal.lines->list[list] = SMEAR_NO_TRIANGLE;
     if (SMEAR_RASTER_CACHE)
         make_cache(c);
     for (int row = top; row < first; row++) {
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-        if (frame_has_lines(c))
-            c->temporal.lines->opaque = row_advance(rows, rows->bins.second_last, c->temporal.lines->opaque, row);
+        for (int k = 1; frame_has_lines(c) && k <= LINE_BEHIND; k++)
+            temporal_advance(&c->temporal, rows, line_list(k), row);
     }
 }
 
@@ -587,8 +611,8 @@ static void fill(struct smear_refill *f)
     begin_lists(c, f->row, f->row);
     rows->opaque = row_advance(rows, rows->bins.opaque_last, SMEAR_NO_TRIANGLE, f->row);
     rows->blend = row_advance(rows, rows->bins.blend_last, SMEAR_NO_TRIANGLE, f->row);
-    if (frame_has_lines(c))
-        c->temporal.lines->opaque = row_advance(rows, rows->bins.second_last, SMEAR_NO_TRIANGLE, f->row);
+    for (int list = 0; frame_has_lines(c) && list < LINE_LISTS; list++)
+        temporal_advance(&c->temporal, rows, list, f->row);
     if (rows->bins.moving_last != NULL && !frame_has_layers(c))
         rows->moving = row_advance(rows, rows->bins.moving_last, SMEAR_NO_TRIANGLE, f->row);
     stage_end(rows, &c->stats.time.submit, start);

@@ -26,6 +26,9 @@ static inline void poses_of(struct smear_draw_poses *p, const struct smear_conte
  * Before all others. */
 void smear_draws_find_curves(struct smear_context *c);
 
+/* Finds out which draws move, and how. */
+void smear_draws_classify(struct smear_context *c);
+
 /* Looks at all draws of the frame: what moves, what is blended, whose velocity comes from where. */
 void smear_draws_prepare(struct smear_context *c);
 

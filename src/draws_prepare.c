@@ -129,11 +129,18 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);
 }
 
+void smear_draws_classify(struct smear_context *c)
+{
+    c->stats.draws_moved = 0;
+    for (uint32_t i = 0; i < c->draw_count; i++)
+        classify_draw(c, i);
+}
+
 void smear_draws_prepare(struct smear_context *c)
 {
     c->rows.blends = false;
+    smear_draws_classify(c);
     for (uint32_t i = 0; i < c->draw_count; i++) {
-        classify_draw(c, i);
         look_up_material(c, i);
         c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
     }

@@ -17,7 +17,8 @@
 /* ------------------------------------------------------------------ SMEAR_AUTO, SMEAR_SUBFRAMES, SMEAR_TIMEMASK */
 
 /* What is static is drawn once; tiles in which something moves draw their moving triangles at several instants. Along lines a
- * row is finished late, with the triangles that move in it; what a display shows is not what is static then. */
+ * row is finished late, with the triangles that move in it; what a display shows is not what is static then. Where lines do not do
+ * for what is left of the frame, all that moves does so along paths. */
 static int render_temporal(struct smear_context *c)
 {
     const struct smear_instant middle = smear_instant_middle(&c->shot);
@@ -29,8 +30,13 @@ static int render_temporal(struct smear_context *c)
         smear_draws_find_damage(c);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
-        end = smear_draws_assemble(c, lines ? max_i32(row - 1, 0) : row, row, c->rows.window.rows, &middle, &refill);
-        result = smear_temporal_rows(&c->temporal, &c->rows, row, end);
+        const int top = frame_has_lines(c) ? c->temporal.lines->finished : row;
+        end = smear_draws_assemble(c, top, row, c->rows.window.rows, &middle, &refill);
+        result = smear_temporal_rows(&c->temporal, &c->rows, row, &end);
+        if (c->assembler.lines && !frame_has_lines(c)) {
+            c->assembler.lines = false;
+            smear_draws_classify(c);
+        }
     }
     if (!lines)
         smear_draws_end_damage(c, result);

@@ -52,10 +52,13 @@ static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const
         over = arena_take(a, pixels, sizeof *over);
     struct smear_flow *own = arena_take(a, d->max_draws, sizeof *own);
     uint8_t *kind = arena_take(a, d->max_draws, sizeof *kind);
-    struct smear_line_block *block = arena_take(a, (size_t)line_blocks(d->width) * (size_t)line_blocks(d->tile), sizeof *block);
+    const size_t blocks = (size_t)line_blocks(d->width) * (size_t)line_blocks(d->tile);
+    struct smear_line_block *block = arena_take(a, blocks, sizeof *block);
+    struct smear_line_seen *seen = arena_take(a, 2 * blocks, sizeof *seen);
     t->lines = arena_take(a, 1, sizeof *t->lines);
     if (t->lines != NULL)           /* else it is only measured */
-        *t->lines = (struct smear_lines){ .row = row, .depth = depth, .kind = kind, .own = own, .block = block, .over = over };
+        *t->lines = (struct smear_lines){ .row = row, .depth = depth, .kind = kind, .own = own, .block = block, .seen = seen,
+                                          .over = over };
 }
 
 static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
@@ -120,13 +123,14 @@ static void lay_out_store(struct smear_context *c, struct smear_arena *a, const 
     g->shot = &c->shot;
     g->pool_words = pool_words(d);
     g->pool = SMEAR_PLACE(d, SMEAR_PART_TRIANGLES, arena_take(a, g->pool_words, 4), g->pool_words * 4);
-    const uint32_t pictures = has_lines(d) ? 2 : 1;
+    const uint32_t pictures = has_lines(d) ? LINE_PICTURES : 1;
     g->segment_limit = min_u32(pictures * d->max_draws + 2u + g->pool_words / 50000u, 65536u);      /* 16-bit numbers */
     g->segment = SMEAR_PLACE(d, SMEAR_PART_SEGMENTS, arena_take(a, g->segment_limit, sizeof *g->segment),
                              g->segment_limit * sizeof *g->segment);
     g->opaque_last = arena_take(a, rows, sizeof *g->opaque_last);
     g->blend_last = arena_take(a, rows, sizeof *g->blend_last);
-    g->second_last = has_lines(d) ? arena_take(a, rows, sizeof *g->second_last) : NULL;
+    g->more_lists = has_lines(d) ? LINE_LISTS : 0;
+    g->more_last = g->more_lists != 0 ? arena_take(a, g->more_lists * rows, sizeof *g->more_last) : NULL;
     g->moving_rows = has_layers(d) ? 2 : 0;
     g->moving_last = is_temporal(d) || has_layers(d)
                    ? arena_take(a, rows + (size_t)g->moving_rows, sizeof *g->moving_last) : NULL;

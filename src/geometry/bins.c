@@ -16,8 +16,9 @@ void smear_bins_reset(struct smear_bins *g, int first, int end)
         g->opaque_last[row] = g->blend_last[row] = SMEAR_NO_TRIANGLE;
     for (int row = first; g->moving_last != NULL && row < end + g->moving_rows; row++)
         g->moving_last[row] = SMEAR_NO_TRIANGLE;
-    for (int row = first; g->second_last != NULL && row < end; row++)
-        g->second_last[row] = SMEAR_NO_TRIANGLE;
+    for (int list = 0; list < g->more_lists; list++)
+        for (int row = first; row < end; row++)
+            bins_more(g, list)[row] = SMEAR_NO_TRIANGLE;
 }
 
 struct smear_segment *smear_bins_open(struct smear_bins *g)

@@ -137,7 +137,8 @@ struct smear_bins {
     const struct smear_shot *shot;  /* before whose camera paths in space are cut */
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
-    uint32_t *second_last;          /* of opaque ones in a second picture of the frame; or null */
+    uint32_t *more_last;            /* of opaque ones in so many lists more, row_count each (temporal/lines.h); or null */
+    uint8_t more_lists;
     uint16_t moving_rows;           /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
     uint16_t margin;                /* with smooth edges 1: so many pixels beyond the centres that it covers, a triangle may be
                                      * seen, and is in lists. Else 0 */
@@ -151,6 +152,9 @@ struct smear_bins {
 #define SMEAR_POOL_PARTS (SMEAR_WITH_WORKERS && !SMEAR_SMALL_CODE)
 
 static inline bool bins_in_parts(const struct smear_bins *g) { return SMEAR_POOL_PARTS && g->parts_end != 0; }
+
+/* Returns the last triangles of each tile row in one of those lists. */
+static inline uint32_t *bins_more(const struct smear_bins *g, int list) { return g->more_last + list * g->row_count; }
 
 /* Returns how many triangles all lists have together. */
 static inline uint32_t bins_listed(const struct smear_bins *g) { return bins_in_parts(g) ? g->parts_listed : g->triangle_count; }

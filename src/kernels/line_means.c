@@ -414,3 +414,65 @@ void smear_line_means(const struct line_block *b, bool linear)
     else
         code_means(b, b->log);
 }
+
+/* ------------------------------------------------------------------ means of pictures */
+
+enum { THIRD = 3 };             /* the mean of so many is a product by 85 and a quarter, in 16 bits: 256 / 3 = 85.33 */
+
+/* Returns the mean of k codes in each half of a word, and one more. */
+static inline uint32_t mixed_halves(uint32_t mean, uint32_t more, uint32_t k)
+{
+    const uint32_t sum = k * (mean & 0xff00ffu) + (more & 0xff00ffu), part = 256 / (k + 1);
+    return (sum * part + (k + 1 == THIRD ? sum >> 2 & 0xff00ffu : 0) + 0x800080u) >> 8 & 0xff00ffu;
+}
+
+static uint32_t mixed_light(uint32_t mean, uint32_t more, uint32_t k)
+{
+    const uint32_t part = (65535 + k) / (k + 1);
+    uint32_t out[3];
+    for (int i = 0; i < 3; i++) {
+        const uint32_t a = mean >> 8 * i & 255u, b = more >> 8 * i & 255u;
+        out[i] = root_of((k * a * a + b * b) * part >> 16);
+    }
+    return out[2] << 16 | out[1] << 8 | out[0];
+}
+
+static inline uint32_t mixed(uint32_t mean, uint32_t more, uint32_t k, bool linear)
+{
+    if (((mean ^ more) & 0xffffffu) == 0)
+        return more & 0xffffffu;
+    return SMEAR_WITH_LINEAR && linear ? mixed_light(mean, more, k)
+                                       : mixed_halves(mean, more, k) | (mixed_halves(mean >> 8, more >> 8, k) & 0xffu) << 8;
+}
+
+void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+{
+    for (int32_t i = 0; i < n; i++)
+        mean[i] = mixed(mean[i], more[i], (uint32_t)k, linear);
+}
+
+#if SMEAR_VECTORS
+static inline smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, smear_v4u k, smear_v4u part, bool third)
+{
+    const smear_v4u sum = v4u_mul16(mean & 0xff00ffu, k) + (more & 0xff00ffu), quarter = sum >> 2 & 0xff00ffu;
+    return (v4u_mul16(sum, part) + (third ? quarter : quarter ^ quarter) + 0x800080u) >> 8 & 0xff00ffu;
+}
+
+void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+{
+    const uint32_t weight = 0x10001u * (uint32_t)k, part = 0x10001u * (256u / ((uint32_t)k + 1u));
+    const smear_v4u weights = { weight, weight, weight, weight }, parts = { part, part, part, part };
+    int32_t i = 0;
+    for (; i + 4 <= n && !linear; i += 4) {
+        const smear_v4u a = v4u_load(mean + i), b = v4u_load(more + i);
+        const smear_v4u red_blue = mixed_halves4(a, b, weights, parts, k + 1 == THIRD);
+        v4u_store(mean + i, red_blue | (mixed_halves4(a >> 8, b >> 8, weights, parts, k + 1 == THIRD) & 0xffu) << 8);
+    }
+    smear_line_mix_reference(mean + i, more + i, n - i, k, linear);
+}
+#else
+void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+{
+    smear_line_mix_reference(mean, more, n, k, linear);
+}
+#endif

@@ -7,7 +7,7 @@
  *         static      triangles that do not move, into the row's pixels
  *         finish      tiles by their method (tile_method.h): a copy, subframes of tiles beside each other, or a time
  *                     mask; then flush */
-#include "methods/temporal.h"
+#include "methods/temporal_rows.h"
 
 #include "display/band.h"
 #include "display/points.h"
@@ -15,18 +15,7 @@
 
 #if SMEAR_WITH_SUBFRAMES
 
-/* What the jobs of a run of tiles of a row share. */
-struct finish {
-    struct row_job row;
-    struct smear_temporal *self;
-    struct smear_raster_target background;      /* what is static, drawn */
-    struct smear_row_moving moving;             /* what list_job() fills in, of a tile row whose first pixel row is `top` */
-    int32_t top;
-    int strips;
-};
-
-enum { LISTS_PER_WORKER = 2,        /* jobs: the more there are, the more of them look at the same triangles */
-       SKETCHED = 2 };              /* instants of what is drawn over what lines have blurred */
+enum { LISTS_PER_WORKER = 2 };      /* jobs: the more there are, the more of them look at the same triangles */
 
 int32_t smear_strip_columns(int32_t strip, int32_t width)
 {
@@ -40,9 +29,9 @@ static bool is_static(const struct smear_tile_travel *tile)
 
 /* ------------------------------------------------------------------ tiles */
 
-static void background_job(void *argument, int job, int worker)
+void smear_background_job(void *argument, int job, int worker)
 {
-    const struct finish *f = (const struct finish *)argument;
+    const struct smear_finish *f = (const struct smear_finish *)argument;
     struct smear_raster_target t = f->background;
     (void)worker;
     smear_row_draw_opaque(&f->row, job, &t, 0);
@@ -76,7 +65,7 @@ static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows
 /* Fills the store with the first or next triangles of the row: smear_tile_run.fill. */
 static bool fill_tiles(struct smear_tile_run *t, int kinds, bool next)
 {
-    const struct finish *f = (const struct finish *)t->fill_of;
+    const struct smear_finish *f = (const struct smear_finish *)t->fill_of;
     struct smear_rows *rows = f->row.rows;
     struct smear_row_moving *moving = &f->self->moving;
     if (next ? !smear_row_fill_next(rows)
@@ -89,7 +78,7 @@ static bool fill_tiles(struct smear_tile_run *t, int kinds, bool next)
 }
 
 /* Where the row is refilled: fills the store with what the tiles need. When that is all of it, they are drawn as ever. */
-static void refill_tiles(struct smear_tile_run *t, const struct finish *f)
+static void refill_tiles(struct smear_tile_run *t, const struct smear_finish *f)
 {
     struct smear_rows *rows = f->row.rows;
     if (rows->refill == NULL)
@@ -102,7 +91,7 @@ static void refill_tiles(struct smear_tile_run *t, const struct finish *f)
 }
 
 /* Describes tiles [first, end) of the row to a method. */
-static struct smear_tile_run tiles_of(const struct finish *f, int first, int end, int worker)
+static struct smear_tile_run tiles_of(const struct smear_finish *f, int first, int end, int worker)
 {
     const struct smear_temporal *self = f->self;
     const struct smear_rows *rows = f->row.rows;
@@ -127,7 +116,7 @@ static void finished_target(const struct smear_tile_run *t, struct smear_raster_
     out->color_rows = (struct smear_plane_rows){ t->pitch, 0, out->y1 - out->y0, out->x0 };
 }
 
-static SMEAR_NOINLINE void hand_on(const struct finish *f, const struct smear_tile_run *t)
+static SMEAR_NOINLINE void hand_on(const struct smear_finish *f, const struct smear_tile_run *t)
 {
     struct smear_raster_target out;
     finished_target(t, &out);
@@ -141,7 +130,7 @@ static SMEAR_NOINLINE void hand_on(const struct finish *f, const struct smear_ti
 
 /* Converts static tiles from `first` on; returns the first that is not, or `end`. Points are drawn over what the next frame
  * needs no more. */
-static int finish_static(const struct finish *f, int first, int end, int worker)
+static int finish_static(const struct smear_finish *f, int first, int end, int worker)
 {
     const struct smear_rows *rows = f->row.rows;
     int next = first;
@@ -162,7 +151,7 @@ static int finish_static(const struct finish *f, int first, int end, int worker)
 
 /* Returns the columns beyond a strip's border in which its moving triangles are drawn, too, so that gaps of its last
  * tile close with what is there. `neighbour`: the tile beyond, or null. */
-static int32_t margin_of(const struct finish *f, const struct smear_tile_travel *tile, const struct smear_tile_travel *neighbour)
+static int32_t margin_of(const struct smear_finish *f, const struct smear_tile_travel *tile, const struct smear_tile_travel *neighbour)
 {
     enum { GAP_SEEN = 2 * 16 };
     const int32_t strip = f->self->strip, most = (smear_strip_columns(strip, f->row.rows->window.width) - strip) / 2;
@@ -170,7 +159,7 @@ static int32_t margin_of(const struct finish *f, const struct smear_tile_travel 
     return neighbour == NULL || neighbour->weight == 0 || gap <= GAP_SEEN ? 0 : min_i32((gap + 31) >> 5, most);
 }
 
-static void widen(struct smear_tile_run *t, const struct finish *f)
+static void widen(struct smear_tile_run *t, const struct smear_finish *f)
 {
     const struct smear_tile_travel *travel = f->self->moving.travel;
     const struct smear_window *w = &f->row.rows->window;
@@ -185,7 +174,7 @@ static void widen(struct smear_tile_run *t, const struct finish *f)
 /* Draws tiles beside each other from `first` on, which share instants: as many as the one that needs most, or as the plan
  * says. Tiles that need none are drawn apart from others, and so are those in which something is blended, as nothing is
  * closed there. Returns the first tile that is not among them. */
-static int finish_subframes(const struct finish *f, int first, int end, int32_t instants, int worker)
+static int finish_subframes(const struct smear_finish *f, int first, int end, int32_t instants, int worker)
 {
     struct smear_temporal *self = f->self;
     struct smear_tile_travel *travel = self->moving.travel;
@@ -206,12 +195,14 @@ static int finish_subframes(const struct finish *f, int first, int end, int32_t 
     struct smear_tile_run t = tiles_of(f, first, next, worker);
     widen(&t, f);
     refill_tiles(&t, f);
-    f->row.rows->samples[worker] += smear_subframes_tiles(&t, self->moving.measures ? instants : SKETCHED, plans ? &plan : NULL);
+    if (!self->moving.measures)
+        instants = 1 + self->lines->pictures;
+    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
     hand_on(f, &t);
     return next;
 }
 
-static SMEAR_NOINLINE void finish_tile(const struct finish *f, int column, const struct smear_tile_choice *choice, int worker)
+static SMEAR_NOINLINE void finish_tile(const struct smear_finish *f, int column, const struct smear_tile_choice *choice, int worker)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
@@ -235,7 +226,7 @@ static SMEAR_NOINLINE void finish_tile(const struct finish *f, int column, const
 /* What the moving triangles of a row mean for some of its tiles. */
 static void list_job(void *argument, int job, int worker)
 {
-    struct finish *f = (struct finish *)argument;
+    struct smear_finish *f = (struct smear_finish *)argument;
     const struct smear_rows *rows = f->row.rows;
     const int32_t columns = rows->window.columns, jobs = rows->jobs.workers * LISTS_PER_WORKER;
     (void)worker;
@@ -245,7 +236,7 @@ static void list_job(void *argument, int job, int worker)
 
 static void list_tiles(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
-    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self, .moving = self->moving,
+    struct smear_finish finish = { .row = { .rows = rows, .row = row }, .self = self, .moving = self->moving,
                              .top = row_top(rows, row) };
     if (rows->moving == SMEAR_NO_TRIANGLE)
         return;
@@ -265,7 +256,7 @@ static void exchange(struct smear_temporal *self, struct smear_row_moving *movin
 }
 
 /* Begins the next row's lists, for jobs beside those that finish this one. Returns how many there are. */
-static int begin_next(struct finish *f, int end)
+static int begin_next(struct smear_finish *f, int end)
 {
     struct smear_temporal *self = f->self;
     struct smear_rows *rows = f->row.rows;
@@ -292,7 +283,7 @@ static bool take_next(struct smear_temporal *self, const struct smear_window *w)
     return true;
 }
 #else
-static int begin_next(struct finish *f, int end)
+static int begin_next(struct smear_finish *f, int end)
 {
     (void)f;
     (void)end;
@@ -312,7 +303,7 @@ static bool take_next(struct smear_temporal *self, const struct smear_window *w)
 /* Finishes the tiles of the run that lie in a strip; jobs behind the strips are those of list_job(). */
 static void finish_job(void *argument, int strip, int worker)
 {
-    const struct finish *f = (const struct finish *)argument;
+    const struct smear_finish *f = (const struct smear_finish *)argument;
     const struct smear_window *w = &f->row.rows->window;
     if (SMEAR_WITH_WORKERS && strip >= f->strips) {
         list_job(argument, strip - f->strips, worker);
@@ -369,23 +360,20 @@ static bool next_run(const struct smear_temporal *self, const struct smear_rows 
     return run->first < run->end;
 }
 
-/* Draws what does not move of tiles beside each other, and finds where it is. */
-static void draw_run(struct smear_temporal *self, struct finish *f)
+void smear_draw_run(struct smear_temporal *self, struct smear_finish *f)
 {
     struct smear_rows *rows = f->row.rows;
     const uint32_t start = stage_start(rows);
     smear_row_target(rows, f->row.row, &f->background);
     if (!static_is_cached(self->damage)) {
-        smear_row_run(rows, background_job, &f->row, FILL_STATIC | FILL_MOVING);
+        smear_row_run(rows, smear_background_job, &f->row, FILL_STATIC | FILL_MOVING);
         if (SMEAR_EDGES && bins_margin(&rows->bins) != 0)
             smear_smooth_static(rows, f->row.row, self);
     }
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
-/* Finishes and hands out tiles [first, last) beside each other whose background is known. `end`: of the tile rows that are
- * assembled. */
-static int finish_run(struct smear_temporal *self, struct finish *f, int end, const struct smear_damage_run *run)
+int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, int end, const struct smear_damage_run *run)
 {
     struct smear_rows *rows = f->row.rows;
     const uint32_t start = stage_start(rows);
@@ -449,15 +437,14 @@ static void add_shares(struct smear_temporal *self, int workers)
     }
 }
 
-/* Begins to finish a row. */
-static void begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)
+void smear_temporal_begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
-static void end_row(struct smear_temporal *self, const struct smear_rows *rows)
+void smear_temporal_end_row(struct smear_temporal *self, const struct smear_rows *rows)
 {
     count_tiles(self, rows);
     add_shares(self, rows->jobs.workers);
@@ -470,11 +457,11 @@ static SMEAR_NOINLINE int draw_listed(struct smear_temporal *self, struct smear_
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
     while (next_run(self, rows, row, &run)) {
-        struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+        struct smear_finish finish = { .row = { .rows = rows, .row = row }, .self = self };
         finish.row.x0 = tile_left(rows, run.first);
         finish.row.x1 = tile_right(rows, run.end - 1);
-        draw_run(self, &finish);
-        int result = finish_run(self, &finish, end, &run);
+        smear_draw_run(self, &finish);
+        int result = smear_finish_run(self, &finish, end, &run);
         if (result != SMEAR_OK)
             return result;
     }
@@ -483,142 +470,15 @@ static SMEAR_NOINLINE int draw_listed(struct smear_temporal *self, struct smear_
 
 static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
-    begin_row(self, rows, row);
+    smear_temporal_begin_row(self, rows, row);
     const int result = draw_listed(self, rows, row, end);
     if (result != SMEAR_OK)
         return result;
-    end_row(self, rows);
+    smear_temporal_end_row(self, rows);
     if (SMEAR_WITH_DAMAGE)
         smear_damage_row_sent(self->damage, rows, row);
     return SMEAR_OK;
 }
-
-/* ------------------------------------------------------------------ along lines */
-
-#if SMEAR_WITH_LINES
-static void lines_job(void *argument, int job, int worker)
-{
-    const struct finish *f = (const struct finish *)argument;
-    const struct smear_rows *rows = f->row.rows;
-    const int32_t top = row_top(rows, f->row.row), bottom = row_bottom(rows, f->row.row);
-    int32_t x0, x1;
-    (void)worker;
-    smear_job_columns(rows, job, &x0, &x1);
-    smear_lines_blur(f->self->lines, &rows->window, x0, x1, top, bottom, min_i32(bottom + rows->window.tile, rows->window.height));
-    for (int32_t y = top; x0 < x1 && y < bottom; y++)
-        smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
-}
-
-static void movers_job(void *argument, int job, int worker)
-{
-    const struct finish *f = (const struct finish *)argument;
-    const struct smear_rows *rows = f->row.rows;
-    struct smear_raster_target t = f->background;
-    (void)worker;
-    t.over = true;
-    if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
-        smear_raster_list(&rows->raster, &t, f->self->lines->opaque);
-}
-
-/* Draws what moves by itself over what lines have blurred, and blurs both. */
-static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct finish *f)
-{
-    struct smear_rows *rows = f->row.rows;
-    struct smear_lines *lines = self->lines;
-    const int32_t row = f->row.row, top = row_top(rows, row), bottom = row_bottom(rows, row);
-    if (rows->refill == NULL)
-        lines->opaque = row_advance(rows, rows->bins.second_last, lines->opaque, row);
-    if (rows->refill == NULL && lines->opaque == SMEAR_NO_TRIANGLE)
-        return;
-    smear_row_run(rows, movers_job, &f->row, FILL_MOVING);
-    smear_movers_begin(lines, &rows->window);
-    if (rows->refill == NULL)
-        smear_movers_find(lines, &rows->bins, &rows->window, lines->opaque, top, bottom);
-    else
-        for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
-            smear_movers_find(lines, &rows->bins, &rows->window, lines->opaque, top, bottom);
-    smear_movers_blur(lines, &rows->window, top, bottom);
-}
-
-/* Blurs a row whose tiles are listed along lines, as far as it stands still, and finishes it. */
-static SMEAR_NOINLINE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
-{
-    const struct smear_window *w = &rows->window;
-    const struct smear_damage_run all = { 0, (int)w->columns };
-    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
-    smear_row_target(rows, row, &finish.background);
-    const uint32_t start = stage_start(rows);
-    smear_jobs_run(&rows->jobs, lines_job, &finish, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time.blur, start);
-    finish.background.color = self->lines->row;
-    finish.background.depth = self->lines->depth;
-    finish.background.color_rows = finish.background.window_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
-    if (self->lines->movers != 0)
-        draw_movers(self, &finish);
-    return finish_run(self, &finish, end, &all);
-}
-
-static void mix_job(void *argument, int job, int worker)
-{
-    const struct finish *f = (const struct finish *)argument;
-    const struct smear_rows *rows = f->row.rows;
-    int32_t x0, x1;
-    (void)worker;
-    smear_job_columns(rows, job, &x0, &x1);
-    for (int32_t y = row_top(rows, f->row.row); x0 < x1 && y < row_bottom(rows, f->row.row); y++)
-        smear_lines_mix(f->self->lines, &rows->window, x0, x1, y);
-}
-
-/* Draws the second picture of a row and mixes it with the first. */
-static void draw_second(struct smear_temporal *self, struct finish *f)
-{
-    struct smear_rows *rows = f->row.rows;
-    struct smear_lines *lines = self->lines;
-    const uint32_t start = stage_start(rows), first = rows->opaque;
-    f->background.color = lines->row;
-    f->background.depth = lines->depth;
-    f->background.color_rows = f->background.window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
-    if (rows->refill == NULL)
-        rows->opaque = lines->opaque = row_advance(rows, rows->bins.second_last, lines->opaque, f->row.row);
-    lines->picture = 1;
-    smear_row_run(rows, background_job, &f->row, FILL_STATIC | FILL_MOVING);
-    lines->picture = 0;
-    rows->opaque = first;
-    smear_jobs_run(&rows->jobs, mix_job, f, rows->jobs.workers);
-    stage_end(rows, &rows->stats->time.raster, start);
-}
-
-/* Draws a row's pictures. Not part of what calls it: what it keeps is gone before the row above is finished. */
-static SMEAR_NOINLINE void draw_pictures(struct smear_temporal *self, struct smear_rows *rows, int row)
-{
-    struct finish finish = { .row = { .rows = rows, .row = row }, .self = self };
-    if (rows->refill == NULL)
-        rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
-    draw_run(self, &finish);
-    if (self->lines->pictures > 1)
-        draw_second(self, &finish);
-}
-
-/* Draws a row; finishes the one above it, and the last itself. */
-static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
-{
-    draw_pictures(self, rows, row);
-    const int last = row == rows->window.rows - 1 ? row : row - 1;
-    for (int above = max_i32(row - 1, 0); above <= last; above++) {
-        begin_row(self, rows, above);
-        const int result = finish_along_lines(self, rows, above, end);
-        if (result != SMEAR_OK)
-            return result;
-        end_row(self, rows);
-    }
-    return SMEAR_OK;
-}
-#else
-static int draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
-{
-    return draw_row(self, rows, row, end);
-}
-#endif
 
 /* ------------------------------------------------------------------ parts of a frame */
 
@@ -655,9 +515,11 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
     if (SMEAR_WITH_LINES && self->lines != NULL) {
         self->lines->on = frame->method == SMEAR_AUTO && shot->camera_moves && !shot->cut && smear_shutter_is_box(&self->shutter)
                        && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
+        self->lines->takes_movers = frame->edges == SMEAR_EDGES_HARD;
         if (self->lines->on)
-            smear_lines_begin(self->lines, shot, w, target_is_sketch(frame->target) ? 1 : 2, frame_is_linear(&rows->raster));
-        self->lines->takes_movers = target_is_sketch(frame->target) && frame->edges == SMEAR_EDGES_HARD;
+            smear_lines_begin(self->lines, shot, w, frame->target, frame_is_linear(&rows->raster));
+        else
+            lines_forget(self->lines);
     }
     self->target = frame->target;
     self->budget = frame->budget;
@@ -666,22 +528,22 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
         self->shares[i] = (struct smear_shares){ 0, 0 };
 }
 
-int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end)
+int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int *end)
 {
     const bool plans = self->chooser.method == SMEAR_AUTO;
 #if SMEAR_WITH_WORKERS
     self->is_listed = false;
 #endif
-    self->moving.measures = !temporal_has_lines(self) || self->lines->pictures != 1;
+    self->moving.measures = !temporal_has_lines(self);
     self->moving.blocks.columns = plans && self->moving.measures ? block_columns(rows->window.width) : 0;
     if (plans) {
         self->chooser.target = self->target;        /* the part before may have had another */
         if (self->budget != 0)
-            self->chooser.target = target_within_budget(self, rows, first, end);
+            self->chooser.target = target_within_budget(self, rows, first, *end);
         rows->stats->target = max_u32(rows->stats->target, (uint32_t)self->chooser.target);
     }
-    for (int row = first; row < end; row++) {
-        int result = temporal_has_lines(self) ? draw_along_lines(self, rows, row, end) : draw_row(self, rows, row, end);
+    for (int row = first; row < *end; row++) {
+        const int result = temporal_has_lines(self) ? smear_draw_along_lines(self, rows, row, end) : draw_row(self, rows, row, *end);
         if (result != SMEAR_OK)
             return result;
     }

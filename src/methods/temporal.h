@@ -28,6 +28,12 @@ struct smear_temporal {
 /* What stands still is blurred along lines in this frame, and what moves by itself is drawn over it. */
 static inline bool temporal_has_lines(const struct smear_temporal *t) { return SMEAR_WITH_LINES && t->lines != NULL && t->lines->on; }
 
+/* Moves one of the lists of its further pictures on to a row. */
+static inline void temporal_advance(const struct smear_temporal *t, const struct smear_rows *rows, int list, int row)
+{
+    t->lines->list[list] = row_advance(rows, bins_more(&rows->bins, list), t->lines->list[list], row);
+}
+
 /* Returns the columns that a strip of a frame takes with what is drawn beyond its sides: nothing where it is as wide as
  * the frame. */
 int32_t smear_strip_columns(int32_t strip, int32_t width);
@@ -36,9 +42,10 @@ int32_t smear_strip_columns(int32_t strip, int32_t width);
 void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame, const struct smear_rows *rows,
                           const struct smear_shot *shot);
 
-/* Draws, finishes and hands out the tile rows [first, end), a part of the frame that has been assembled; along lines each is
- * finished when the row below it is drawn. Returns as smear_band_flush. */
-int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int end);
+/* Draws, finishes and hands out the tile rows [first, *end), a part of the frame that has been assembled; along lines each is
+ * finished when the row below it is drawn. Fewer, and *end says so, where the next ones are to have more pictures, or instants. Returns
+ * as smear_band_flush. */
+int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int *end);
 
 /* Smooths edges in a tile row that is drawn, before anything moves in it. Rows come from top to bottom. Takes the work memory
  * of the method and the scratch of the rows. */

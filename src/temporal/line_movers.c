@@ -35,25 +35,39 @@ static void see_from(smear_transform *out, const smear_transform *camera, const 
     }
 }
 
+/* Whether something is farther than an eighth of all that a camera sees, or than 128 near planes where that has no end. */
+static bool is_far(const smear_camera *c, uint32_t units)
+{
+    enum { NEAR_LOG2 = 19, PART_LOG2 = 3, ENDLESS_LOG2 = 7 };       /* units of the near plane */
+    if (c->half_height > 0)
+        return false;
+    return c->far_plane == 0 ? units >> (NEAR_LOG2 - ENDLESS_LOG2) == 0
+                             : (int64_t)units * c->far_plane <= (int64_t)c->near_plane << (NEAR_LOG2 + PART_LOG2);
+}
+
 /* Returns how a draw goes on the screen, as some of its vertices tell. */
 static enum smear_line_kind kind_of(const struct smear_flow *own, const struct smear_lines *lines, const struct smear_placement *place,
-                                    const struct smear_window *w, const smear_mesh *mesh)
+                                    const struct smear_window *w, const smear_mesh *mesh, const smear_camera *camera)
 {
-    enum { SAMPLES = 8, ALIKE = 384, STILL = 128 };     /* q8 px */
+    enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256 };      /* q8 px */
     const struct smear_viewport viewport = { w->width, w->height };
     int32_t apart = 0, way = 0;
+    bool seen = false, behind = true;
     for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
         struct smear_homogeneous h;
         struct smear_screen s;
-        int32_t a[2], b[2];
+        int32_t a[2], b[2], far[2];
         if ((placement_project(&s, &h, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
-            return LINE_MOVES;
+            continue;           /* what goes round the camera is seen in part */
+        seen = true;
         smear_flow_at(own, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, a);
         smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, b);
+        smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, 0, far);
+        behind = behind && max_i32(abs_i32(far[0] - b[0]), abs_i32(far[1] - b[1])) <= PARALLAX && is_far(camera, (uint32_t)s.depth >> 11);
         apart = max_i32(apart, max_i32(abs_i32(a[0] - b[0]), abs_i32(a[1] - b[1])));
         way = max_i32(way, max_i32(abs_i32(a[0]), abs_i32(a[1])));
     }
-    return apart <= ALIKE ? LINE_GOES_ALONG : way <= STILL ? LINE_IS_STILL : LINE_MOVES;
+    return !seen ? LINE_MOVES : apart <= ALIKE ? LINE_GOES_ALONG : way > STILL ? LINE_MOVES : behind ? LINE_IS_BEHIND : LINE_IS_STILL;
 }
 
 bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, const struct smear_shot *shot, const struct smear_window *w,
@@ -68,12 +82,13 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
         see_from(&camera[i].pose, &p->camera[i]->pose, p->object[i]);
     }
     smear_lines_make_flow(&lines->own[draw], shot, w, camera);
-    smear_draw_poses_place(&place, p, shot, mesh, &lines->instant[0]);
-    const enum smear_line_kind kind = kind_of(&lines->own[draw], lines, &place, w, mesh);
+    smear_draw_poses_place(&place, p, shot, mesh, &lines->mover_instant[0]);
+    const enum smear_line_kind kind = kind_of(&lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
     if (kind != LINE_GOES_ALONG && !lines->takes_movers)
         return false;
     lines->kind[draw] = (uint8_t)kind;
     lines->movers = (uint16_t)(lines->movers + (kind != LINE_GOES_ALONG));
+    lines->behind = (uint16_t)(lines->behind + (kind == LINE_IS_BEHIND));
     return true;
 }
 
@@ -84,10 +99,22 @@ static struct smear_line_block *block_of(const struct smear_lines *lines, const 
     return &lines->block[((y & (w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
 }
 
+static int32_t blocks_in(const struct smear_window *w) { return line_blocks(w->width) * line_blocks(w->tile); }
+
 void smear_movers_begin(const struct smear_lines *lines, const struct smear_window *w)
 {
+    __builtin_memset(lines->block, 0, (size_t)blocks_in(w) * sizeof *lines->block);
+}
+
+void smear_movers_next(const struct smear_lines *lines, const struct smear_window *w)
+{
+    for (int32_t i = 0; i < blocks_in(w); i++)
+        lines->block[i].depth = lines->block[i].mover = 0;
+}
+
+void smear_movers_copy(const struct smear_lines *lines, const struct smear_window *w)
+{
     __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
-    __builtin_memset(lines->block, 0, (size_t)(line_blocks(w->width) * line_blocks(w->tile)) * sizeof *lines->block);
 }
 
 /* Returns a block whose depth is known, as every other pixel tells it along x and y. */
@@ -147,7 +174,7 @@ void smear_movers_find(const struct smear_lines *lines, const struct smear_bins 
         const struct smear_triangle *t = bins_triangle(g, i);
         const struct smear_segment *s = &g->segment[t->segment];
         struct extent e;
-        if (lines->kind[s->draw] == LINE_IS_STILL)
+        if (lines->kind[s->draw] != LINE_MOVES)
             continue;
         find_extent(&e, g, s, t);
         for (int32_t y = max_i32(e.low[1], y0) & -LINE_BLOCK; y < min_i32(e.high[1] + 1, y1); y += LINE_BLOCK)
@@ -157,7 +184,7 @@ void smear_movers_find(const struct smear_lines *lines, const struct smear_bins 
                 const int32_t units = (int32_t)smear_depth_units(b->depth);
                 if (b->depth <= 1 || b->mover == s->draw + 1 || units < e.low[2] - ROUNDED || units > e.high[2] + ROUNDED)
                     continue;
-                smear_lines_displacement(d, lines, &lines->own[s->draw], w, min_i32(x + LINE_BLOCK / 2, w->width - 1),
+                smear_lines_displacement(d, line_mover_pictures(lines), &lines->own[s->draw], w, min_i32(x + LINE_BLOCK / 2, w->width - 1),
                                          min_i32(y + LINE_BLOCK / 2, y1 - 1), b->depth);
                 mark(lines, w, d, x, y, y0, y1);
                 b->mover = (uint16_t)(s->draw + 1);

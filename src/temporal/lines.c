@@ -6,6 +6,7 @@
  *         means   of the pixels there (kernels/line_means.h) */
 #include "temporal/lines.h"
 
+#include "base/pixel.h"
 #include "kernels/line_means.h"
 
 enum { BLOCK = LINE_BLOCK };
@@ -30,25 +31,144 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
     smear_flow_make(flow, &r, spans ? 65536 : shot->half_exposure >> 7);
 }
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear)
+/* The part of the contrast that pictures leave of the squared error, q16: medians of 150 rooms of random texels and five scenes of the
+ * suite, of which 80 % lie within 0.8 and 1.25 of the error that it tells. */
+static const uint16_t left_of_contrast[LINE_PICTURES] = { 3060, 1290, 741, 531 };
+
+/* Returns how many pictures a frame begins with: as many as the one before it would have been good with; one after a frame that lines did
+ * not do for, to see whether this is one, too. */
+static int first_pictures(const struct smear_lines *lines, int32_t target)
 {
-    enum { QUARTER = 32768 };           /* of the exposure, from its middle */
-    lines->linear = linear;
-    lines->pictures = (uint8_t)pictures;
-    lines->picture = 0;
-    lines->movers = 0;
-    lines->instant[0] = pictures == 1 ? smear_instant_middle(shot) : smear_instant_at(shot, -QUARTER);
-    lines->instant[1] = smear_instant_at(shot, QUARTER);
-    smear_lines_make_flow(&lines->flow, shot, w, shot->camera);
+    enum { VALUES = 6 };
+    const uint64_t most = (uint64_t)(target * target) * VALUES;
+    int k = 1;
+    if (lines->blocks == 0)
+        return target >= LINE_ONE_PICTURE ? 1 : 2;
+    while (k <= LINE_PICTURES && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 4 * (k < lines->pictures ? 4 : 5))
+        k++;
+    return k > LINE_PICTURES ? 1 : k;
 }
 
-void smear_lines_mix(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+/* Finds n even instants of the exposure. */
+static void find_instants(struct smear_instant *instant, const struct smear_shot *shot, int32_t n)
 {
-    uint32_t *const first = w->color + window_ring_row(w, y) * w->width + x0;
-    const uint32_t *const second = lines->row + (y & (w->tile - 1)) * w->width + x0;
-    const struct line_block b = { .in = first, .out = first, .columns = x1 - x0, .rows = 1, .log = 1,
-                                  .offset = { 0, (int32_t)(second - first) } };
-    smear_line_means(&b, lines->linear);
+    for (int32_t k = 0; k < n; k++)
+        instant[k] = n == 1 ? smear_instant_middle(shot) : smear_instant_at(shot, (2 * k + 1 - n) * 65536 / n);
+}
+
+void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, int pictures)
+{
+    lines->pictures = (uint8_t)pictures;
+    lines->picture = 0;
+    find_instants(lines->instant, shot, pictures);
+    find_instants(lines->mover_instant, shot, line_mover_pictures(lines));
+}
+
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear)
+{
+    const int pictures = first_pictures(lines, target);
+    lines->linear = linear;
+    lines->movers = lines->behind = 0;
+    lines->drawn = 0;
+    lines->finished = 0;
+    lines->contrast = lines->error = 0;
+    lines->blocks = 0;
+    smear_lines_make_flow(&lines->flow, shot, w, shot->camera);
+    smear_lines_take(lines, shot, pictures);
+}
+
+static struct smear_line_seen *seen_at(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
+{
+    return &lines->seen[((y & (2 * w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
+}
+
+/* Returns the contrast of the blocks of a tile row that move. */
+static uint32_t contrast_of(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
+{
+    uint32_t sum = 0;
+    for (int32_t y = y0; y < y1; y += BLOCK)
+        for (int32_t x = 0; x < w->width; x += BLOCK) {
+            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            sum += (seen->x | seen->y) != 0 ? seen->contrast : 0u;
+        }
+    return sum;
+}
+
+int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1, int32_t target)
+{
+    enum { VALUES = 6 };                /* per block: two pixels' three channels are compared with two others' */
+    const uint32_t all = (uint32_t)(line_blocks(w->width) * line_blocks(w->height)), contrast = contrast_of(lines, w, y0, y1);
+    const uint32_t blocks = lines->blocks + (uint32_t)(line_blocks(w->width) * line_blocks(y1 - y0));
+    const uint64_t most = (uint64_t)(target * target) * VALUES, error = lines->error;
+    int k = lines->pictures - 1;
+    lines->contrast += contrast;
+    /* The squared error may be a quarter more, and a quarter of what the rows below may have is spent ahead: most frames have their
+     * contrast in the middle. */
+    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * 5) {
+        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 5)
+            k++;
+        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 2 * 3;
+    }
+    if (k + 1 > lines->pictures) {
+        lines->contrast -= contrast;
+        return k + 1;
+    }
+    lines->error += (uint64_t)contrast * left_of_contrast[k];
+    lines->blocks = blocks;
+    return lines->pictures;
+}
+
+/* Returns the square by which two colours differ. */
+static uint32_t square_between(uint32_t a, uint32_t b)
+{
+    const uint32_t red = pixel_red(a) - pixel_red(b), green = pixel_green(a) - pixel_green(b), blue = pixel_blue(a) - pixel_blue(b);
+    return red * red + green * green + blue * blue;
+}
+
+/* Returns the contrast of a block of the first picture, from a place on. */
+static uint16_t contrast_at(const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    uint32_t sum = 0;
+    for (int32_t i = 1; i < LINE_BLOCK; i += 4) {
+        const int32_t x = min_i32(x0 + i, x1 - 2), y = min_i32(y0 + i, y1 - 2);
+        if (x < x0 || y < y0)
+            continue;
+        const uint32_t *p = w->color + window_ring_row(w, y) * w->width + x;
+        sum += square_between(p[0], p[1]) + square_between(p[0], w->color[window_ring_row(w, y + 1) * w->width + x]);
+    }
+    return (uint16_t)(sum >> 4);
+}
+
+/* Notes the nearest of some pixels of a block. */
+static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int32_t x, int32_t right)
+{
+    enum { STEP = 7 };
+    for (; x < right; x += STEP)
+        seen->depth = (uint16_t)max_u32(seen->depth, depth[x]);
+}
+
+void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    enum { STEP = 7 };
+    const bool first = lines->picture == 0;
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        const int32_t end = min_i32(y + BLOCK, y1);
+        for (int32_t x = x0; first && x < x1; x += BLOCK)
+            *seen_at(lines, w, x, y) = (struct smear_line_seen){ .contrast = contrast_at(w, x, min_i32(x + BLOCK, x1), y, end) };
+        for (int32_t v = y; v < end; v += STEP) {
+            const uint16_t *const depth = first ? w->depth + window_ring_row(w, v) * w->width : lines->depth + (v - y0) * w->width;
+            for (int32_t x = x0; x < x1; x += BLOCK)
+                note_depth(seen_at(lines, w, x, y), depth, x, min_i32(x + BLOCK, x1));
+        }
+    }
+}
+
+void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+{
+    uint16_t *const nearest = w->depth + window_ring_row(w, y) * w->width;
+    const uint16_t *const more = lines->depth + (y & (w->tile - 1)) * w->width;
+    for (int32_t x = x0; x < x1; x++)
+        nearest[x] = nearest[x] > more[x] ? nearest[x] : more[x];
 }
 
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
@@ -57,14 +177,14 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
                      (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
-void smear_lines_displacement(int32_t out[2], const struct smear_lines *lines, const struct smear_flow *flow, const struct smear_window *w,
-                              int32_t x, int32_t y, uint32_t depth)
+void smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
+                              int32_t y, uint32_t depth)
 {
     enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
     smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out);
     for (int i = 0; i < 2; i++)
-        out[i] >>= lines->pictures - 1;
+        out[i] = pictures == 1 ? out[i] : out[i] / pictures;
     for (int i = 0; i < 2; i++) {
         const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
         if (length <= most)
@@ -155,26 +275,29 @@ void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear
     }
 }
 
-void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
-                      int32_t end)
+void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    for (int32_t y = y0; y < y1; y += BLOCK) {
-        const int32_t bottom = min_i32(y + BLOCK, y1), middle = min_i32(y + BLOCK / 2, y1 - 1);
-        const uint16_t *depth = w->depth + window_ring_row(w, middle) * w->width;
-        const int32_t from = min_i32(x0 + BLOCK / 2, x1 - 1);
-        int32_t d[2], next[2];
-        smear_lines_displacement(next, lines, &lines->flow, w, from, middle, depth[from]);
-        for (int32_t x = x0, right; x < x1; x = right) {
-            d[0] = next[0];
-            d[1] = next[1];
-            for (right = x + BLOCK; right < x1; right += BLOCK) {
-                const int32_t at = min_i32(right + BLOCK / 2, x1 - 1);
-                smear_lines_displacement(next, lines, &lines->flow, w, at, middle, depth[at]);
-                if (next[0] != d[0] || next[1] != d[1])
-                    break;
-            }
-            right = min_i32(right, x1);
-            smear_lines_blur_blocks(lines, w, d, x, right, y, bottom, 0, end);
+    for (int32_t y = y0; y < y1; y += BLOCK)
+        for (int32_t x = x0; x < x1; x += BLOCK) {
+            struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            int32_t d[2];
+            smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, x1 - 1), min_i32(y + BLOCK / 2, y1 - 1),
+                                     seen->depth);
+            seen->x = (int16_t)(d[0] >> 8);
+            seen->y = (int16_t)(d[1] >> 8);
         }
-    }
+}
+
+void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    for (int32_t y = y0; y < y1; y += BLOCK)
+        for (int32_t x = x0, right; x < x1; x = right) {
+            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            const int32_t d[2] = { seen->x * 256, seen->y * 256 };
+            for (right = x + BLOCK; right < x1; right += BLOCK)
+                if (seen_at(lines, w, right, y)->x != seen->x || seen_at(lines, w, right, y)->y != seen->y)
+                    break;
+            right = min_i32(right, x1);
+            smear_lines_blur_blocks(lines, w, d, x, right, y, min_i32(y + BLOCK, y1), 0, lines->drawn);
+        }
 }

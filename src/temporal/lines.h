@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* lines.h - the still scene of a frame whose camera moves: drawn once, in the middle of the exposure, or twice, a quarter from its
- * ends, and blurred along the line on which the camera's motion takes each block of pixels until the next picture.
+/* lines.h - the still scene of a frame whose camera moves: one to four sharp pictures of it, at even instants of the exposure, whose
+ * mean is blurred along the line on which the camera's motion takes each block of pixels until the next picture.
  *
  * The plain form of [GPUGems3] chapter 27: what a block's depth and two cameras say holds for the whole block, and its taps
- * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach. */
+ * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach.
+ *
+ * A line errs by a share of what pixels beside each other differ by: the more pictures, the less. A frame begins with as few as its
+ * target may do with; where what is seen so far says that they are too few, what is left of it takes more. */
 #ifndef SMEAR_LINES_H
 #define SMEAR_LINES_H
 
@@ -11,17 +14,40 @@
 #include "geometry/shot.h"
 #include "raster/window.h"
 
+enum {
+    LINE_PICTURES = 4,              /* at most */
+    LINE_MOVERS = 2,                /* of what moves by itself (line_movers.h), at most */
+    LINE_ONE_PICTURE = SMEAR_SKETCH - 64,               /* the finest target for which one is tried where nothing is known */
+    LINE_BEHIND = LINE_PICTURES,    /* number of the picture of what stands still behind all of them */
+    LINE_LISTS = LINE_BEHIND + LINE_MOVERS              /* in bins.more_last: of pictures from the second on, then of movers */
+};
+
+static inline int line_list(int picture) { return picture - 1; }
+static inline int line_movers_list(int picture) { return LINE_BEHIND + picture; }
+
+/* What a block of pixels shows. */
+struct smear_line_seen {
+    uint16_t depth;                 /* the nearest of some pixels */
+    uint16_t contrast;              /* between some and those beside and below them: sum of squares of codes / 16 */
+    int16_t x, y;                   /* displacement from picture to picture, px */
+};
+
 struct smear_lines {
     bool on;                        /* in this frame */
     bool linear;
-    uint8_t pictures;               /* of what stands still, at even instants: 1 or 2, whose mean is blurred */
-    uint8_t picture;                /* that is assembled, of those */
-    struct smear_instant instant[2];
+    uint8_t pictures;               /* of what stands still */
+    uint8_t picture;                /* that is assembled and drawn */
+    struct smear_instant instant[LINE_PICTURES], mover_instant[LINE_MOVERS];
     struct smear_flow flow;         /* how what stands still moves on the screen */
-    uint32_t *row;                  /* pixels of a tile row: of the second picture, then blurred ones */
-    uint16_t *depth;                /* of the second picture, then of the blurred one: planes of a target are alike */
-    uint32_t opaque;                /* its list of the row; of one picture, that of movers (line_movers.h), of which there are: */
-    uint16_t movers;
+    uint32_t list[LINE_LISTS];      /* of the row */
+    int32_t drawn;                  /* pixel rows so far, and tile rows that are finished */
+    int finished;
+    uint64_t contrast, error;       /* of the blocks drawn, together, where they move: as each block's; squared, by lines, q16 of it */
+    uint32_t blocks;
+    struct smear_line_seen *seen;   /* of the row that is drawn and the one above it */
+    uint32_t *row;                  /* pixels of a tile row: of a further picture, then blurred ones */
+    uint16_t *depth;                /* of a further picture, then of the blurred one: planes of a target are alike */
+    uint16_t movers, behind;        /* draws that are */
     bool takes_movers;
     uint8_t *kind;                  /* of each draw: enum smear_line_kind */
     struct smear_flow *own;         /* of each draw that has one */
@@ -29,10 +55,14 @@ struct smear_lines {
     uint32_t *over;                 /* its pixels, blurred ones with movers over them */
 };
 
-/* How a draw goes: with what stands still or drawn at instants, or it is a mover, which stays where it is on the screen or not. */
-enum smear_line_kind { LINE_GOES_ALONG, LINE_IS_STILL, LINE_MOVES };
+static inline int line_mover_pictures(const struct smear_lines *lines) { return min_i32(lines->pictures, LINE_MOVERS); }
+
+/* How a draw goes: with what stands still or drawn at instants, or it is a mover, which stays where it is on the screen or not. What
+ * stays there far away is drawn into the pictures, too, where they show nothing nearer: lines take pixels from there. */
+enum smear_line_kind { LINE_GOES_ALONG, LINE_IS_BEHIND, LINE_IS_STILL, LINE_MOVES };
 
 static inline bool line_is_mover(const struct smear_lines *lines, uint32_t draw) { return lines->kind[draw] != LINE_GOES_ALONG; }
+static inline bool line_is_behind(const struct smear_lines *lines, uint32_t draw) { return lines->kind[draw] == LINE_IS_BEHIND; }
 
 /* Pixels that share a displacement are so many wide and high. */
 enum { LINE_BLOCK_LOG2 = 3, LINE_BLOCK = 1 << LINE_BLOCK_LOG2 };
@@ -46,32 +76,46 @@ struct smear_line_block {
 
 static inline int32_t line_blocks(int32_t pixels) { return (pixels + LINE_BLOCK - 1) >> LINE_BLOCK_LOG2; }
 
-/* Begins a frame whose camera moves, of so many pictures. */
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int pictures, bool linear);
+/* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. */
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear);
+
+/* Forgets what the frame before showed. */
+static inline void lines_forget(struct smear_lines *lines) { lines->blocks = 0; }
+
+/* From here on there are so many pictures. */
+void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, int pictures);
+
+/* Returns how many it takes for an error of `target`, 1/64 codes, from the tile row of pixel rows [y0, y1) on, which has been drawn and
+ * displaced: LINE_PICTURES + 1 where that is more than there may be. Where it takes no more than now, that row is noted. */
+int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1, int32_t target);
 
 /* Makes the flow of what stands still before three cameras, those of the shot's poses. */
 void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
                            const smear_camera camera[3]);
 
-/* Finds the displacement from picture to picture of what is seen at a pixel, in whole pixels (q8), so that blocks beside each other
- * often have the same, and no longer along y than lines reach. */
-void smear_lines_displacement(int32_t out[2], const struct smear_lines *lines, const struct smear_flow *flow, const struct smear_window *w,
-                              int32_t x, int32_t y, uint32_t depth);
+/* Finds the displacement from one of so many pictures to the next of what is seen at a pixel, in whole pixels (q8), so that blocks
+ * beside each other often have the same, and no longer along y than lines reach. */
+void smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
+                              int32_t y, uint32_t depth);
 
 /* Blurs the blocks of columns [x0, x1) of a row of them along a displacement. Where taps of a block would lie beside the frame, or
  * beyond its rows [first, end), it takes what is inside. */
 void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const int32_t d[2], int32_t x0, int32_t x1,
                              int32_t y0, int32_t y1, int32_t first, int32_t end);
 
-/* Makes columns [x0, x1) of row y of the window the mean of both pictures'. */
-void smear_lines_mix(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
+/* Notes what columns [x0, x1) of pixel rows [y0, y1), a tile row, show in the picture that has been drawn. */
+void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
+
+/* Makes the depth of columns [x0, x1) of row y of the window that of the nearer one in lines->depth. */
+void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
 
 /* Copies the depth of columns [x0, x1) of row y of the window to lines->depth. */
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
 
-/* Blurs columns [x0, x1) of pixel rows [y0, y1) of a tile row into lines->row; x0 and y0 are multiples of 8. `end`: rows of the
- * frame up to it have been drawn; those from its height on have no pixels. */
-void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
-                      int32_t end);
+/* Finds the displacements of the blocks of columns [x0, x1) of a tile row whose pictures have been looked at. */
+void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
+
+/* Blurs columns [x0, x1) of pixel rows [y0, y1) of a tile row into lines->row; x0 and y0 are multiples of 8. */
+void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
 
 #endif

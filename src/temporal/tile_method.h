@@ -47,8 +47,8 @@ struct smear_tile_choice {
     struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
 
-/* Targets so coarse that lines do; and those for which one picture does and nothing is measured: from 7 codes on. */
-static inline bool target_has_lines(int32_t target) { return SMEAR_WITH_LINES && target > SMEAR_DRAFT; }
+/* Targets so coarse that lines do; and those for which little is measured of what lines do not blur: from 7 codes on. */
+static inline bool target_has_lines(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_DRAFT; }
 static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_SKETCH - 64; }
 
 struct smear_chooser {

@@ -408,7 +408,7 @@ bool shot_take(struct subject *s, const struct present_options *present,
     desc.format = SMEAR_XRGB8888;
     desc.debug.crc = 1;
     desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
-    if (present->method == SMEAR_AUTO && present->target > SMEAR_DRAFT)
+    if (present->method == SMEAR_AUTO && present->target >= SMEAR_DRAFT)
         desc.methods |= SMEAR_SET_SKETCH;
     desc.flush = take_band;
     desc.debug.inspect = o->look ? look_at_row : NULL;

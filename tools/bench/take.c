@@ -51,7 +51,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.display.dither = t->dithered ? SMEAR_DITHER_ORDERED : SMEAR_DITHER_NONE;
     desc.reach = (int16_t)t->reach;
     desc.methods |= (uint16_t)(t->windowed ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u);
-    desc.methods |= (uint16_t)(t->method == SMEAR_AUTO && t->target > SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u);
+    desc.methods |= (uint16_t)(t->method == SMEAR_AUTO && t->target >= SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u);
     if (!t->plain_context)
         present_tiles(&desc);
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
