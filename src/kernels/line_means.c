@@ -428,7 +428,7 @@ static inline uint32_t mixed_halves(uint32_t mean, uint32_t more, uint32_t k)
 
 static uint32_t mixed_light(uint32_t mean, uint32_t more, uint32_t k)
 {
-    const uint32_t part = (65535 + k) / (k + 1);
+    const uint32_t part = 65536 / (k + 1);
     uint32_t out[3];
     for (int i = 0; i < 3; i++) {
         const uint32_t a = mean >> 8 * i & 255u, b = more >> 8 * i & 255u;
@@ -437,12 +437,16 @@ static uint32_t mixed_light(uint32_t mean, uint32_t more, uint32_t k)
     return out[2] << 16 | out[1] << 8 | out[0];
 }
 
+/* Light of codes that are nearly alike is mixed as codes: it differs by less than one but in the dark. */
 static inline uint32_t mixed(uint32_t mean, uint32_t more, uint32_t k, bool linear)
 {
-    if (((mean ^ more) & 0xffffffu) == 0)
+    const uint32_t differs = mean ^ more;
+    if ((differs & 0xffffffu) == 0)
         return more & 0xffffffu;
-    return SMEAR_WITH_LINEAR && linear ? mixed_light(mean, more, k)
-                                       : mixed_halves(mean, more, k) | (mixed_halves(mean >> 8, more >> 8, k) & 0xffu) << 8;
+    if (SMEAR_WITH_LINEAR && linear && (differs & 0xf0f0f0u) != 0)
+        return mixed_light(mean, more, k);
+    return k == 1 ? line_between(mean, more) & 0xffffffu
+                  : mixed_halves(mean, more, k) | (mixed_halves(mean >> 8, more >> 8, k) & 0xffu) << 8;
 }
 
 void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)

@@ -44,7 +44,7 @@ static int first_pictures(const struct smear_lines *lines, int32_t target)
     int k = 1;
     if (lines->blocks == 0)
         return target >= LINE_ONE_PICTURE ? 1 : 2;
-    while (k <= LINE_PICTURES && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 4 * (k < lines->pictures ? 4 : 5))
+    while (k <= LINE_PICTURES && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 4 * (k < lines->pictures ? 5 : 6))
         k++;
     return k > LINE_PICTURES ? 1 : k;
 }
@@ -104,10 +104,10 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     lines->contrast += contrast;
     /* The squared error may be a quarter more, and a quarter of what the rows below may have is spent ahead: most frames have their
      * contrast in the middle. */
-    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * 5) {
-        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 5)
+    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * 6) {
+        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 6)
             k++;
-        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 2 * 3;
+        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 7;
     }
     if (k + 1 > lines->pictures) {
         lines->contrast -= contrast;
@@ -177,23 +177,27 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
                      (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
-void smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
-                              int32_t y, uint32_t depth)
+int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
+                                 int32_t y, uint32_t depth)
 {
     enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
-    smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out);
+    const int32_t part = smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out) / (2 * pictures) >> 4;         /* q12 */
+    int32_t times = 1;
     for (int i = 0; i < 2; i++)
         out[i] = pictures == 1 ? out[i] : out[i] / pictures;
     for (int i = 0; i < 2; i++) {
         const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
+        times = max_i32(times, (min_i32(length, most_x) >> 8) * (part * part >> 12) >> 12);
         if (length <= most)
             continue;
+        times = max_i32(times, (int32_t)((uint32_t)(length + (most >> 1)) / (uint32_t)most));
         out[1 - i] = (out[1 - i] >> 4) * (int32_t)(((uint32_t)most << 11) / (uint32_t)length) >> 7;
         out[i] = out[i] < 0 ? -most : most;
     }
     out[0] = (out[0] + STEP / 2) & -STEP;
     out[1] = (out[1] + STEP / 2) & -STEP;
+    return times;
 }
 
 /* Places two taps per pixel of the way, evenly. */
@@ -281,8 +285,10 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
         for (int32_t x = x0; x < x1; x += BLOCK) {
             struct smear_line_seen *const seen = seen_at(lines, w, x, y);
             int32_t d[2];
-            smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, x1 - 1), min_i32(y + BLOCK / 2, y1 - 1),
-                                     seen->depth);
+            const uint32_t times = (uint32_t)smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, x1 - 1),
+                                                                      min_i32(y + BLOCK / 2, y1 - 1), seen->depth);
+            if (times > 1)      /* what is left of a way that is cut off stays sharp */
+                seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
             seen->x = (int16_t)(d[0] >> 8);
             seen->y = (int16_t)(d[1] >> 8);
         }

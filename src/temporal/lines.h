@@ -94,9 +94,9 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
                            const smear_camera camera[3]);
 
 /* Finds the displacement from one of so many pictures to the next of what is seen at a pixel, in whole pixels (q8), so that blocks
- * beside each other often have the same, and no longer along y than lines reach. */
-void smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
-                              int32_t y, uint32_t depth);
+ * beside each other often have the same, and no longer along y than lines reach. Returns how many times as long it is, about. */
+int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
+                                 int32_t y, uint32_t depth);
 
 /* Blurs the blocks of columns [x0, x1) of a row of them along a displacement. Where taps of a block would lie beside the frame, or
  * beyond its rows [first, end), it takes what is inside. */

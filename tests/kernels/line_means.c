@@ -111,6 +111,48 @@ static void prepare_sparse(struct kernel_call *c)
     c->word[SPARSE] = 1;
 }
 
+/* ------------------------------------------------------------------ means of pictures */
+
+/* Pictures are often alike, or nearly so. */
+static void prepare_mix(struct kernel_call *c)
+{
+    uint32_t *in = c->plane[IN], *out = c->plane[OUT];
+    const uint32_t alike = kernel_random() % 4u;
+    c->bytes[IN] = c->bytes[OUT] = c->n * 4;
+    for (int32_t i = 0; i < c->n; i++) {
+        const uint32_t near = out[i] ^ (kernel_random() & 0x0f0f0fu);
+        in[i] = kernel_random() % 4u < alike ? out[i] : kernel_random() % 2u != 0 ? near : in[i];
+    }
+}
+
+static void mix(struct kernel_call *c, void (*mixes)(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear), bool linear)
+{
+    mixes(c->plane[OUT], c->plane[IN], c->n, 1 + (int32_t)(c->word[LOG] % 3u), linear);
+}
+
+/* Each channel by itself; a third is 85 and a quarter of 256. */
+static void mix_one_by_one(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+{
+    for (int32_t i = 0; i < n; i++) {
+        const bool light = linear && ((mean[i] ^ more[i]) & 0xf0f0f0u) != 0;
+        uint32_t out = 0;
+        for (int channel = 0; channel < 24; channel += 8) {
+            const uint32_t a = mean[i] >> channel & 0xffu, b = more[i] >> channel & 0xffu, count = (uint32_t)k + 1u;
+            const uint32_t sum = (uint32_t)k * a + b, square = (uint32_t)k * a * a + b * b;
+            const uint32_t code = count == 3 ? (85 * sum + sum / 4 + 128) / 256 : (2 * sum + count) / (2 * count);
+            out |= (light ? root((uint32_t)((uint64_t)square * (65536 / count) >> 16)) : code) << channel;
+        }
+        mean[i] = ((mean[i] ^ more[i]) & 0xffffffu) == 0 ? more[i] & 0xffffffu : out;
+    }
+}
+
+static void mix_reference(struct kernel_call *c) { mix(c, smear_line_mix_reference, false); }
+static void mix_each(struct kernel_call *c) { mix(c, mix_one_by_one, false); }
+static void mix_best(struct kernel_call *c) { mix(c, smear_line_mix, false); }
+static void mix_light_reference(struct kernel_call *c) { mix(c, smear_line_mix_reference, true); }
+static void mix_light_each(struct kernel_call *c) { mix(c, mix_one_by_one, SMEAR_WITH_LINEAR); }
+static void mix_light_best(struct kernel_call *c) { mix(c, smear_line_mix, true); }
+
 #if SMEAR_VECTORS
 #define BEST "vector"
 #elif PACKED_ASM_ARMV6M
@@ -131,5 +173,9 @@ const struct kernel kernels_line_means[] = {
       .form = { { "reference", light_reference }, { "one by one", light_one_by_one }, { BEST, light_best } } },
     { .name = "line_means (light)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
       .form = { { "reference", light_reference }, { "one by one", light_one_by_one }, { BEST, light_best } } },
+    { .name = "line_mix", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare_mix, .timed = 24,
+      .form = { { "reference", mix_reference }, { "one by one", mix_each }, { BEST, mix_best } } },
+    { .name = "line_mix (light)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare_mix, .timed = 24,
+      .form = { { "reference", mix_light_reference }, { "one by one", mix_light_each }, { BEST, mix_light_best } } },
     { .name = NULL }
 };
