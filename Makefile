@@ -481,12 +481,13 @@ test-tables: build/gentables
 test-manual: $(LIB) $(BIN)/smear
 	CC="$(CC)" CXX="$(call with_cxx,$(CXX))" sh tests/shell/manual.sh $(BIN)/smear $(LIB) $(BUILD)/manual
 
-# The program of the README, between its markers, and its picture; its table of memory; its length.
-README_LINES := 150
-README_WORDS := 1400
+# The program of the README, and its picture; its length; the memory of methods, a table of the manual, and what the README says of it.
+README_LINES := 130
+README_WORDS := 1100
 test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
-	sh tests/shell/links.sh README.md include/README.md platform/README.md src/README.md src/CHANGES.md tests/README.md tools/README.md
+	sh tests/shell/links.sh README.md include/README.md platform/README.md platform/tables.md src/README.md src/CHANGES.md \
+	    tests/README.md tools/README.md
 	grep -q "^## [0-9.]*, .*headers say $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//')$$\|^## $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//'), " src/CHANGES.md
 	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
 	test $$(wc -l < $(BUILD)/readme.c) -le 45
@@ -503,8 +504,14 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	$(CC) -std=c99 -Iinclude -o $(BUILD)/readme $(BUILD)/readme_sharp.c $(LIB)
 	! $(BUILD)/readme | cmp -s - $(BUILD)/readme.ppm
 	$(BUILD)/methods > build/methods.md
-	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' README.md | cmp - build/methods.md || \
-	    { echo "README.md: the memory of methods is another: make readme-figures" >&2; exit 1; }
+	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' include/README.md | cmp - build/methods.md || \
+	    { echo "include/README.md: the memory of methods is another: make readme-figures" >&2; exit 1; }
+	memory() { sed -n "s/.*$$1.* \\([0-9]* kB\\) |$$/\\1/p" build/methods.md; }; \
+	    grep -q "for 240x240 pixels $$(memory SMEAR_NONE), with blur $$(memory SMEAR_AUTO)" README.md || \
+	    { echo "README.md: memory of sharp and blurred frames is another than build/methods.md says" >&2; exit 1; }
+	code() { awk -v name="$$1" '/^cortex.*flash/ { core++ } core == 1 && index($$0, name) == 1 { sub(name, ""); printf "%.0f", $$1 / 1000 }' platform/tables.md; }; \
+	    grep -q "takes $$(code 'only RGB565, sharp') to $$(code everything) kB" README.md || \
+	    { echo "README.md: the library takes more or less than platform/tables.md says" >&2; exit 1; }
 	@for name in $$(grep -o 'test_[a-z0-9_]*' README.md tests/README.md include/README.md -h | sort -u); do \
 	    grep -q "static void $$name(void)" tests/*/test_*.c || { echo "README.md: no test $$name" >&2; exit 1; }; done
 
@@ -520,10 +527,10 @@ $(BUILD)/methods: tests/examples/memory.c $(LIB)
 	$(CC) -std=c99 $(STRICT) -o $@ $< $(LIB)
 
 .PHONY: readme-figures rates-readme failures-readme
-## again: the memory of methods in README.md
+## again: the memory of methods in the manual
 readme-figures: $(BUILD)/methods
 	$(BUILD)/methods > build/methods.md
-	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
+	awk -f platform/footprint_readme.awk include/README.md > build/readme.md && mv build/readme.md include/README.md
 
 ## again: the table in tests/README.md of where methods fail
 failures-readme:
@@ -537,10 +544,10 @@ rates-readme:
 	awk -f platform/footprint_readme.awk README.md > build/readme.md && mv build/readme.md README.md
 
 .PHONY: board-table
-## again: what the demo costs on boards, by scene and method, in platform/README.md, BOARDS="pico gba"
+## again: what the demo costs on boards, by scene and method, in platform/tables.md, BOARDS="pico gba"
 board-table:
 	$(of_make) sh platform/board_table.sh $(or $(BOARDS),pico gba lm3s6965evb raspi0) > build/boards.md
-	awk -f platform/footprint_readme.awk platform/README.md > build/readme.md && mv build/readme.md platform/README.md
+	awk -f platform/footprint_readme.awk platform/tables.md > build/readme.md && mv build/readme.md platform/tables.md
 
 # The program with its calls of the system wrapped: each can be made to fail.
 FAULTS_WRAPPED := main malloc calloc realloc open fopen fdopen fileno open_memstream realpath fsync rename link unlink pthread_create

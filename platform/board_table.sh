@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # board_table.sh [NAME...] - what the demo costs on boards, by scene and method: measures those named (pico gba lm3s6965evb
-# raspi0; none: nothing) into build/rates, then prints the tables of platform/README.md of all that have been measured.
+# raspi0; none: nothing) into build/rates, then prints the tables of platform/tables.md of all that have been measured.
 #
 # Cycles are those of the emulators of a Pico and a Game Boy Advance. QEMU counts instructions: on the Cortex-M3 one takes a
 # cycle here, so that the rate is the highest there may be; on the Pi Zero's ARM1176 it takes 1.3.

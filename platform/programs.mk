@@ -178,13 +178,12 @@ footprint:
 	$(of_make) sh platform/footprint.sh $(FOOTPRINT)
 	$(of_make) sh platform/footprint_switches.sh $(or $(FOOTPRINT_SETS),$(FOOTPRINT))
 
-## again: the tables of `make footprint` in platform/README.md
+## again: the tables of `make footprint` in platform/tables.md
 footprint-readme:
 	@mkdir -p build
 	$(of_make) sh platform/footprint.sh > build/footprint.txt
 	$(of_make) sh platform/footprint_switches.sh > build/switches.txt
-	awk -f platform/footprint_readme.awk platform/README.md > build/platform-readme.md
-	mv build/platform-readme.md platform/README.md
+	awk -f platform/footprint_readme.awk platform/tables.md > build/readme.md && mv build/readme.md platform/tables.md
 
 # Of the switches' part: what a program that only asks for sizes is linked from, and how.
 .PHONY: footprint-readme footprint-arena print-footprint

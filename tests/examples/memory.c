@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* memory.c - prints the table of methods and their memory for README.md. */
+/* memory.c - prints the table of methods and their memory for the manual. */
 #include <smear.h>
 #include <stdio.h>
 
