@@ -4,13 +4,13 @@
 BEGIN {
     # Columns of failures.txt that are shown.
     split("none:1 reconstruct:3 mended:4 object:13 subframes:5 timemask:6 auto:7 fine:8", shown, " ")
-    printf "| | what fails elsewhere |"
+    printf "| what fails elsewhere |"
     for (i = 1; i <= 8; i++) {
         split(shown[i], part, ":")
         column[i] = part[2]
         printf " %s |", part[1]
     }
-    printf "\n|---|---|"
+    printf "\n|---|"
     for (i = 1; i <= 8; i++)
         printf "---|"
     printf "\n"
@@ -20,10 +20,10 @@ function finish(    i) {
     if (row == "")
         return
     if (fails[7])
-        exceptions = exceptions (exceptions == "" ? "" : "; ") "F" row " " misses
-    printf "| F%s | %s |", row, name
+        exceptions = exceptions misses
+    printf "| %s |", name
     for (i = 1; i <= 8; i++)
-        printf " %s |", fails[column[i]] ? "-" : "Y"
+        printf " %s |", fails[column[i]] ? "-" : "holds"
     printf "\n"
 }
 
@@ -62,18 +62,10 @@ row != "" && / (pass|known|-) *$/ && !/^ *- not/ {
         what = $1
         for (i = 2; i <= at - 2; i++)
             what = what " " $i
-        misses = misses (misses == "" ? "" : ", ") what " " missed " (" $(at - 1) " " $at ")"
+        misses = misses "| " name " | " what " | " missed " | " $(at - 1) " " $at " |\n"
     }
 }
 END {
     finish()
-    words = split("What `auto` misses, with its number and the bar: " exceptions ".", word, " ")
-    printf "\n%s", word[1]
-    column_now = length(word[1])
-    for (i = 2; i <= words; i++) {
-        wraps = column_now + 1 + length(word[i]) > 130
-        printf "%s%s", wraps ? "\n" : " ", word[i]
-        column_now = (wraps ? 0 : column_now + 1) + length(word[i])
-    }
-    print ""
+    printf "\n| what `auto` misses | measured is | has | bar |\n|---|---|---|---|\n%s", exceptions
 }
