@@ -526,7 +526,14 @@ $(BUILD)/readme.ppm: $(BUILD)/readme.c $(LIB)
 $(BUILD)/methods: tests/examples/memory.c $(LIB)
 	$(CC) -std=c99 $(STRICT) -o $@ $< $(LIB)
 
-.PHONY: readme-figures rates-readme failures-readme
+.PHONY: readme-figures rates-readme failures-readme manual-names
+## again: the manual's table of names
+manual-names:
+	for header in smear smear_math smear_overlay smear_model smear_memory smear_methods smear_stats; do \
+	    sed 's://.*::' include/$$header.h | awk -f tests/shell/header_names.awk; done > build/header_names.txt
+	awk -f tests/shell/manual_names.awk build/header_names.txt include/README.md > build/names.md
+	awk -f platform/footprint_readme.awk include/README.md > build/readme.md && mv build/readme.md include/README.md
+
 ## again: the memory of methods in the manual
 readme-figures: $(BUILD)/methods
 	$(BUILD)/methods > build/methods.md

@@ -3,7 +3,7 @@
 # manual.sh SMEAR LIB FOLDER - the manual, include/README.md: what is in its blocks of C is compiled as C99 and as C++11
 # and run, in order; its block of C++ is compiled; and every public function, field, constant and macro is named in it, functions and
 # fields of smear.h, smear_methods.h, smear_stats.h, smear_math.h and smear_overlay.h, and functions of smear_model.h, in a block.
-# That a field is set to 0 shows nothing of it.
+# That a field is set to 0 shows nothing of it. Its table of names is what manual_names.awk prints.
 #
 # A block ```c file stands outside of functions; a block ```c is the inside of one, after which `result` must be SMEAR_OK, and what
 # tests/data/manual_checks.txt says must be true: a line has words of a block, =>, and an expression.
@@ -69,74 +69,18 @@ strict="-O1 -Wall -Wextra -Werror -Wno-unused -Iinclude -I$base"
 "$base/manual"
 
 awk '/^```c/ { on = 1; next } /^```/ { on = 0 } on { gsub(/[a-z_]+ = 0[,;]/, ""); print }' $page >"$base/code"
-# Words of a header without comments and strings: struct fields, functions, enum constants, macros; one a line, its kind first.
-names() {
-    sed 's://.*::' "$1" | awk '
-        { text = text $0 "\n" }
-        END {
-            while ((start = index(text, "/*")) > 0) {
-                rest = substr(text, start)
-                text = substr(text, 1, start - 1) " " substr(rest, index(rest, "*/") + 2)
-            }
-            lines = split(text, line, "\n")
-            depth = kind = 0
-            for (i = 1; i <= lines; i++) {
-                s = line[i]
-                if (s ~ /^#define SMEAR_/) {
-                    split(substr(s, 9), part, /[^A-Za-z0-9_]/)
-                    print "macro", part[1]
-                }
-                if (s ~ /extern "C"/) continue
-                if (s ~ /^#/) {
-                    while (s ~ /\\$/) s = line[++i]
-                    continue
-                }
-                if (depth == 0 && s ~ /^[a-z].*smear_[a-z0-9_]*\(/ && s !~ /typedef/) {
-                    match(s, /smear_[a-z0-9_]*\(/)
-                    print "function", substr(s, RSTART, RLENGTH - 1)
-                }
-                if (depth == 0 && s ~ /enum/) kind = "enum"
-                if (depth == 0 && s ~ /typedef struct [a-z0-9_]* \{/) kind = "struct"
-                if (depth == 0 && s ~ /\)$/) kind = ""
-                if (depth > 0 || s ~ /\{.*\}/) {
-                    t = s
-                    if (kind == "enum") {
-                        gsub(/.*\{/, "", t)
-                        gsub(/=[^,]*/, "", t)
-                        n = split(t, part, /[^A-Z0-9a-z_]+/)
-                        for (k = 1; k <= n; k++)
-                            if (part[k] ~ /^SMEAR_/) print "constant", part[k]
-                    } else if (kind == "struct" && t ~ /;/) {
-                        if (match(t, /\(\*[a-z_0-9]*\)/))
-                            print "field", substr(t, RSTART + 2, RLENGTH - 3)
-                        else {
-                            gsub(/\[[^]]*\]/, "", t)
-                            sub(/}/, "", t)
-                            gsub(/\*/, " ", t)
-                            sub(/;.*/, "", t)
-                            n = split(t, part, ",")
-                            for (k = 1; k <= n; k++) {
-                                m = split(part[k], word, " ")
-                                if (m > 0) print "field", word[m]
-                            }
-                        }
-                    }
-                }
-                opened = gsub(/\{/, "{", s)
-                depth += opened - gsub(/\}/, "}", s)
-                if (depth == 0 && s ~ /\}/) kind = ""
-            }
-        }'
-}
+# Words of a header, one a line, their kind first.
+names() { sed 's://.*::' "$1" | awk -f tests/shell/header_names.awk; }
 
 missing=0
 check() { # KIND NAME PATTERN FILE
     grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
 }
 known=0
-for header in include/smear.h include/smear_math.h include/smear_overlay.h include/smear_model.h include/smear_memory.h \
-    include/smear_methods.h include/smear_stats.h; do
-    names $header >"$base/names"
+headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_model.h include/smear_memory.h include/smear_methods.h
+    include/smear_stats.h"
+for header in $headers; do
+    names "$header" >"$base/names"
     known=$((known + $(wc -l <"$base/names")))
     while read -r kind name; do
         case $kind:$name:$header in
@@ -152,5 +96,9 @@ for header in include/smear.h include/smear_math.h include/smear_overlay.h inclu
         esac
     done <"$base/names"
 done
+for header in $headers; do names "$header"; done >"$base/names"
+awk -f tests/shell/manual_names.awk "$base/names" $page >build/names.md
+awk '/^<!-- .names -->/ { on = 0 } on; /^<!-- names -->/ { on = 1 }' $page | cmp - build/names.md ||
+    { echo "$page: the table of names is another: make manual-names" >&2; missing=$((missing + 1)); }
 [ $known -gt 400 ] || { echo "manual.sh: only $known names found in the headers" >&2; exit 1; }
-[ $missing = 0 ] || { echo "$page: $missing names are missing" >&2; exit 1; }
+[ $missing = 0 ] || { echo "$page: $missing names are missing, or the table of them" >&2; exit 1; }
