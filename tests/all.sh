@@ -269,7 +269,12 @@ cortex_m3() {
 }
 cortex_m4() { ! arm || on cortex-m4 target demo symbols; }
 cortex_m7() { ! arm || on cortex-m7 target demo symbols; }
-cortex_m33() { ! arm || on cortex-m33 target demo symbols; }
+cortex_m33() {
+    arm || return 0
+    on cortex-m33 target demo symbols
+    # As an RP2350 has the library.
+    suite target-cortex-m33-dsp $calls $make -s TARGET=cortex-m33 OPT="-O2 -DSMEAR_ASM_ARMV7EM=1" BUILD=build/cortex-m33-dsp target-test
+}
 
 raspi0() {
     arm || return 0
@@ -290,6 +295,9 @@ boards() {
     on microbit symbols
     suite tiny $calls $make -s TARGET=microbit tiny-test
     suite model $calls sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
+    # Version 2 of the SDK is tried where it is.
+    sdk=${PICO2_SDK_PATH:-}
+    [ -z "$sdk" ] || suite pico2 $calls sh tests/shell/target_pico2.sh "$sdk"
     pico_tools || return 0
     on pico demo game stack
     suite pico $calls sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf

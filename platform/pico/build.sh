@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # build.sh FOLDER PROGRAM BOARD [MODEL.h]
 # Builds PROGRAM (demo, game or model) for a row of boards.h with the pico-sdk: FOLDER/PROGRAM.uf2 and .elf. The SDK is that of
-# PICO_SDK_PATH, or an archive beside the repository, which is unpacked into build/pico/sdk. Says what is missing, and what
-# does not fit.
+# PICO_SDK_PATH, or an archive beside the repository, which is unpacked into build/pico/sdk. Version 2 of it writes a UF2 by
+# picotool; where that is not installed, uf2.c does. Says what is missing, and what does not fit.
 set -u
 folder=$1 program=$2 board=$3 model=${4:-}
 archive=${PICO_SDK_ARCHIVE:-../shared/third-party/pico-sdk-1.5.1.tar.xz}
@@ -45,12 +45,18 @@ fi
 mkdir -p "$folder"
 echo "$sdk" >"$folder/sdk"
 log=$folder/$program.log
+without_picotool=
+[ ! -d "$sdk/src/rp2350" ] || command -v picotool >/dev/null || without_picotool=-DPICO_NO_PICOTOOL=1
 if ! cmake -S platform/pico -B "$folder" -DPICO_SDK_PATH="$sdk" -DSMEAR_BOARD="$board" -DSMEAR_MODEL="$model" \
-    ${PICO_HOT:+-DSMEAR_HOT="$PICO_HOT"} >"$log" 2>&1; then
+    ${PICO_HOT:+-DSMEAR_HOT="$PICO_HOT"} $without_picotool >"$log" 2>&1; then
     sed -n '/CMake Error/,/^$/p' "$log" >&2
     exit 1
 fi
 if cmake --build "$folder" --target "$program" -j"$(getconf _NPROCESSORS_ONLN)" >>"$log" 2>&1; then
+    [ -z "$without_picotool" ] || {
+        arm-none-eabi-objcopy -O binary "$folder/$program.elf" "$folder/$program.bin" && g++ -x c++ -o "$folder/uf2" platform/pico/uf2.c &&
+            "$folder/uf2" "$folder/$program.bin" "$folder/$program.uf2" || exit 1
+    }
     echo "$folder/$program.uf2: hold BOOTSEL, plug the board in, copy it there"
     exit 0
 fi
