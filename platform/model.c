@@ -3,7 +3,7 @@
  *
  *     model show [SCREEN [FRAME]]    the clip at 30 frames per second; with FRAME, that frame, for ever
  *     model check [SCREEN]           the CRC of 60 frames
- *     model cost [SCREEN]            what they cost, in the units of platform.h's clock
+ *     model cost [SCREEN [none]]     what they cost, in the units of platform.h's clock; none: sharp
  *
  * Keys: up and down nearer or farther; A sharp or blurred.
  *
@@ -30,23 +30,41 @@ struct model_screen {
     const char *name;
     smear_desc desc;
     uint8_t path;               /* smear_frame.shutter.path: the smallest board has no curves */
+    const struct model_view *view;
+};
+
+/* From where the model is seen: the camera's columns, right, up and back, q24, and how far it is, Q16.16, in radii. */
+struct model_view {
+    int32_t basis[9], zoom;
+};
+
+/* As `smear render` looks at a file without a camera: from the right and above, along (0.5, 0.35, 1), the whole model in 45
+ * degrees, which is from 1 / tan(22.5 degrees) on. */
+static const struct model_view whole = {
+    { 15005998, -2241541, 7160341, 0, 16011010, 5012239, -7502999, -4483083, 14320683 }, 158218
+};
+/* As a3d (github.com/0015/a3d) has it in its tables: 0.6 radians aside, 0.25 above, at 2.6 half lengths; those of the Fox of glTF's
+ * sample models are 0.828 radii. */
+static const struct model_view a3d = {
+    { 13846834, -2343690, 9178632, 0, 16255653, 4150750, -9473129, -3425762, 13416369 }, 141146
 };
 
 static const struct model_screen screens[] = {
-    { "oled", { .width = 128, .height = 64, .format = SMEAR_L4, .bands = 2 }, SMEAR_PATH_LINE },
-    { "gba", { .width = 120, .height = 80, .format = SMEAR_RGB555 }, SMEAR_PATH_DEFAULT },
-    { "pico", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-240", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-320", { .width = 320, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "pico-128", { .width = 128, .height = 128, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT },
-    { "linux", { .width = 640, .height = 480, .format = SMEAR_XRGB8888 }, SMEAR_PATH_DEFAULT },
+    { "oled", { .width = 128, .height = 64, .format = SMEAR_L4, .bands = 2 }, SMEAR_PATH_LINE, &whole },
+    { "gba", { .width = 120, .height = 80, .format = SMEAR_RGB555 }, SMEAR_PATH_DEFAULT, &whole },
+    { "pico", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT, &whole },
+    { "pico-240", { .width = 240, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT, &whole },
+    { "pico-320", { .width = 320, .height = 240, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT, &whole },
+    { "pico-128", { .width = 128, .height = 128, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT, &whole },
+    { "linux", { .width = 640, .height = 480, .format = SMEAR_XRGB8888 }, SMEAR_PATH_DEFAULT, &whole },
+    { "a3d", { .width = 240, .height = 320, .format = SMEAR_RGB565_SWAPPED, .bands = 2 }, SMEAR_PATH_DEFAULT, &a3d },
 };
 
 static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
 static smear_actor *actor;
 static smear_context *ctx;
-static int32_t zoom = 158218;           /* Q16.16: how far the camera is, in radii;
-                                         * from 1 / tan(22.5 degrees) on */
+static const struct model_view *view;
+static int32_t zoom;                    /* as in the view, at first */
 static bool is_sharp;
 static uint8_t path;
 
@@ -63,13 +81,9 @@ static int failed(const char *what, int result)
     return 1;
 }
 
-/* As `smear render` looks at a file without a camera: from the
- * right and above, the whole model in 45 degrees. */
 static smear_camera camera_for(const smear_model *model)
 {
-    static const int32_t basis[9] = {       /* columns: right, up, back along (0.5, 0.35, 1) */
-        15005998, -2241541, 7160341, 0, 16011010, 5012239, -7502999, -4483083, 14320683
-    };
+    const int32_t *basis = view->basis;
     smear_camera camera = { .focal = 158218, .near_plane = model->radius / 4 + 1 };
     for (int i = 0; i < 9; i++)
         camera.pose.basis[i] = basis[i];
@@ -83,6 +97,8 @@ static int start(const struct model_screen *screen, smear_desc *desc)
 {
     *desc = screen->desc;
     path = screen->path;
+    view = screen->view;
+    zoom = view->zoom;
     desc->max_draws = MODEL_DRAWS;
     desc->max_triangles = MODEL_TRIANGLES;
     return smear_actor_init(&actor, &model_model, 2, actor_memory, sizeof actor_memory);
@@ -186,12 +202,13 @@ static int check(const struct model_screen *screen)
     return 0;
 }
 
-static int cost(const struct model_screen *screen)
+static int cost(const struct model_screen *screen, bool sharp)
 {
     smear_desc desc;
     smear_stats stats;
     uint32_t total = 0, posing = 0, drawn = 0, split = 0, moving = 0, tiles = 0;
     int result = start(screen, &desc);
+    is_sharp = sharp;
     desc.flush = swallow;
     if (result == SMEAR_OK)
         result = open_context(&desc);
@@ -249,7 +266,7 @@ int main(int argc, char **argv)
     const char *command = argc > 1 ? argv[1] : "show", *name = argc > 2 ? argv[2] : DEMO_SCREEN;
     for (size_t i = 0; i < sizeof screens / sizeof *screens; i++)
         if (is_word(screens[i].name, name))
-            return is_word(command, "cost")    ? cost(&screens[i])
+            return is_word(command, "cost")    ? cost(&screens[i], argc > 3 && is_word(argv[3], "none"))
                  : is_word(command, "check") ? check(&screens[i])
                                              : show(&screens[i], argc > 3 ? argv[3] : NULL);
     return failed("no screen of this name", 0);

@@ -279,9 +279,9 @@ model-test: $(BUILD)/model$(EXE) $(RUN_NEEDS)
 	$(RUN) $< check $(DEMO_SCREEN) > $(BUILD)/model.got
 	cmp $(BUILD)/model.want $(BUILD)/model.got
 
-## boards: what the model's frames cost
+## boards: what the model's frames cost; BLUR=none: sharp
 model-cost: $(BUILD)/model$(EXE) $(RUN_NEEDS)
-	$(RUN_BENCH) $< cost $(DEMO_SCREEN)
+	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(BLUR)
 
 # No floating point, no 64-bit division, no C library: of the library and the demo as they are linked.
 .PHONY: symbols-test
