@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* esp_lcd.h - smear on a panel of ESP-IDF's esp_lcd: its driver queues a band while another is sent by DMA. */
+#include <driver/gpio.h>
 #include <driver/spi_master.h>
 #include <esp_lcd_panel_io.h>
 #include <esp_lcd_panel_ops.h>
 #include <esp_lcd_panel_vendor.h>
+#include <esp_rom_sys.h>
 #include <freertos/FreeRTOS.h>
 #include <freertos/task.h>
 
@@ -16,12 +18,25 @@
 #define PIN_SELECT 10
 #define PIN_COMMAND 9
 #define PIN_RESET 8
+#define PIN_TEARING (-1)                /* where it is wired: no tears, and frames last whole refreshes of the panel */
 
 static esp_lcd_panel_handle_t panel;
+
+/* Until the panel has scanned a few rows: what is sent stays behind it. */
+static void display_wait(void)
+{
+    while (gpio_get_level((gpio_num_t)PIN_TEARING) == 0)
+        ;
+    while (gpio_get_level((gpio_num_t)PIN_TEARING) != 0)
+        ;
+    esp_rom_delay_us(2000);
+}
 
 static int display_flush(void *user, const smear_band *band)
 {
     (void)user;
+    if (PIN_TEARING >= 0 && band->y == 0)
+        display_wait();
     return esp_lcd_panel_draw_bitmap(panel, band->x, band->y, band->x + band->width, band->y + band->height, band->pixels)
                    == ESP_OK ? SMEAR_OK : -100;
 }
@@ -56,6 +71,11 @@ static void display_begin(smear_desc *desc)
     esp_lcd_panel_init(panel);
     esp_lcd_panel_invert_color(panel, true);
     esp_lcd_panel_disp_on_off(panel, true);
+    if (PIN_TEARING >= 0) {
+        const uint8_t blanking = 0;
+        gpio_set_direction((gpio_num_t)PIN_TEARING, GPIO_MODE_INPUT);
+        esp_lcd_panel_io_tx_param(io, 0x35, &blanking, 1);
+    }
     desc->flush = display_flush;
     desc->idle = display_idle;
 }

@@ -11,13 +11,14 @@
 #include <hardware/irq.h>
 #include <hardware/pio.h>
 #include <hardware/spi.h>
+#include <hardware/structs/iobank0.h>
 #include <hardware/sync.h>
 #include <pico/stdlib.h>
 
 /* Commands that all of these controllers share. */
 enum {
     RESET = 0x01, SLEEP_OUT = 0x11, INVERT = 0x21, DISPLAY_ON = 0x29, COLUMNS = 0x2a, ROWS = 0x2b, MEMORY = 0x2c,
-    MEMORY_ORDER = 0x36, PIXEL_FORMAT = 0x3a,
+    TEARING_LINE = 0x35, MEMORY_ORDER = 0x36, PIXEL_FORMAT = 0x3a,
     BITS_16 = 0x55
 };
 
@@ -29,6 +30,7 @@ static struct {
     volatile unsigned waiting;      /* bands handed to flush and not sent, 0 to 2 */
     smear_band next;                /* with two: the one behind the one that is being sent */
     unsigned left;                  /* of them, those of a frame that display_show() was told of */
+    bool begun;                     /* a band of the frame has been handed out */
 } bus;
 
 /* ------------------------------------------------------------------ bus */
@@ -131,10 +133,27 @@ static void send(const smear_band *band)
     dma_channel_transfer_from_buffer_now((uint)bus.dma, band->pixels, band->size);
 }
 
+/* Until the panel scans its first rows and is ahead by more than a band. It stays ahead of what is sent from then on, and shows
+ * a whole frame, if the next scan does not come up with it: if all of it is sent within two refreshes. */
+static void wait_for_scan(void)
+{
+    enum { AHEAD_US = 2000, REFRESH_US = 20000 };
+    if (BOARD(TE) == NO_PIN || bus.begun)
+        return;
+    /* A line that is not wired must not stop the program. */
+    const absolute_time_t end = make_timeout_time_us(2 * REFRESH_US);
+    gpio_acknowledge_irq(BOARD(TE), GPIO_IRQ_EDGE_FALL);
+    while ((iobank0_hw->intr[BOARD(TE) / 8] >> 4 * (BOARD(TE) % 8) & GPIO_IRQ_EDGE_FALL) == 0 && !time_reached(end))
+        tight_loop_contents();
+    busy_wait_us(AHEAD_US);
+}
+
 /* The library hands out no third band before the first has been sent. */
 static int flush(void *user, const smear_band *band)
 {
     (void)user;
+    wait_for_scan();
+    bus.begun = true;
     const uint32_t state = save_and_disable_interrupts();
     if (bus.waiting++ == 0)
         send(band);
@@ -189,7 +208,7 @@ static void open_output(uint pin, bool level)
 
 static void wake_panel(void)
 {
-    static const uint8_t order[] = { BOARD(MADCTL) }, format[] = { BITS_16 };
+    static const uint8_t order[] = { BOARD(MADCTL) }, format[] = { BITS_16 }, blanking[] = { 0 };
     if (BOARD(RESET) != NO_PIN) {
         gpio_put(BOARD(RESET), 0);
         sleep_ms(10);
@@ -204,6 +223,8 @@ static void wake_panel(void)
     command(MEMORY_ORDER, order, 1);
     if (BOARD(INVERTED))
         command(INVERT, NULL, 0);
+    if (BOARD(TE) != NO_PIN)
+        command(TEARING_LINE, blanking, 1);
     command(DISPLAY_ON, NULL, 0);
     drain();
 }
@@ -239,6 +260,8 @@ bool display_open(smear_desc *desc)
     open_output(BOARD(RD), 1);
     open_output(BOARD(RESET), 1);
     open_output(BOARD(LED), 0);
+    if (BOARD(TE) != NO_PIN)
+        gpio_init(BOARD(TE));
     if (IS_PARALLEL)
         open_parallel();
     else
@@ -263,6 +286,7 @@ void display_attach(smear_context *ctx)
 /* The frame's last bands are sent while the next frame is prepared. */
 void display_show(void)
 {
+    bus.begun = false;
     const uint32_t state = save_and_disable_interrupts();
     bus.left = bus.waiting;
     if (bus.left == 0)

@@ -5,7 +5,7 @@ import fs from 'fs';
 
 const NO = 255, PARALLEL = 8;
 const COLUMNS = ['name', 'chip', 'width', 'height', 'x', 'y', 'madctl', 'inverted', 'bus', 'clk', 'data', 'rd', 'cs', 'dc', 'reset',
-    'light', 'bus_khz', 'khz', 'up', 'down', 'left', 'right', 'a', 'start', 'level', 'led'];
+    'light', 'bus_khz', 'khz', 'up', 'down', 'left', 'right', 'a', 'start', 'level', 'led', 'te'];
 const KEYS = { up: 1, down: 2, left: 4, right: 8, a: 16, start: 32 };        // enum display_key
 
 export function read_board(name) {
@@ -56,6 +56,15 @@ export class Panel {
                 this.on_frame();
         });
         this.press(0);
+        if (board.te !== NO) {                  // high in the 6 % of a sixtieth of a second in which nothing is scanned
+            let is_blank = false;
+            const scan = chip.clock.createAlarm(() => {
+                is_blank = !is_blank && this.seen.has(0x35);
+                mcu.gpio[board.te].setInputValue(is_blank);
+                scan.schedule(is_blank ? 1e6 : 15.7e6);
+            });
+            scan.schedule(15.7e6);
+        }
     }
 
     level(pin) {
@@ -85,6 +94,8 @@ export class Panel {
             }
         } else if (this.mode === 0x2c) {
             this.pixel(value);
+        } else if (this.mode === 0x35) {
+            this.wrong += value !== 0;
         } else if (this.mode === 0x36 || this.mode === 0x3a) {
             this.data.push(value);
             if (this.mode === 0x36 ? value !== board.madctl : value !== 0x55)
@@ -112,7 +123,7 @@ export class Panel {
 
     // Lit, awake, inverted where the glass wants it.
     is_on() {
-        const wanted = [0x11, 0x29, ...(this.board.inverted ? [0x21] : [])];
+        const wanted = [0x11, 0x29, ...(this.board.inverted ? [0x21] : []), ...(this.board.te !== NO ? [0x35] : [])];
         return wanted.every(code => this.seen.has(code)) && (this.board.light === NO || this.level(this.board.light) === 1);
     }
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # dist_single.sh FOLDER [BUILD]: the one-file form, smear.c and its headers in FOLDER, compiles without a warning by all compilers of
-# this machine for Cortex-M, RISC-V and x86, in all standards of C and C++, with and without GCC's extensions, and draws the
+# this machine for Cortex-M, RISC-V, Xtensa and x86, in all standards of C and C++, with and without GCC's extensions, and draws the
 # golden frames wherever it can run. Compilers that are not installed are named. BUILD: golden frames by that one of one_file.sh
 # alone.
 set -u
@@ -63,6 +63,8 @@ generates "gcc for cortex-m4" "arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c1
 generates "gcc" "gcc -std=c99 -Wconversion" -O2
 # No line is this core's own: what -O2 warns of, Cortex-M0+ and M4 have shown.
 generates "gcc for rv32imc" "riscv64-unknown-elf-gcc -march=rv32imc -mabi=ilp32 -std=c11 -ffreestanding" -O1
+# Xtensa, the ESP32's kind of core: that of an ESP8266 is what Debian has a compiler for (gcc-xtensa-lx106).
+generates "gcc for xtensa" "xtensa-lx106-elf-gcc -std=c11 -ffreestanding" -Os
 
 # ---------------------------------------------------------------------- words
 
