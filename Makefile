@@ -506,8 +506,8 @@ test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	$(BUILD)/methods > build/methods.md
 	awk '/^<!-- .methods -->/{on=0} on; /^<!-- methods -->/{on=1}' include/README.md | cmp - build/methods.md || \
 	    { echo "include/README.md: the memory of methods is another: make readme-figures" >&2; exit 1; }
-	memory() { sed -n "s/.*$$1.* \\([0-9]* kB\\) |$$/\\1/p" build/methods.md; }; \
-	    grep -q "for 240x240 pixels $$(memory SMEAR_NONE), with blur $$(memory SMEAR_AUTO)" README.md || \
+	memory() { sed -n "s/^| .$$1. .* \\([0-9]*\\) kB |$$/\\1/p" build/methods.md; }; \
+	    grep -q "240x240 pixels $$(memory SMEAR_NONE) kB, with blur $$(memory SMEAR_AUTO) to $$(memory SMEAR_SET_SKETCH) kB" README.md || \
 	    { echo "README.md: memory of sharp and blurred frames is another than build/methods.md says" >&2; exit 1; }
 	code() { awk -v name="$$1" '/^cortex.*flash/ { core++ } core == 1 && index($$0, name) == 1 { sub(name, ""); printf "%.0f", $$1 / 1000 }' platform/tables.md; }; \
 	    grep -q "takes $$(code 'only RGB565, sharp') to $$(code everything) kB" README.md || \

@@ -11,6 +11,8 @@ int main(void)
     } rows[] = {
         { "SMEAR_AUTO", "the default: draws what moves at a few moments of the exposure, and fills the gaps between them",
           SMEAR_SET(SMEAR_AUTO) },
+        { "SMEAR_SET_SKETCH", "in `desc.methods` beside it: room for sketches, the fastest blur before a camera that moves",
+          SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH },
         { "SMEAR_SUBFRAMES", "a moment for each half pixel of travel; slower, closer to the truth", SMEAR_SET(SMEAR_SUBFRAMES) },
         { "SMEAR_TIMEMASK", "works out when each triangle covers each pixel; the cleanest streaks", SMEAR_SET(SMEAR_TIMEMASK) },
         { "SMEAR_OBJECT", "smears each object along one line; a long one costs no more", SMEAR_SET(SMEAR_OBJECT) },
