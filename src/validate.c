@@ -244,6 +244,8 @@ static int resolve_method(smear_frame *f, const smear_desc *d)
         return FAULT(FRAME_METHOD);
     if (f->samples == 0)
         f->samples = f->method == SMEAR_SUBFRAMES || f->method == SMEAR_TIMEMASK ? 32 : 8;
+    if (f->method == SMEAR_TIMEMASK)
+        f->samples = f->samples <= 8 ? 8 : f->samples <= 16 ? 16 : 32;
     if ((sums && f->samples > SMEAR_SUM_SAMPLES_MOST)
         || (f->method == SMEAR_SUBFRAMES && f->samples > SMEAR_SUBFRAMES_MOST))
         return FAULT(FRAME_SAMPLES);
