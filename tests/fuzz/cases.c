@@ -209,8 +209,8 @@ static void make_mesh(struct fuzz_case *c, int at)
     if (c->triangles != 0)
         case_many_mesh(c, &across, &down, &vertices, &triangles);
     const bool huge = at == 0 && c->triangles == 0 && source_chance(s, c->large ? 8 : 800);
-    if (huge) /* in parts, it would take minutes */
-        c->desc.max_triangles = 20000;
+    if (huge)
+        c->desc.max_triangles = HUGE_ROOM;
     if (grid && huge) { /* the near plane may cut each triangle of a path 16 times */
         const bool paths = has(&c->desc, SMEAR_SET_TEMPORAL);
         across = source_range(s, 60, paths ? 80 : 254);
@@ -475,7 +475,7 @@ smear_desc case_other_desc(struct fuzz_case *c)
     d.bands = (uint8_t)source_range(s, 0, 2);
     d.max_triangles = (uint32_t)source_range(s, !c->large && source_chance(s, 8) ? 1 : 60, 400);
     if (c->mesh[0].vertex_count > 1000 || source_chance(s, 2))
-        d.max_triangles = 20000;
+        d.max_triangles = HUGE_ROOM;
     d.reuse.cache_static = d.reuse.buffer_age = 0;
     const uint8_t format = d.format;
     make_band_rows(s, &d);

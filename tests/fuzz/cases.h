@@ -38,6 +38,8 @@ enum { CASE_TEXTURES = 3,
        CASE_POINTS = 12,
        CASE_BLOCKS = 64 };
 
+enum { HUGE_ROOM = 30000 };      /* triangles of a huge mesh, all of which may pass the eye: in parts, it would take minutes */
+
 struct fuzz_case {
     struct source source;
     bool wild;

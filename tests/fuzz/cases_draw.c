@@ -401,7 +401,7 @@ static smear_desc in_parts(struct fuzz_case *c)
 static void make_comparable(struct fuzz_case *c)
 {
     if ((c->desc.methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0)
-        c->desc.max_triangles = 20000;
+        c->desc.max_triangles = HUGE_ROOM;
 }
 
 /* Case `number` is made. */
