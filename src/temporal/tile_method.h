@@ -25,7 +25,7 @@ enum {
     TILE_METHOD = 10,               /* bit */
     TILE_MOVES = 0x200,             /* there are moving triangles */
     TILE_BLENDED = 0x100,           /* a blended draw is seen there, too */
-    PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | TILE_BLENDED
+    PATH_WITHOUT_MASK = (int)PATH_SUBFRAMES | (int)PATH_SPACE | TILE_BLENDED
 };
 
 enum smear_tile_method { TILE_COPY, TILE_SUBFRAMES, TILE_TIMEMASK };

@@ -17,7 +17,8 @@ struct smear_timemask_settings {
     int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
 };
 
-/* Draws a tile of opaque moving triangles. Cutouts and blended draws are for subframes.h. Returns the fragments taken. */
+/* Draws a tile of opaque moving triangles that have paths on the screen: what else there is, is for subframes.h. Returns the
+ * fragments taken. */
 uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings);
 
 #endif

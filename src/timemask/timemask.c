@@ -4,7 +4,6 @@
 #include "temporal/timemask.h"
 
 #include "geometry/path.h"
-#include "geometry/space.h"
 #include "timemask/timemask_cover.h"
 #include "geometry/transform.h"
 
@@ -32,8 +31,6 @@ struct job {
     int32_t x, y, width, height;                /* the block's pixels */
     int32_t stride;                             /* from a row of entries to the next */
     bool even;                                  /* samples are evenly spaced */
-    bool has_space;                             /* a triangle moves in space: the others are drawn sample by sample, too, so that
-                                                 * no gap opens between them */
     uint32_t fragments;
 };
 
@@ -113,11 +110,8 @@ static void choose_segments(struct job *j)
         const struct smear_path_bounds *b = bins_bounds(t->frame->bins, t->moving[i].triangle);
         if (!moving_is_in(&t->moving[i], t))
             continue;
-        j->has_space = j->has_space || b->space != 0;
-        if (b->space == 0) {
-            travel = max_i32(travel, b->travel << 4);
-            curvature = max_i32(curvature, b->curvature << 3);
-        }
+        travel = max_i32(travel, b->travel << 4);
+        curvature = max_i32(curvature, b->curvature << 3);
     }
     curvature >>= 4;                                 /* what edges that follow parabolas leave of it, about */
     int log2 = 0;
@@ -225,14 +219,12 @@ static void paint(struct job *j, const struct timemask_cover *c, const struct pa
     }
 }
 
-/* Draws a triangle in a segment of 2^samples_log2 samples with poses at its start, middle and end; `first` is its first
- * sample. */
-static void draw_segment(struct job *j, const struct moving *m, const struct timemask_pose *const pose[3],
-                         int32_t first, int32_t samples_log2)
+/* Draws a triangle in a segment with poses at its start, middle and end; `first` is its first sample. */
+static void draw_segment(struct job *j, const struct moving *m, const struct timemask_pose *const pose[3], int32_t first)
 {
     struct timemask_cover c;
     struct timemask_shade s;
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, samples_log2, j->settings->edge))
+    if (!smear_timemask_cover(&c, pose, j->width, j->height, j->samples_log2, j->settings->edge))
         return;
     smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
                          (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
@@ -248,56 +240,6 @@ static void draw_segment(struct job *j, const struct moving *m, const struct tim
     paint(j, &c, &p);
 }
 
-/* Draws a triangle as it is in the middle of each sample. */
-static void draw_sampled(struct job *j, const struct moving *m)
-{
-    const int32_t samples = 1 << j->samples.samples_log2;
-    struct timemask_pose pose;
-    const struct timemask_pose *const poses[3] = { &pose, &pose, &pose };
-    for (int32_t sample = 0; sample < samples; sample++) {
-        pose_at(&pose, j, m, smear_shutter_instant(j->tile->shutter, sample, samples));
-        draw_segment(j, m, poses, sample, 0);
-    }
-}
-
-static void draw_whole(struct job *j, const struct moving *m)
-{
-    struct timemask_pose pose[3];
-    pose_at(&pose[0], j, m, j->time[0]);
-    for (int i = 0; i < 1 << j->segments_log2; i++) {
-        const struct timemask_pose *poses[3] = { &pose[i & 1 ? 2 : 0], &pose[1], &pose[i & 1 ? 0 : 2] };
-        pose_at(&pose[1], j, m, (j->time[i] + j->time[i + 1]) >> 1);
-        pose_at(&pose[i & 1 ? 0 : 2], j, m, j->time[i + 1]);
-        draw_segment(j, m, poses, i << j->samples_log2, j->samples_log2);
-    }
-}
-
-/* Draws a triangle of which vertices have a path in space as it is in the middle of each sample. */
-static void draw_in_space(struct job *j, const struct moving *m)
-{
-    const struct smear_tile_run *t = j->tile;
-    const int32_t samples = 1 << j->samples.samples_log2;
-    static const int32_t no_shift[2] = { 0, 0 };
-    struct smear_space space;
-    smear_space_make(&space, t->frame->bins, m->segment, t->frame->width, t->frame->height);
-    for (int32_t sample = 0; sample < samples; sample++) {
-        const int32_t u = path_phase(smear_shutter_instant(t->shutter, sample, samples));
-        struct path_record record[SMEAR_CLIP_MAX];
-        const int count = smear_space_pose(record, &space, m->record, m->bounds->space, u, no_shift);
-        for (int i = 2; i < count; i++) {
-            const struct moving part = { m->bounds, m->triangle, m->segment, { record[0].word, record[i - 1].word, record[i].word } };
-            struct timemask_pose pose;
-            const struct timemask_pose *const poses[3] = { &pose, &pose, &pose };
-            for (int k = 0; k < 3; k++) {
-                pose.x[k] = part.record[k][VERTEX_X] - (j->x * 256 + 128);
-                pose.y[k] = part.record[k][VERTEX_Y] - (j->y * 256 + 128);
-                pose.depth[k] = part.record[k][VERTEX_DEPTH];
-            }
-            draw_segment(j, &part, poses, sample, 0);
-        }
-    }
-}
-
 static void draw_moving(struct job *j, uint32_t i)
 {
     struct moving m;
@@ -305,12 +247,14 @@ static void draw_moving(struct job *j, uint32_t i)
     const struct smear_path_bounds *b = m.bounds;
     if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
         return;
-    if (b->space != 0)
-        draw_in_space(j, &m);
-    else if (j->has_space)
-        draw_sampled(j, &m);
-    else
-        draw_whole(j, &m);
+    struct timemask_pose pose[3];
+    pose_at(&pose[0], j, &m, j->time[0]);
+    for (int k = 0; k < 1 << j->segments_log2; k++) {
+        const struct timemask_pose *poses[3] = { &pose[k & 1 ? 2 : 0], &pose[1], &pose[k & 1 ? 0 : 2] };
+        pose_at(&pose[1], j, &m, (j->time[k] + j->time[k + 1]) >> 1);
+        pose_at(&pose[k & 1 ? 0 : 2], j, &m, j->time[k + 1]);
+        draw_segment(j, &m, poses, k << j->samples_log2);
+    }
 }
 
 /* The listed moving triangles, the nearest first, until the rest is hidden. */

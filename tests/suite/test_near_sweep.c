@@ -222,7 +222,7 @@ static const struct {
 } by[] = {
     { SMEAR_AUTO, 0, "auto", 5, 1.5, 1.3, 2.6 },
     { SMEAR_SUBFRAMES, 0, "subframes", 5, 1.5, 1.2, 3 },
-    { SMEAR_TIMEMASK, 16, "timemask", 100, 6, 2.2, 6 }
+    { SMEAR_TIMEMASK, 16, "timemask", 5, 1.5, 1.5, 3 }
 };
 
 enum { METHODS = sizeof by / sizeof *by };

@@ -21,7 +21,7 @@ const struct method method_list[] = {
       .hint = "Only tiles in which something moves are drawn at several instants.", .samples = { 8, 16, 32 },
       .curve = "subframes: up to N", .color = "#35c48d" },
     { .name = "timemask", .method = SMEAR_TIMEMASK,
-      .help = "the time each triangle covers each pixel; cutouts and\nblended draws as in subframes",
+      .help = "the time each triangle covers each pixel; cutouts,\nblended draws and what passes the eye as in subframes",
       .tile_color = 0xc040ff, .label = "timemask",
       .hint = "For each pixel, the time each triangle covers it, in closed form.", .samples = { 8, 16, 32 },
       .curve = "timemask: N samples", .color = "#5aa9f5" },
