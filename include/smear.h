@@ -205,8 +205,8 @@ typedef enum smear_method {
 /* Sets of methods, for desc.methods: SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_SUBFRAMES). */
 #define SMEAR_SET(method) (1u << (method))
 
-/* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. A sketch does not measure what it errs by,
- * 4 to 9 codes before a camera that moves: see SMEAR_SET_SKETCH. */
+/* Error aimed at by SMEAR_AUTO: RMS against the truth, in 1/64 of an 8-bit code. Before a camera that moves, sketches and drafts take
+ * the short way of SMEAR_SET_SKETCH, where desc.methods has it. */
 enum { SMEAR_SKETCH = 512, SMEAR_DRAFT = 256, SMEAR_BALANCED = 96, SMEAR_FINE = 32 };
 
 #include "smear_methods.h"
@@ -292,8 +292,8 @@ typedef struct smear_frame {
     uint16_t samples;           /* 1..1024: instants (or taps, or time samples); 0 means 32 for SMEAR_SUBFRAMES and
                                  * SMEAR_TIMEMASK, else 8. Without SMEAR_WITH_LINEAR at most 256 instants */
     uint16_t target;            /* SMEAR_AUTO: error aimed at in 1/64 codes; 0 means SMEAR_BALANCED, for SMEAR_L4 and
-                                 * 1-bit formats SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5. Beyond
-                                 * SMEAR_DRAFT it is for desc.methods with SMEAR_SET_SKETCH */
+                                 * 1-bit formats SMEAR_DRAFT: rounding to steps of 17 codes alone errs by 5. From
+                                 * SMEAR_DRAFT on, SMEAR_SET_SKETCH in desc.methods makes it cheap */
     uint32_t budget;            /* SMEAR_AUTO: how much of what moves may be drawn, pixels x instants: of `target` and
                                  * coarser errors the first that needs no more, SMEAR_DRAFT in any case. Reckoned from
                                  * triangles before a pixel is drawn (smear_stats.work): no clock; 0: no bound */

@@ -43,14 +43,16 @@ struct smear_frame;
  * instant. Small and slow. */
 #define SMEAR_SET_ACCUMULATE_BANDS (1u << 15)
 
-/* Beside SMEAR_AUTO, which it needs: room for frames of SMEAR_AUTO with targets beyond SMEAR_DRAFT (256), sketches. It is a
+/* Beside SMEAR_AUTO, which it needs: room for lines, which targets from SMEAR_DRAFT (256) on take while the camera moves. It is a
  * window of a few tile rows (desc.reach and desc.tile are as with a filter) and one more for what lines have blurred:
- * SMEAR_MEMORY_SKETCH. While the camera moves, what stands still is drawn once, in the middle of the exposure, and blurred
- * along lines: each 8 x 8 pixels by 2 to 8 taps on the way that depth and two cameras tell. Between SMEAR_DRAFT and 7 codes
- * (448) it is drawn twice, and lines are half as long; that needs hard edges. What moves by itself is drawn over it: once, and
- * blurred along lines, too, within its tile row; or, where it turns by more than some ten degrees, deforms or is blended, and with
- * smooth edges, at two instants. Sketches need a shutter without a curve; with one, in a cut, and before a camera that stands still
- * there are no lines. Frames of other targets and methods are the same as without it, but that tiles may be larger. */
+ * SMEAR_MEMORY_SKETCH. What stands still is drawn into one to four pictures at even instants, whose mean is blurred along the line
+ * to the next: each 8 x 8 pixels by 2 to 8 taps on the way that depth and two cameras tell. What pixels beside each other differ by
+ * tells how many pictures the target takes: as many as the frame before was good with, else one from 7 codes (448) on and two
+ * below, and more from the tile row on where that is too few; where four are, instants. What moves by itself is drawn over it once or
+ * twice, and blurred along lines, too, within its tile row; or, where it turns by more than some ten degrees, deforms or is blended,
+ * and with smooth edges, at one instant more than there are pictures. Lines need a shutter without a curve, and for targets below 7
+ * codes hard edges; without, in a cut, and before a camera that stands still there are none. Frames of other targets and methods are
+ * the same as without it, but that tiles may be larger. */
 #define SMEAR_SET_SKETCH (1u << 14)
 
 static inline uint8_t smear_method_is_temporal(int method)
