@@ -23,6 +23,7 @@ struct spec {
     struct present_options present; /* fps, clear and a shutter of 0 degrees are filled in */
     bool has_large_textures;        /* not for small boards; */
     bool has_large_meshes;          /* neither: beside the others they would not fit the flash */
+    bool user;                      /* bench: all as a user gets it who asks for nothing */
 };
 
 enum { DEFAULT_SHUTTER_DEGREES = 180, MAX_GOLDEN_BYTES = 1 << 20, SMALL_BYTES = 59 << 10 };
@@ -222,7 +223,7 @@ static const struct spec golden[] = {
       .has_large_meshes = true },
 };
 
-/* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; and two blurred. */
+/* The peers' scenes as they were measured: 320x240, RGB565, frames 0, 2, 4, 6; two as a user gets them; and two blurred. */
 static const struct spec bench[] = {
     { "A whole", "peer/A", 0, 4, 2, { .band_rows = 240, .max_triangles = 24000 }, { .method = SMEAR_NONE } },
     { "A bands", "peer/A", 0, 4, 2, { .band_rows = 16, .max_triangles = 24000 }, { .method = SMEAR_NONE } },
@@ -235,6 +236,12 @@ static const struct spec bench[] = {
     { "D bands", "peer/D", 0, 4, 2, { .band_rows = 16, .max_triangles = 52000 }, { .method = SMEAR_NONE } },
     { "E whole", "peer/E", 0, 4, 2, { .band_rows = 240, .max_triangles = 1300 }, { .method = SMEAR_NONE } },
     { "E bands", "peer/E", 0, 4, 2, { .band_rows = 16, .max_triangles = 1300 }, { .method = SMEAR_NONE } },
+    { "F whole", "peer/F", 0, 4, 2, { .band_rows = 240, .max_triangles = 12000 }, { .method = SMEAR_NONE } },
+    { "F bands", "peer/F", 0, 4, 2, { .band_rows = 16, .max_triangles = 12000 }, { .method = SMEAR_NONE } },
+    { "F user", "peer/F", 0, 4, 2, { .max_triangles = 12000 }, { .method = SMEAR_NONE }, .user = true },
+    { "F-lit whole", "peer/F-lit", 0, 4, 2, { .band_rows = 240, .max_triangles = 12000 }, { .method = SMEAR_NONE } },
+    { "F-lit bands", "peer/F-lit", 0, 4, 2, { .band_rows = 16, .max_triangles = 12000 }, { .method = SMEAR_NONE } },
+    { "F-lit user", "peer/F-lit", 0, 4, 2, { .max_triangles = 12000 }, { .method = SMEAR_NONE }, .user = true },
     { "B64 blurred", "peer/B64", 0, 4, 2, { .reach = 12, .max_triangles = 1600 }, { .method = SMEAR_RECONSTRUCT, .samples = 8 } },
     { "E blurred", "peer/E", 0, 4, 2, { .reach = 12, .max_triangles = 1300 }, { .method = SMEAR_RECONSTRUCT, .samples = 8 } },
 };
@@ -248,14 +255,16 @@ static void complete_golden(struct spec *spec)
 
 static void complete_bench(struct spec *spec)
 {
-    spec->present.texels_565 = spec->present.method == SMEAR_NONE;     /* as tools/bench/peers.c */
     spec->desc.width = 320;
     spec->desc.height = 240;
     spec->desc.format = SMEAR_RGB565;
+    spec->desc.methods = (uint16_t)SMEAR_SET(spec->present.method);
+    if (spec->user)
+        return;
+    spec->present.texels_565 = spec->present.method == SMEAR_NONE;     /* as tools/bench/peers.c */
     spec->desc.display.dither = SMEAR_DITHER_NONE;
     spec->desc.vertex_cache = 4096;
     spec->present.light = SMEAR_LIGHT_ENCODED;
-    spec->desc.methods = (uint16_t)SMEAR_SET(spec->present.method);
 }
 
 /* The CRC of a frame in the text of GOLDEN.txt; false when it has none. */

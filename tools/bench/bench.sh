@@ -30,7 +30,7 @@ done
 
 measured=
 if [ -n "$targets" ]; then
-    for target in cortex-m0plus cortex-m4; do
+    for target in cortex-m0plus cortex-m4 cortex-m7; do
         if ! command -v arm-none-eabi-gcc >/dev/null ||
             ! command -v qemu-system-arm >/dev/null; then
             echo "bench: $target is left out: no arm-none-eabi-gcc or qemu-system-arm" >&2

@@ -6,21 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SCENES = 5, LINE_LIMIT = 512 };
+enum { SCENES = 7, USER_FROM = 5, LINE_LIMIT = 512 };        /* scenes from F on are drawn as a user gets them, too */
 
-static const char *const scenes[SCENES] = { "A", "B64", "C", "D", "E" };
-static const double band_bar[SCENES] = { 1.3, 1.15, 1.3, 1.3, 1.15 };  /* bands of 16 rows against the whole frame */
+static const char *const scenes[SCENES] = { "A", "B64", "C", "D", "E", "F", "F-lit" };
+static const double band_bar[SCENES] = { 1.3, 1.15, 1.3, 1.3, 1.15, 1.3, 1.3 };     /* bands of 16 rows against the whole frame */
 
+/* Million instructions; 0: none. */
 static const struct target {
     const char *name;           /* of the file, without folder and ending */
     const char *what;
-    double bar[SCENES];         /* million instructions */
+    double bar[SCENES];
+    double user[SCENES];        /* bars of what a user gets who asks for nothing */
     double peer[SCENES];        /* best comparable peer */
 } targets[] = {
     { "cortex-m0plus", "no multiply beyond 32 bits; peers: small3dlib",
-      { 26.0, 9.0, 45.0, 34.0, 2.8 }, { 118.0, 34.2, 176.7, 131.0, 14.4 } },
+      { 26.0, 9.0, 45.0, 34.0, 2.8, 0.0, 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 10.5, 0.0 },
+      { 118.0, 34.2, 176.7, 131.0, 14.4, 27.3, 0.0 } },
     { "cortex-m4", "without its FPU; peers use it: TGX, small3dlib in D",
-      { 14.0, 5.5, 28.0, 20.0, 1.9 }, { 24.9, 8.78, 60.6, 47.6, 3.70 } },
+      { 14.0, 5.5, 28.0, 20.0, 1.9, 5.0, 6.5 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 6.2, 7.8 },
+      { 24.9, 8.78, 60.6, 47.6, 3.70, 5.18, 6.54 } },
+    { "cortex-m7", "without its FPU; peers use it: TGX",
+      { 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 5.5, 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 4.58, 0.0 } },
 };
 
 static const struct target *find_target(const char *path)
@@ -62,16 +68,31 @@ bool targets_report(struct sheet *sheet, const char *path, struct failure *f)
         return fail(f, "no target is called like this file (%s)", path);
     printf("== %s (%s):\n   million instructions per frame, 320x240, RGB565\n\n", target->name,
            target->what);
-    printf("scene   whole   bands  ratio  bar       bar              best peer  ours/peer  /pixel\n");
+    printf("scene   whole   bands  ratio  bar       bar              best peer  ours/peer  /pixel    user  bar\n");
     for (int s = 0; s < SCENES; s++) {
-        double whole, bands;
+        double whole, bands, user;
         if (!read_tape(path, scenes[s], "whole", &whole, f)
             || !read_tape(path, scenes[s], "bands", &bands, f))
             return false;
-        printf("%-5s %7.2f %7.2f  %5.2f  %-8s  %5.1f  %-7s  %13.2f  %9.2f  %6.1f\n", scenes[s],
-               whole, bands, bands / whole, sheet_most(sheet, bands / whole, band_bar[s]),
-               target->bar[s], sheet_most(sheet, whole, target->bar[s]), target->peer[s],
-               whole / target->peer[s], whole * 1e6 / (320.0 * 240.0));
+        printf("%-5s %7.2f %7.2f  %5.2f  %-8s", scenes[s], whole, bands, bands / whole,
+               sheet_most(sheet, bands / whole, band_bar[s]));
+        if (target->bar[s] > 0.0)
+            printf("  %5.1f  %-7s", target->bar[s], sheet_most(sheet, whole, target->bar[s]));
+        else
+            printf("  %5s  %-7s", "-", "");
+        if (target->peer[s] > 0.0)
+            printf("  %13.2f  %9.2f", target->peer[s], whole / target->peer[s]);
+        else
+            printf("  %13s  %9s", "-", "-");
+        printf("  %6.1f", whole * 1e6 / (320.0 * 240.0));
+        if (s >= USER_FROM) {
+            if (!read_tape(path, scenes[s], "user", &user, f))
+                return false;
+            printf("  %6.2f", user);
+            if (target->user[s] > 0.0)
+                printf("  %.1f %s", target->user[s], sheet_most(sheet, user, target->user[s]));
+        }
+        printf("\n");
     }
     return true;
 }
