@@ -12,39 +12,6 @@
 #include "kernels/kernels.h"
 #include "raster/span.h"
 
-/* Edge functions at a row's first column; what they change by from column to column and from row to row. */
-struct box_sides {
-    int32_t e[3], right[3], down[3];
-    int32_t left, columns;      /* of the box, columns >= 1 */
-    int32_t width;              /* of the frame */
-};
-
-/* Sides of n > 0 rows: of the pixels where no function is negative, which lie side by side. A row without any begins and
- * ends where the box ends. The functions go on by so many rows. */
-static inline void box_sides(struct span_side *side, struct box_sides *b, int32_t n)
-{
-    const int32_t right = b->left + b->columns;
-    for (struct span_side *const end = side + n; side != end; side++) {
-        int32_t e0 = b->e[0], e1 = b->e[1], e2 = b->e[2], x = b->left;
-        while ((e0 | e1 | e2) < 0 && ++x < right) {
-            e0 += b->right[0];
-            e1 += b->right[1];
-            e2 += b->right[2];
-        }
-        side->left = max_i32(x, 0);
-        if (x < right)
-            do {
-                e0 += b->right[0];
-                e1 += b->right[1];
-                e2 += b->right[2];
-            } while (++x < right && (e0 | e1 | e2) >= 0);
-        side->edge = x;
-        side->right = min_i32(x, b->width);
-        for (int k = 0; k < 3; k++)
-            b->e[k] += b->down[k];
-    }
-}
-
 /* ------------------------------------------------------------------ rows */
 
 /* Where the pixels of a row lie, and depth at its pixel 0. */
@@ -260,27 +227,6 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     }
 }
 
-/* Rows of a small triangle, by edge functions: as many as the box has, at most SPAN_ROWS. */
-static void cover_small_rows(const struct setup *s, const struct pixel_box *box, smear_rows_fn *draw)
-{
-    const struct smear_raster_target *t = s->target;
-    const int32_t left = box->left, right = box->right, width = s->frame->width;
-    struct tiny_edges e;
-    struct gather g;
-    box_edges(&e, s, left, box->top);
-    struct box_sides b = { { e.e0, e.e1, e.e2 }, { e.right0, e.right1, e.right2 }, { e.down0, e.down1, e.down2 },
-                           left, right - left, width };
-    gather_start(&g, s, box->top);
-    g.rows.cut = max_i32(left, 0) < t->x0 || min_i32(right, width) > t->x1;
-    while (g.rows.y < box->bottom) {
-        const int32_t n = min_i32(box->bottom - g.rows.y, t->window_rows.ring - g.ring_row);
-        box_sides(g.rows.side, &b, n);
-        g.rows.count = n;
-        g.ring_row += n;
-        gather_draw(&g, s, draw);
-    }
-}
-
 /* ------------------------------------------------------------------ small triangles */
 
 static void cover_small(const struct setup *s, const struct pixel_box *box, smear_span_fn *write)
@@ -327,10 +273,6 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
 {
     if (HAS_FLAT_ROWS && s->flat && !s->writes_velocity && !small) {
         smear_flat_cover(s);
-        return;
-    }
-    if (SMEAR_SPAN_ROWS && s->rows != NULL && small) {
-        cover_small_rows(s, box, s->rows);
         return;
     }
     if (SMEAR_SPAN_ROWS && s->rows != NULL) {

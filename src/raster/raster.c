@@ -140,13 +140,22 @@ static inline bool make_velocity(struct setup *s)
     return true;
 }
 
-/* Draws a triangle of few pixels, of which edges and twice the area are known. False where it needs gradients. */
-static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, uint64_t area, int32_t pixels, const struct pixel_box *box)
+/* Draws a textured triangle of few pixels; of a smaller level if it has one. False where it needs gradients. */
+static bool draw_textured(const struct smear_raster_pass *p, const struct setup *s)
 {
-    if (pixels > TINY_PIXELS)
+    struct few_look look = p->texels;
+    if (s->draw != look.draw)
+        smear_few_take(&look, s->frame, s->target, s->segment, s->draw);
+    return smear_few_draw(&look, s->target, s->v, s->color, s);
+}
+
+/* Draws a triangle of few pixels. False where it needs gradients. */
+static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, int32_t pixels, const struct pixel_box *box)
+{
+    if (p->textured)
+        return !p->few && pixels != INT32_MAX && !fog_varies(s) && draw_textured(p, s);
+    if (pixels > TINY_PIXELS || !p->boxed)
         return false;
-    if (!p->boxed)
-        return cover_has_texels(s, pixels) && smear_cover_texels(s, (int32_t)area, box);
     const struct tiny_depths depths = tiny_depths_of(s->v);
     if (fog_varies(s) || !tiny_suits(&p->box, &depths))
         return false;
@@ -166,7 +175,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     const struct bounds bounds = given != NULL ? *given : bounds_of(v);
     const int32_t left = (bounds.x0 + 127) >> 8, right = (bounds.x1 + 127) >> 8;
     const int32_t top = (bounds.y0 + 127) >> 8, bottom = (bounds.y1 + 127) >> 8;
-    const int32_t most = segment_textured(p->segment) ? (int32_t)SMALL_TEXTURED_PX : (int32_t)SMALL_PX;
+    const int32_t most = segment_textured(p->segment) ? (int32_t)FEW_PX : (int32_t)SMALL_PX;
     const bool small = right - left <= most && bottom - top <= most;
     const int32_t pixels = small ? (right - left) * (bottom - top) : INT32_MAX;
     if (max_i32(left, target->x0) >= min_i32(right, target->x1))
@@ -194,10 +203,9 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     if (!known) {
         if (has_levels(&s))
             smear_setup_level(&s, area, &smaller);
-        if (draw_few(p, &s, area, pixels, &box))
+        if (draw_few(p, &s, pixels, &box))
             return;
-        if (!(cover_is_small(&s, small) && smear_setup_small(&s, (int32_t)area)))
-            smear_setup(&s, area);
+        smear_setup(&s, area);
     } else if (has_levels(&s)) {
         smear_setup_shrink(&s, &smaller);
     }
@@ -227,7 +235,11 @@ void smear_raster_begin(struct smear_raster_pass *p, const struct smear_raster_f
 static SMEAR_NOINLINE void take_segment(struct smear_raster_pass *p, const struct smear_segment *segment)
 {
     p->segment = segment;
+    const struct smear_raster_draw *const draw = &p->frame->draw[segment->draw];
     p->boxed = tiny_look_take(&p->box, p->frame, p->target, segment);
+    p->textured = smear_few_take(&p->texels, p->frame, p->target, segment, draw);
+    p->few = HAS_FLAT_ROWS && p->textured && !frame_has_fog(p->frame) && !target_has_velocity(p->target)
+          && !(SMEAR_WITH_BOUNDS && draw->sampler.levels != 0);
     if (!HAS_FLAT_ROWS)
         return;
     p->plain = p->boxed && !frame_has_fog(p->frame) && !target_has_velocity(p->target);
@@ -246,6 +258,8 @@ static inline void draw_triangle(struct smear_raster_pass *p, const struct smear
         if (p->tiny || (p->flat && smear_flat_triangle(p->target, v, color, given, p->whole, p->keeps ? number : SMEAR_NO_TRIANGLE)))
             return;
     }
+    if (p->few && smear_few_draw(&p->texels, p->target, v, color, NULL))
+        return;
     draw_any(p, color, number, v, given);
 }
 

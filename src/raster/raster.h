@@ -3,6 +3,7 @@
 #ifndef SMEAR_RASTER_H
 #define SMEAR_RASTER_H
 
+#include "raster/few_draw.h"
 #include "raster/tiny_draw.h"
 
 /* Cuts memory (8-byte aligned) into caches of one size for `count` targets beside each other, for triangles of the
@@ -27,10 +28,13 @@ struct smear_raster_pass {
     bool plain;             /* their pixels say nothing but colour and depth, without fog */
     bool flat;              /* and the others by smear_flat_triangle */
     bool tiny;              /* the last one had few pixels */
+    bool textured;          /* those of few pixels are drawn by smear_few_draw, */
+    bool few;               /* before anything else is looked at: without velocity, fog and levels */
     bool moved;             /* one that moves has been drawn */
     bool whole;             /* the target has all columns of the frame */
     bool keeps;             /* and not all of its rows: what goes on below is kept */
     struct tiny_look box;
+    struct few_look texels;
 };
 
 void smear_raster_begin(struct smear_raster_pass *p, const struct smear_raster_frame *frame, const struct smear_raster_target *target);

@@ -229,10 +229,6 @@ void smear_setup_level(struct setup *s, uint64_t area, struct smear_raster_draw 
 /* Where the level is not the largest the draw becomes `smaller`, a copy with that level of the texture. */
 void smear_setup_shrink(struct setup *s, struct smear_raster_draw *smaller);
 
-/* Does that for a textured triangle of few pixels without a motion of its own, whose area fits: setup_small.c. Returns false
- * where that would be too inexact, or its shape is that of a sliver. */
-bool smear_setup_small(struct setup *s, int32_t area);
-
 /* Makes the planes of its velocity: velocity.c. */
 void smear_setup_velocity(struct setup *s);
 

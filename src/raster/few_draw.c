@@ -1,0 +1,496 @@
+/* SPDX-License-Identifier: MIT */
+/* few_draw.c - see few_draw.h.
+ *
+ * A pixel's weights of v[1] and v[2] are planes: their slopes are the edges over the area, of which 15 bits after the point suffice
+ * for so few pixels. What changes by d1 and d2 to these vertices has the slopes d1 g1 + d2 g2. All planes count in 32 bits that wrap,
+ * from v[0] on: where a triangle is cut makes no difference.
+ *
+ * Perspective: where 1/w changes by a part c of that at v[0], and coordinates by t texels, planes are off by c t / 4. Up to 1/32 texel they
+ * do; else they are divided by 1/w, which is a plane, too. Light is off by half a code at most, a quarter of its range times c. */
+#include "raster/few_draw.h"
+
+#include "geometry/tiny.h"
+#include "kernels/texels_shade.h"
+#include "raster/fog.h"
+#include "raster/span.h"
+
+/* Loops of their own for copied texels: not where size counts. */
+enum { FEW_COPIES = !SMEAR_SMALL_FILE };
+
+enum light_kind {
+    LIGHT_NONE,
+    LIGHT_WHITE,            /* red, green and blue alike */
+    LIGHT_COLORED
+};
+
+/* The changes from v[0] to v[1] and to v[2]. */
+struct beyond {
+    int32_t to1, to2;
+};
+
+/* At the row's first pixel. */
+struct few_plane {
+    int32_t at, right, down;
+};
+
+/* All three edge functions (tiny.h), 21 bits each, in one word: their lower 8 bits are the same in all pixels, and left out. One that is
+ * negative makes that above it lower by one; but then the pixel is outside anyway. */
+struct few_edges {
+    uint64_t at, right, down;
+};
+
+#define FEW_OUTSIDE (1ull << 20 | 1ull << 41 | 1ull << 62)
+
+static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
+{
+    return (uint64_t)(int64_t)e0 + ((uint64_t)(int64_t)e1 << 21) + ((uint64_t)(int64_t)e2 << 42);
+}
+
+struct few {
+    const struct few_look *look;
+    const struct smear_raster_target *target;
+    const struct setup *setup;      /* or null */
+    struct few_edges edges;
+    int32_t columns;
+    struct few_plane depth;         /* codes q16 */
+    struct few_plane u, v;
+    struct few_plane bend;          /* q15: how much larger 1/w is than at v[0] */
+    int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
+    bool bent;
+    enum light_kind light_kind;
+    struct few_plane light[4];      /* r g b a, 16 bits q15; in white light those of r and g are not set */
+};
+
+/* The weights of v[1] and v[2], q15: at the box's first pixel, and their slopes. */
+struct few_weights {
+    int32_t at1, right1, down1, at2, right2, down2;
+};
+
+/* Planes of light from the first one that a triangle has, and before the last. */
+SMEAR_INLINE int few_light_first(const struct few *k, enum few_kind kind)
+{
+    if (kind == FEW_WHITE)
+        return 2;
+    return kind != FEW_ANY || k->light_kind == LIGHT_NONE ? 4 : k->light_kind == LIGHT_WHITE ? 2 : 0;
+}
+
+SMEAR_INLINE int few_light_end(const struct few *k, enum few_kind kind) { return kind != FEW_ANY || draw_is_opaque(k->look->draw) ? 3 : 4; }
+
+static inline uint32_t beyond_range(struct beyond b)
+{
+    return (uint32_t)max_i32(max_i32(b.to1, b.to2), 0) - (uint32_t)min_i32(min_i32(b.to1, b.to2), 0);
+}
+
+static inline int32_t weigh(struct beyond b, int32_t w1, int32_t w2)
+{
+    return add_wrap(mul_wrap(b.to1, w1), mul_wrap(b.to2, w2));
+}
+
+static inline void few_plane_make(struct few_plane *p, const struct few_weights *w, int32_t value, struct beyond b)
+{
+    p->at = add_wrap(shl_wrap(value, 15), weigh(b, w->at1, w->at2));
+    p->right = weigh(b, w->right1, w->right2);
+    p->down = weigh(b, w->down1, w->down2);
+}
+
+/* ------------------------------------------------------------------ weights */
+
+/* (cx, cy): from v[0] to the centre of the box's first pixel, q8. False for slivers, whose weights' slopes are steeper than 4 per pixel:
+ * products fit 32 bits. */
+static inline bool few_weights_make(struct few_weights *w, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area, int32_t cx,
+                                    int32_t cy)
+{
+    const uint32_t across = max_u32(max_u32(magnitude_i32(x1), magnitude_i32(y1)), max_u32(magnitude_i32(x2), magnitude_i32(y2)));
+    if (across * 64 > (uint32_t)area || area < 256)
+        return false;
+    const int up = count_leading_zeros((uint32_t)area), down = 24 - up;
+    const int32_t recip = (int32_t)(recip_norm((uint32_t)area << up) >> 14);
+    w->right1 = y2 * recip >> down;
+    w->right2 = -y1 * recip >> down;
+    w->down1 = -x2 * recip >> down;
+    w->down2 = x1 * recip >> down;
+    w->at1 = (w->right1 * cx + w->down1 * cy) >> 8;
+    w->at2 = (w->right2 * cx + w->down2 * cy) >> 8;
+    return true;
+}
+
+/* ------------------------------------------------------------------ planes */
+
+/* floor(a g / 2^15), modulo 2^32. */
+static SMEAR_PRODUCT_CALL int32_t part_q15(int32_t a, int32_t g) { return mul_shift(a, g, 15); }
+
+/* floor(a c / 2^8), modulo 2^32, for c < 2^15. */
+static inline int32_t part_q8(int32_t a, int32_t c)
+{
+    return SMEAR_HAS_MUL64 ? mul_shift(a, c, 8) : add_wrap(mul_wrap(a >> 8, c), (a & 255) * c >> 8);
+}
+
+/* False where codes lie on both sides of their break. */
+static inline bool few_depth_make(struct few *k, const struct few_weights *w, int32_t q0, struct beyond q, int32_t cx, int32_t cy)
+{
+    const int32_t low = q0 + min_i32(min_i32(q.to1, q.to2), 0), high = q0 + max_i32(max_i32(q.to1, q.to2), 0);
+    const bool far = high < SLOPE_BREAK - 65536, near = low >= SLOPE_BREAK + 65536;     /* slopes are rounded */
+    struct few_plane *const p = &k->depth;
+    const int32_t right = add_wrap(part_q15(q.to1, w->right1), part_q15(q.to2, w->right2));
+    const int32_t down = add_wrap(part_q15(q.to1, w->down1), part_q15(q.to2, w->down2));
+    const int32_t units = add_wrap(q0, add_wrap(part_q8(right, cx), part_q8(down, cy)));
+    const enum depth_slope slope = far ? SLOPE_FAR : SLOPE_NEAR;
+    *p = (struct few_plane){ (int32_t)code_from_units(units, slope), step_from_units(right, slope), step_from_units(down, slope) };
+    return far || near;
+}
+
+static inline struct beyond few_beyond(int32_t a, int32_t b, int32_t c) { return (struct beyond){ b - a, c - a }; }
+
+/* What perspective makes of coordinates: planes; or, with 1/w = (1 + e) / w0, something over 1 + e that may be multiplied by 1 - e + e^2
+ * instead, which is off by c^3 t, 1/16 texel at most; or more. */
+enum few_bend { FEW_STRAIGHT, FEW_BENT, FEW_CURLED };
+
+static inline enum few_bend few_bend_of(const struct few_look *l, int32_t q0, struct beyond q, struct beyond u, struct beyond v)
+{
+    const uint32_t change = (beyond_range(q) >> 12) + 1u, whole = (uint32_t)q0 >> 12;       /* c = change / whole */
+    const uint32_t travel = max_u32(beyond_range(u) * l->width, beyond_range(v) * l->height);   /* mesh units */
+    const uint32_t texels = min_u32((travel >> l->draw->sampler.uv_shift) + 1u, 1023u);
+    if (change > whole >> 3)
+        return FEW_CURLED;
+    if (change * (8u * texels) <= whole)        /* c t / 4 */
+        return FEW_STRAIGHT;
+    return (change * texels >> 10) * (change >> 4) <= (whole >> 7) * (whole >> 8) ? FEW_BENT : FEW_CURLED;      /* c^2 t at most 1/2 */
+}
+
+static inline bool few_coordinates_make(struct few *k, const struct few_weights *w, const int32_t *const r[3], struct beyond q)
+{
+    const struct few_look *const l = k->look;
+    const int at = l->segment->uv;
+    const int32_t a = r[0][at], b = r[1][at], c = r[2][at], q0 = r[0][VERTEX_DEPTH];
+    struct beyond u = few_beyond((int16_t)(a & 0xffff), (int16_t)(b & 0xffff), (int16_t)(c & 0xffff));
+    struct beyond v = few_beyond(a >> 16, b >> 16, c >> 16);
+    const enum few_bend bend = segment_flat_depth(l->segment) ? FEW_STRAIGHT : few_bend_of(l, q0, q, u, v);
+    k->bent = bend == FEW_BENT;
+    if (bend == FEW_CURLED)
+        return false;
+    if (k->bent) {
+        const int up = count_leading_zeros((uint32_t)q0) - 1;
+        const int32_t recip = (int32_t)recip_norm((uint32_t)q0 << 1 << up);     /* 1/q0 = recip 2^(up - 60) */
+        const struct beyond e = { mulh_i32(shl_wrap(q.to1, up), recip) >> 13, mulh_i32(shl_wrap(q.to2, up), recip) >> 13 };
+        few_plane_make(&k->bend, w, 0, e);
+        u = (struct beyond){ u.to1 + (u.to1 * e.to1 >> 15), u.to2 + (u.to2 * e.to2 >> 15) };
+        v = (struct beyond){ v.to1 + (v.to1 * e.to1 >> 15), v.to2 + (v.to2 * e.to2 >> 15) };
+        few_plane_make(&k->u, w, 0, u);
+        few_plane_make(&k->v, w, 0, v);
+        k->u0 = shl_wrap((int16_t)(a & 0xffff), 15);
+        k->v0 = shl_wrap(a >> 16, 15);
+        return true;
+    }
+    few_plane_make(&k->u, w, (int16_t)(a & 0xffff), u);
+    few_plane_make(&k->v, w, a >> 16, v);
+    if (l->turns) {
+        k->u = (struct few_plane){ shl_wrap(k->u.at, l->up), shl_wrap(k->u.right, l->up), shl_wrap(k->u.down, l->up) };
+        k->v = (struct few_plane){ shl_wrap(k->v.at, l->up), shl_wrap(k->v.right, l->up), shl_wrap(k->v.down, l->up) };
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ light */
+
+static inline bool is_white(const int32_t *color)
+{
+    const uint32_t word = (uint32_t)color[0];
+    return (word & 0xffffu) == word >> 16 && (word & 0xffffu) == ((uint32_t)color[1] & 0xffffu);
+}
+
+static void few_flat_light(struct few *k, uint32_t color, bool linear)
+{
+    for (int c = 0; c < 4; c++) {
+        const uint32_t code = c < 3 ? color >> (16 - 8 * c) & 255u : pixel_alpha(color);
+        k->light[c] = (struct few_plane){ (int32_t)(linear && c < 3 ? smear_srgb_decode[code] : code << 8) * 32768, 0, 0 };
+    }
+    k->light_kind = pixel_red(color) == pixel_green(color) && pixel_red(color) == pixel_blue(color) ? LIGHT_WHITE : LIGHT_COLORED;
+}
+
+/* Channel c of a vertex, 16 bits, with a margin from 0 and 65536 that errors of slopes do not cross; codes are rounded. */
+static inline int32_t few_light_value(const int32_t *color, int c, bool linear)
+{
+    const int32_t value = (int32_t)((uint32_t)color[c >> 1] >> (c << 4 & 16) & 0xffffu);
+    return linear && c < 3 ? value - (value >> 9) + 64 : min_i32(value, 0xff00) + 0x80;
+}
+
+/* False where light needs perspective. */
+static bool few_light_make(struct few *k, const struct few_weights *w, const int32_t *const r[3], struct beyond q)
+{
+    const struct few_look *const l = k->look;
+    const bool linear = frame_is_linear(l->frame);
+    const int32_t *const c0 = r[0] + l->segment->color, *const c1 = r[1] + l->segment->color, *const c2 = r[2] + l->segment->color;
+    const uint32_t change = beyond_range(q) >> 12;
+    k->light_kind = is_white(c0) && is_white(c1) && is_white(c2) ? LIGHT_WHITE : LIGHT_COLORED;
+    for (int c = few_light_first(k, FEW_ANY); c < few_light_end(k, FEW_ANY); c++) {
+        const int32_t value = few_light_value(c0, c, linear);
+        const struct beyond b = few_beyond(value, few_light_value(c1, c, linear), few_light_value(c2, c, linear));
+        if (!segment_flat_depth(l->segment) && (beyond_range(b) >> 9) * change > (uint32_t)r[0][VERTEX_DEPTH] >> 12)
+            return false;
+        few_plane_make(&k->light[c], w, value, b);
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+struct few_pixel {
+    uint32_t u, v;
+    uint32_t light[4];      /* 16 bits q15 */
+};
+
+/* A pixel that is nearer than what was there, in any look. False where it is cut out. */
+static SMEAR_NOINLINE bool few_put(const struct few *k, int32_t at, uint32_t index, const struct few_pixel *p)
+{
+    const struct few_look *const l = k->look;
+    const struct smear_sampler *const m = &l->draw->sampler;
+    uint32_t t;
+    if (!SMEAR_SMALL_CODE && l->turns)
+        t = texel_fetch(m->texels, m->palette, index, m->format);
+    else
+        t = smear_sample_at(m, smear_sampler_texel(m, 0, (int32_t)p->u >> 1), smear_sampler_texel(m, 1, (int32_t)p->v >> 1));
+    if (draw_is_cutout(l->draw)) {
+        const uint32_t alpha = k->light_kind == LIGHT_NONE ? pixel_alpha(t) : code_times(pixel_alpha(t), p->light[3] >> 23);
+        if (alpha < l->draw->cutoff)
+            return false;
+    }
+    uint32_t pixel = t;
+    if (k->light_kind != LIGHT_NONE)
+        pixel = shaded_pixel(t, p->light[0] >> 7, p->light[1] >> 7, p->light[2] >> 7, k->light_kind == LIGHT_WHITE,
+                             frame_is_linear(l->frame));
+    if (k->setup != NULL) {
+        if (SMEAR_WITH_FOG && fog_of(k->setup) != FOG_NONE)
+            pixel = fog_pixel(l->frame, pixel, fog_even_part(k->setup));
+        if (setup_writes_velocity(k->setup))
+            smear_velocity_still(k->target, at, k->setup->velocity_unknown);
+    }
+    target_put(k->target, at, pixel);
+    return true;
+}
+
+static inline void *few_after(void *pixel, int32_t n, enum few_kind kind, bool narrow)
+{
+    return kind == FEW_ANY ? NULL : pixel_after(pixel, n, kind == FEW_NARROW || (kind == FEW_WHITE && narrow));
+}
+
+static inline void few_white(void *to, uint32_t pixel, bool narrow)
+{
+    if (narrow)
+        *(uint16_t *)to = (uint16_t)rgb565_nearest(pixel);
+    else
+        *(uint32_t *)to = pixel & 0xffffffu;
+}
+
+static inline void few_plane_down(struct few_plane *p) { p->at = add_wrap(p->at, p->down); }
+
+/* Draws n > 0 pixels of a row from its column `skip` on, whose edge functions are `edges`. */
+SMEAR_INLINE void few_row(const struct few *k, uint16_t *depth, void *pixel, int32_t skip, uint64_t edges, enum few_kind kind, bool bent)
+{
+    const struct few_look *const l = k->look;
+    const bool linear = frame_is_linear(l->frame), narrow = target_is_direct(k->target);
+    const uint64_t right = k->edges.right;
+    const uint16_t *const end = depth + (k->columns - skip);
+    const int32_t dz = k->depth.right, du = k->u.right, dv = k->v.right;
+    uint32_t z = (uint32_t)add_wrap(k->depth.at, mul_wrap(dz, skip));
+    int32_t u = add_wrap(k->u.at, mul_wrap(du, skip)), v = add_wrap(k->v.at, mul_wrap(dv, skip));
+    int32_t e = bent ? add_wrap(k->bend.at, mul_wrap(k->bend.right, skip)) : 0;
+    struct few_pixel p = { 0, 0, { 0, 0, 0, 0 } };
+    const int first = few_light_first(k, kind), end_light = few_light_end(k, kind);
+    for (int c = first; c < end_light; c++)
+        p.light[c] = (uint32_t)add_wrap(k->light[c].at, mul_wrap(k->light[c].right, skip));
+    do {
+        if (z >> 16 > *depth) {
+            p.u = (uint32_t)u;
+            p.v = (uint32_t)v;
+            if (bent) {
+                const int32_t q = e >> 15, less = q - (q * q >> 15);
+                p.u = (uint32_t)add_wrap(k->u0, sub_wrap(u, mul_wrap(u >> 15, less))) << l->up;
+                p.v = (uint32_t)add_wrap(k->v0, sub_wrap(v, mul_wrap(v >> 15, less))) << l->up;
+            }
+            const uint32_t index = (p.v >> l->from_v & l->mask_v) | p.u >> l->from_u;       /* without turns, of no use */
+            if (kind == FEW_NARROW)
+                *(uint16_t *)pixel = ((const uint16_t *)l->texels)[index];
+            else if (kind == FEW_WIDE)
+                *(uint32_t *)pixel = ((const uint32_t *)l->texels)[index] & 0xffffffu;
+            else if (kind == FEW_WHITE)
+                few_white(pixel, shaded_pixel(texel_fetch(l->texels, l->draw->sampler.palette, index, l->draw->sampler.format), 0, 0,
+                                              p.light[2] >> 7, true, linear), narrow);
+            if (kind != FEW_ANY || few_put(k, (int32_t)(depth - k->target->depth), index, &p))
+                *depth = (uint16_t)(z >> 16);
+        }
+        edges += right;
+        z += (uint32_t)dz;
+        u = add_wrap(u, du);
+        v = add_wrap(v, dv);
+        if (bent)
+            e = add_wrap(e, k->bend.right);
+        for (int c = first; c < end_light; c++)
+            p.light[c] += (uint32_t)k->light[c].right;
+        pixel = few_after(pixel, 1, kind, narrow);
+    } while (++depth != end && (edges & FEW_OUTSIDE) == 0);
+}
+
+/* Draws n rows whose first pixel is at `depth` and `pixel`. What rows need stays in memory: compilers that keep it at hand take longer for
+ * that than rows of one or two pixels do. */
+SMEAR_INLINE void few_rows(struct few *k, uint16_t *depth, void *pixel, int32_t n, enum few_kind kind, bool bent)
+{
+    const bool narrow = target_is_direct(k->target);
+    do {
+        struct few *row = k;
+        SMEAR_KEEP_VALUE(row);
+        uint64_t edges = row->edges.at;
+        int32_t skip = 0;
+        while ((edges & FEW_OUTSIDE) != 0 && ++skip != row->columns)
+            edges += row->edges.right;
+        if (skip != row->columns)
+            few_row(row, depth + skip, few_after(pixel, skip, kind, narrow), skip, edges, kind, bent);
+        row->edges.at += row->edges.down;
+        few_plane_down(&row->depth);
+        few_plane_down(&row->u);
+        few_plane_down(&row->v);
+        if (bent)
+            few_plane_down(&row->bend);
+        for (int c = few_light_first(k, kind); c < few_light_end(k, kind); c++)
+            few_plane_down(&row->light[c]);
+        const int32_t stride = row->target->window_rows.stride;
+        depth += stride;
+        pixel = few_after(pixel, stride, kind, narrow);
+    } while (--n != 0);
+}
+
+static SMEAR_NOINLINE void few_narrow(struct few *k, int32_t at, int32_t n)
+{
+    few_rows(k, k->target->depth + at, k->target->direct + at, n, FEW_NARROW, false);
+}
+
+static SMEAR_NOINLINE void few_narrow_bent(struct few *k, int32_t at, int32_t n)
+{
+    few_rows(k, k->target->depth + at, k->target->direct + at, n, FEW_NARROW, true);
+}
+
+static SMEAR_NOINLINE void few_wide(struct few *k, int32_t at, int32_t n)
+{
+    few_rows(k, k->target->depth + at, k->target->color + at, n, FEW_WIDE, false);
+}
+
+static SMEAR_NOINLINE void few_wide_bent(struct few *k, int32_t at, int32_t n)
+{
+    few_rows(k, k->target->depth + at, k->target->color + at, n, FEW_WIDE, true);
+}
+
+static SMEAR_NOINLINE void few_lit(struct few *k, int32_t at, int32_t n)
+{
+    const struct smear_raster_target *const t = k->target;
+    few_rows(k, t->depth + at, target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, n, FEW_WHITE, k->bent);
+}
+
+static SMEAR_NOINLINE void few_any(struct few *k, int32_t at, int32_t n)
+{
+    few_rows(k, k->target->depth + at, NULL, n, FEW_ANY, k->bent);
+}
+
+static inline void few_rows_any(struct few *k, int32_t at, int32_t n)
+{
+    const enum few_kind kind = k->look->kind;
+    if (FEW_COPIES && kind == FEW_NARROW && !k->bent)
+        few_narrow(k, at, n);
+    else if (FEW_COPIES && kind == FEW_NARROW)
+        few_narrow_bent(k, at, n);
+    else if (FEW_COPIES && kind == FEW_WIDE && !k->bent)
+        few_wide(k, at, n);
+    else if (FEW_COPIES && kind == FEW_WIDE)
+        few_wide_bent(k, at, n);
+    else if (FEW_COPIES && kind == FEW_WHITE && k->light_kind == LIGHT_WHITE)
+        few_lit(k, at, n);
+    else
+        few_any(k, at, n);
+}
+
+/* Rows of the box, by stretches of the ring. */
+static inline void few_stretches(struct few *k, int32_t left, int32_t top, int32_t bottom)
+{
+    const struct smear_plane_rows *const w = &k->target->window_rows;
+    int32_t ring_row = w->ring_row + (top - k->target->y0);
+    for (int32_t rows = bottom - top; rows > 0;) {
+        ring_row -= ring_row >= w->ring ? w->ring : 0;
+        const int32_t n = min_i32(rows, w->ring - ring_row);
+        few_rows_any(k, ring_row * w->stride - w->x0 + left, n);
+        ring_row += n;
+        rows -= n;
+    }
+}
+
+/* ------------------------------------------------------------------ triangles */
+
+bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, const struct smear_raster_target *t,
+                    const struct smear_segment *segment, const struct smear_raster_draw *draw)
+{
+    const struct smear_sampler *const m = &draw->sampler;
+    if (!segment_textured(segment) || segment_moves(segment) != 0 || draw_is_blended(draw))
+        return false;
+    l->frame = frame;
+    l->segment = segment;
+    l->draw = draw;
+    l->texels = m->texels;
+    l->from_u = l->from_v = l->up = 0;
+    l->mask_v = 0;
+    l->width = (uint32_t)m->width;
+    l->height = (uint32_t)m->height;
+    l->turns = !SMEAR_SMALL_CODE && m->turns && m->log2_width != 0 && m->log2_height != 0;
+    l->kind = FEW_ANY;
+    if (!l->turns)
+        return true;
+    l->up = (uint8_t)(17 - m->uv_shift);
+    l->from_u = (uint8_t)(32 - m->log2_width);
+    l->from_v = (uint8_t)(l->from_u - m->log2_height);
+    l->mask_v = ((1u << m->log2_height) - 1u) << m->log2_width;
+    if (!draw_is_opaque(draw) || target_has_velocity(t) || frame_has_fog(frame))
+        return true;
+    if (segment->shade != SHADE_NONE)
+        l->kind = FEW_WHITE;
+    else if (m->format == (target_is_direct(t) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
+        l->kind = target_is_direct(t) ? FEW_NARROW : FEW_WIDE;
+    return true;
+}
+
+bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
+                    const struct setup *setup)
+{
+    const int32_t x = v[0][VERTEX_X], x1 = v[1][VERTEX_X] - x, x2 = v[2][VERTEX_X] - x;
+    const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
+    int32_t left = (x + min_i32(min_i32(x1, x2), 0) + 127) >> 8, right = (x + max_i32(max_i32(x1, x2), 0) + 127) >> 8;
+    int32_t top = (y + min_i32(min_i32(y1, y2), 0) + 127) >> 8, bottom = (y + max_i32(max_i32(y1, y2), 0) + 127) >> 8;
+    if (right - left > FEW_PX || bottom - top > FEW_PX)
+        return false;
+    left = max_i32(left, t->x0);
+    right = min_i32(right, t->x1);
+    top = max_i32(top, t->y0);
+    bottom = min_i32(bottom, t->y1);
+    if (left >= right || top >= bottom)
+        return true;
+    const int32_t cx = left * 256 + 128 - x, cy = top * 256 + 128 - y, area = x1 * y2 - x2 * y1, q0 = v[0][VERTEX_DEPTH];
+    const struct beyond q = few_beyond(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]);
+    struct few_weights w;
+    struct few k;
+    k.look = l;
+    k.target = t;
+    k.setup = setup;
+    k.light_kind = LIGHT_NONE;
+    if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy) || !few_depth_make(&k, &w, q0, q, cx, cy)
+        || !few_coordinates_make(&k, &w, v, q))
+        return false;
+    if (segment_gouraud(l->segment)) {
+        if (!few_light_make(&k, &w, v, q))
+            return false;
+    } else if (l->segment->shade != SHADE_NONE) {
+        few_flat_light(&k, color, frame_is_linear(l->frame));
+    }
+    const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
+    const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
+    const int32_t e0 = area + bias1 + bias2 + tiny_bias(x2 - x1, y2 - y1) - e1 - e2;
+    k.edges = (struct few_edges){ few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8), few_edges_word(y1 - y2, y2, -y1),
+                                  few_edges_word(x2 - x1, -x2, x1) };
+    k.columns = right - left;
+    few_stretches(&k, left, top, bottom);
+    return true;
+}
