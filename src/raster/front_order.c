@@ -16,7 +16,8 @@ enum {
     LEVELS = 12 * OCTAVE,
     STRIPS = 16,
     ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
-    ORDER_PIXELS = 8               /* of the target for each: smaller ones hide little */
+    ORDER_PIXELS = 8,               /* of the target for each: smaller ones hide little; */
+    SMALL_PIXELS = 32               /* small ones may */
 };
 
 /* Levels that were taken: of each strip, from which level of a near end on how far back triangles were put. */
@@ -93,13 +94,27 @@ static int strip_shift(const struct smear_raster_target *target)
     return shift + 8;
 }
 
-/* Whether a list has no more triangles than `most`. */
-static bool list_is_short(const struct smear_bins *bins, uint32_t head, uint32_t most)
+/* Returns a list's triangles, or one more than `most`. */
+static uint32_t list_count(const struct smear_bins *bins, uint32_t head, uint32_t most)
 {
-    for (uint32_t n = 0; head != SMEAR_NO_TRIANGLE; head = bins_triangle(bins, head)->next)
-        if (n++ == most)
-            return false;
-    return true;
+    uint32_t n = 0;
+    for (; head != SMEAR_NO_TRIANGLE && n <= most; head = bins_triangle(bins, head)->next)
+        n++;
+    return n;
+}
+
+/* Whether a list's order is worth finding: of small triangles not where little was hidden in one of the last lists. */
+static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * (target->y1 - target->y0));
+    const uint32_t most = min_u32(min_u32(bins_listed(frame->bins), ORDER_MOST), pixels / ORDER_PIXELS);
+    const uint32_t count = list_count(frame->bins, head, most);
+    struct front_memory *const memory = (struct front_memory *)target->cache.entry - 1;
+    if (count > pixels / SMALL_PIXELS && memory->rest != 0) {
+        memory->rest--;
+        return false;
+    }
+    return count <= most;
 }
 
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
@@ -108,13 +123,9 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
                             const struct smear_raster_target *target, uint32_t head)
 {
     const struct smear_bins *const bins = frame->bins;
-    const uint32_t most = min_u32(min_u32(bins_listed(bins), ORDER_MOST),
-                                  (uint32_t)((target->x1 - target->x0) * (target->y1 - target->y0)) / ORDER_PIXELS);
     const int shift = strip_shift(target);
     struct front_taken taken;
     uint32_t n = 0;
-    if (!list_is_short(bins, head, most))
-        return 0;
     __builtin_memset(&taken, 255, sizeof taken);
     while (head != SMEAR_NO_TRIANGLE) {
         const struct smear_triangle *t = bins_triangle(bins, head);
@@ -139,6 +150,8 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
     uint16_t *const order = front_order_of(&target->cache), place[LEVELS] = { 0 };
     if (order == NULL || head == SMEAR_NO_TRIANGLE || target_has_velocity(target) || frame_has_fog(frame)
         || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
+        return 0;
+    if (!is_worth_it(frame, target, head))
         return 0;
     uint8_t *const level = (uint8_t *)(order + min_u32(bins_listed(frame->bins), ORDER_MOST));
     const uint32_t n = find_levels(place, level, frame, target, head);

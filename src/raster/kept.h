@@ -67,9 +67,12 @@ static inline void leave_kept(struct kept *k, bool goes_on)
         k->triangle = SMEAR_NO_TRIANGLE;
 }
 
+enum { FRONT_REST = 7 };
+
 /* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
 struct front_memory {
     uint32_t bytes;         /* of both */
+    uint32_t rest;          /* lists of small triangles that are not ordered, as little was hidden in the last one */
 };
 
 /* Returns the bytes, a multiple of four, that the order of a frame's list takes; 0 where lists stay as they are. */
@@ -79,12 +82,18 @@ size_t smear_front_order_bytes(const struct smear_bins *bins);
 static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
 {
     const struct front_memory *const m = cache->entry != NULL ? (const struct front_memory *)cache->entry - 1 : NULL;
-    return m != NULL && m->bytes > sizeof(uintptr_t) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
+    return m != NULL && m->bytes > sizeof(struct front_memory) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
 }
 
 /* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any
  * pixel. Returns how many there are; 0 where the list is to be drawn as it is. */
 uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head);
+
+/* Notes how many of an ordered list's triangles were hidden. */
+static inline void front_learn(const struct smear_raster_cache *cache, uint32_t hidden, uint32_t count)
+{
+    ((struct front_memory *)cache->entry - 1)->rest = 16 * hidden < count ? FRONT_REST : 0;
+}
 
 /* Whether something nearer hides all pixels of a triangle. */
 bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t);

@@ -289,8 +289,11 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
     for (;; i++) {
         uint32_t number = head;
         if (given != NULL) {
-            if (i == given->count)
+            if (i == given->count) {
+                if (SMEAR_FRONT_ORDER && given->narrow != NULL)
+                    front_learn(&target->cache, hidden, i);
                 return;
+            }
             number = given->narrow != NULL ? given->narrow[i] : given->wide[i];
         } else if (number == SMEAR_NO_TRIANGLE) {
             return;
