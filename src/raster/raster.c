@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* raster.c - triangles of lists, in order, each in one of four forms: a point, which assembly has finished; a box of few pixels
- * (tiny_draw.h); rows of one colour (cover.h); all others, which are made ready (setup.c), covered (cover.c), and kept where they
- * go on in the next rows. */
+/* raster.c - triangles of lists, in order, each in one of five forms: a point, which assembly has finished; a box of few pixels without
+ * a texture (tiny_draw.h), or with one (few_draw.h); rows of one colour (cover.h); all others, which are made ready (setup.c), covered
+ * (cover.c), and kept where they go on in the next rows. */
 #include "raster/raster.h"
 
 #include "base/pixel.h"
