@@ -381,7 +381,11 @@ static SMEAR_NOINLINE void few_wide_bent(struct few *k, int32_t at, int32_t n)
 static SMEAR_NOINLINE void few_lit(struct few *k, int32_t at, int32_t n)
 {
     const struct smear_raster_target *const t = k->target;
-    few_rows(k, t->depth + at, target_is_direct(t) ? (void *)(t->direct + at) : t->color + at, n, FEW_WHITE, k->bent);
+    void *const pixel = target_is_direct(t) ? (void *)(t->direct + at) : t->color + at;
+    if (k->bent)
+        few_rows(k, t->depth + at, pixel, n, FEW_WHITE, true);
+    else
+        few_rows(k, t->depth + at, pixel, n, FEW_WHITE, false);
 }
 
 static SMEAR_NOINLINE void few_any(struct few *k, int32_t at, int32_t n)
