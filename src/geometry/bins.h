@@ -127,6 +127,7 @@ struct smear_bins {
     uint32_t pool_words;
     uint32_t kept_words;            /* at the bottom, which are not emptied: ranges.h */
     uint8_t range_shift;            /* log2 of the triangles of a range */
+    uint8_t more_lists;
     uint32_t vertex_words;          /* in use, from the bottom */
     uint32_t triangle_count;        /* in use, from the top: below them the store is free */
     /* Where cores filled parts of the pool: the triangles of all, and the end of their numbers. Else 0, and both are
@@ -137,8 +138,7 @@ struct smear_bins {
     const struct smear_shot *shot;  /* before whose camera paths in space are cut */
     /* The last triangle of each tile row's rings, or none. Moving triangles are opaque or cut out and have a path. */
     uint32_t *opaque_last, *blend_last, *moving_last;
-    uint32_t *more_last;            /* of opaque ones in so many lists more, row_count each (temporal/lines.h); or null */
-    uint8_t more_lists;
+    uint32_t *more_last;            /* of opaque ones in more_lists more, row_count each (temporal/lines.h); or null */
     uint16_t moving_rows;           /* rows of moving_last beyond row_count: 0, or 2 with blurred layers (layer.h) */
     uint16_t margin;                /* with smooth edges 1: so many pixels beyond the centres that it covers, a triangle may be
                                      * seen, and is in lists. Else 0 */
