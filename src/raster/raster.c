@@ -152,7 +152,7 @@ static bool draw_textured(const struct smear_raster_pass *p, const struct setup 
 /* Draws a triangle of few pixels. False where it needs gradients. */
 static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, int32_t pixels, const struct pixel_box *box)
 {
-    if (p->textured)
+    if (SMEAR_WITH_TEXTURE && p->textured)
         return !p->few && pixels != INT32_MAX && !fog_varies(s) && draw_textured(p, s);
     if (pixels > TINY_PIXELS || !p->boxed)
         return false;
@@ -258,7 +258,7 @@ static inline void draw_triangle(struct smear_raster_pass *p, const struct smear
         if (p->tiny || (p->flat && smear_flat_triangle(p->target, v, color, given, p->whole, p->keeps ? number : SMEAR_NO_TRIANGLE)))
             return;
     }
-    if (p->few && smear_few_draw(&p->texels, p->target, v, color, NULL))
+    if (SMEAR_WITH_TEXTURE && p->few && smear_few_draw(&p->texels, p->target, v, color, NULL))
         return;
     draw_any(p, color, number, v, given);
 }
