@@ -7,8 +7,9 @@
 #include "geometry/shot.h"
 #include "geometry/vertex.h"
 
-/* An orthographic camera's x and y from the frame's centre, before they are divided by W, have four bits more than q8. */
-enum { EVEN_SHIFT = 4, EVEN_W = 256 << EVEN_SHIFT };
+/* Coordinates of places lie within 2^29, so that sums of four fit: along(). An orthographic camera's x and y from the frame's centre,
+ * before they are divided by W, have four bits more than q8; its distances two less than depths. */
+enum { PLACE_MOST = 1 << 29, EVEN_SHIFT = 4, EVEN_W = 256 << EVEN_SHIFT, EVEN_DEPTH_SHIFT = 2 };
 
 void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
                       int32_t height)
@@ -19,7 +20,7 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
     space->viewport = (struct smear_viewport){ width, height };
     if (segment_flat_depth(s)) {
         /* Distances are what depths lack of the largest. */
-        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX, 1 << 30, 2, true, 0 };
+        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX >> EVEN_DEPTH_SHIFT, 1 << 30, 2 + EVEN_DEPTH_SHIFT, true, 0 };
         return;
     }
     smear_depths_make(&space->depths, &g->shot->camera[0], s->scale);
@@ -35,16 +36,17 @@ void smear_space_scale(struct smear_homogeneous *h, int up)
 
 void smear_space_take_even(struct smear_homogeneous *h, const struct smear_projection *p, const struct smear_viewport *viewport)
 {
-    enum { DEEPEST = -(1 << 29) };
+    enum { ASIDE = PLACE_MOST >> EVEN_SHIFT, DEEPEST = -(1 << 29) };
     struct smear_screen screen;
     smear_project(&screen, &p->depths, h, viewport);
-    *h = (struct smear_homogeneous){ (screen.x - (viewport->width << 7)) * (1 << EVEN_SHIFT),
-                                     (screen.y - (viewport->height << 7)) * (1 << EVEN_SHIFT), EVEN_W,
-                                     SMEAR_DEPTH_MAX - max_i32(depth_even(&p->depths, h->distance), DEEPEST) };
+    *h = (struct smear_homogeneous){ clamp_i32(screen.x - (viewport->width << 7), -ASIDE, ASIDE) * (1 << EVEN_SHIFT),
+                                     clamp_i32(screen.y - (viewport->height << 7), -ASIDE, ASIDE) * (1 << EVEN_SHIFT), EVEN_W,
+                                     (SMEAR_DEPTH_MAX - max_i32(depth_even(&p->depths, h->distance), DEEPEST)) >> EVEN_DEPTH_SHIFT };
 }
 
 static void store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *h)
 {
+    SMEAR_ASSERT(abs_i32(h->x) <= PLACE_MOST && abs_i32(h->y) <= PLACE_MOST && abs_i32(h->distance) <= PLACE_MOST);
     record[VERTEX_X] = (uint32_t)h->x;
     record[VERTEX_Y] = (uint32_t)h->y;
     record[VERTEX_DEPTH] = (uint32_t)(segment_flat_depth(s) ? h->distance : h->w);
@@ -78,7 +80,7 @@ static SMEAR_RARE void find_phase(struct smear_space *space, int32_t phase)
     space->bent = ratio_q30(clamp_i32(one - cosine, 0, one - whole_cosine), one - whole_cosine) >> 15;       /* it is rounded */
 }
 
-/* Returns a coordinate on the path from open over middle to close, all within 2^29, rounded once to nearest: a floor would move all
+/* Returns a coordinate on the path from open over middle to close, rounded once to nearest: a floor would move all
  * edges, and at its ends it is what they are. */
 static inline int32_t along(int32_t open, int32_t middle, int32_t close, const struct smear_space *space)
 {

@@ -78,7 +78,7 @@ bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *s
     find_nearness(m, space, whole);
     for (int i = 0; i < 3; i++) {
         make_even(&m->side[i], side[i], x, y, step, space->depths.coarse);
-        m->depth[i] = max_i32(SMEAR_DEPTH_MAX - place[i].distance, 0) >> 14;
+        m->depth[i] = m->is_even ? max_i32(depth_even(&space->depths, place[i].distance), 0) >> 14 : 0;
     }
     for (int k = 0; k < 2; k++) {
         int64_t factor[3][3];
