@@ -103,6 +103,12 @@ static int path_flags(const struct smear_assembly *d)
          | (SMEAR_WITH_ALPHA && d->material->alpha != SMEAR_OPAQUE ? PATH_SUBFRAMES : 0);
 }
 
+/* Returns the curvature of a parabola, which leaves the box of its three places by at most an eighth of that. */
+static int32_t curvature_of(const struct smear_screen p[KEYS])
+{
+    return max_i32(abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x), abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
+}
+
 /* Finds a triangle's bounds. Returns false when it can't cover a pixel of the part of the frame that is being
  * filled. */
 static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
@@ -124,10 +130,8 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         overshoot = max_i32(overshoot, dip >> 2);
         int32_t dx = abs_i32(p[CLOSE].x - p[OPEN].x), dy = abs_i32(p[CLOSE].y - p[OPEN].y);
         travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
-        curvature = max_i32(curvature, abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x));
-        curvature = max_i32(curvature, abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
+        curvature = max_i32(curvature, curvature_of(p));
     }
-    /* A parabola leaves the box of its three places by at most an eighth of the curvature. */
     int32_t margin = (curvature >> 3) + bins_margin(a->bins) * 256;
     struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
                        (y1 + margin + 128 + 127) >> 8 };
@@ -245,12 +249,6 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     return word;
 }
 
-/* Whether no vertex moves, not even by a step (q8 px); before lines, which would blur it, what stays where it is moves, too. */
-static bool is_static(const struct path_batch *b, const struct smear_path_bounds *bounds)
-{
-    return !b->a->lines && bounds->travel + bounds->curvature == 0;
-}
-
 /* Whether the next part of the triangle has been added already. */
 static bool is_added(struct path_batch *b)
 {
@@ -297,7 +295,8 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     uint32_t color = smear_face_color(b->d, b->segment, face);
     if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.linear))
         bounds->flags |= PATH_FLAT;
-    const bool stands = is_static(b, bounds);
+    /* No vertex moves, not even by a step (q8 px); before lines, which would blur it, what stays where it is moves, too. */
+    const bool stands = !b->a->lines && bounds->travel + bounds->curvature == 0;
     uint32_t *list = is_blend(b->d) ? g->blend_last : stands ? g->opaque_last : g->moving_last;
     add_listed(b, list, bounds, vertex, color);
     b->parts++;
@@ -413,7 +412,7 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
     const struct smear_homogeneous *const place[3] = { places_of(batch, v0), places_of(batch, v1), places_of(batch, v2) };
     struct smear_homogeneous point[HULL_POINTS];
     struct smear_space space;
-    int32_t travel = 1;
+    int32_t travel = 1, curvature = 0;
     make_space(&space, batch);
     const int32_t bulge = SMEAR_WITH_CURVES ? smear_space_bulge(&space) : 1 << 14;
     for (int i = 0; i < 3; i++) {
@@ -426,6 +425,8 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
         meet->distance = meeting(open->distance, meet->distance, close->distance, bulge);
         if (!depths_are_even(&space.depths))
             meet->w = meet->distance;
+        if ((batch->vertex[i]->outcodes & IN_SPACE) == 0)
+            curvature = max_i32(curvature, curvature_of(batch->vertex[i]->screen));
     }
     struct extent e;
     if (!(may_face(place, OPEN) || may_face(place, MIDDLE) || may_face(place, CLOSE)) || is_beside(&space, point)
@@ -439,8 +440,8 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
     }
     if (e.passes)
         travel = max_i32(a->viewport.width, a->viewport.height) << 8;
-    /* Vertices that have no path in space may be a pixel beside it. */
-    const int32_t margin = 1 + bins_margin(a->bins);
+    /* Vertices without a path in space go along that on the screen from place to place. */
+    const int32_t margin = 1 + (curvature >> (8 + 3)) + bins_margin(a->bins);
     struct box box = { (e.x0 >> 8) - margin, (e.y0 >> 8) - margin, (e.x1 >> 8) + 1 + margin, (e.y1 >> 8) + 1 + margin };
     box_cut(&box, a);
     if (box_is_empty(&box) || (!is_blend(batch->d) && (box.x0 >= a->path_x1 || box.x1 <= a->path_x0)))

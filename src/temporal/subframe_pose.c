@@ -135,8 +135,8 @@ bool smear_subframe_pose_next(struct posed *p, const struct subframes *f)
 }
 
 /* Poses a triangle in space, of which some may be left. */
-static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes *f, const struct smear_triangle *t, unsigned in_space,
-                                         int32_t u)
+static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes *f, const struct smear_triangle *t,
+                                         const struct smear_path_bounds *b, int32_t u)
 {
     const struct smear_raster_frame *frame = f->t->frame;
     const int32_t *const record[3] = { bins_vertex(frame->bins, p->segment, t->vertex[0]),
@@ -144,9 +144,10 @@ static SMEAR_NOINLINE bool pose_in_space(struct posed *p, const struct subframes
                                        bins_vertex(frame->bins, p->segment, t->vertex[2]) };
     if (f->space->segment != p->segment)
         smear_space_make(f->space, frame->bins, p->segment, frame->width, frame->height);
-    p->count = smear_space_pose(p->record, f->space, record, in_space, u, f->shift);
+    p->count = smear_space_pose(p->record, f->space, record, b->space, u, f->shift);
     p->next = 2;
     const bool seen = smear_subframe_pose_next(p, f);
+    SMEAR_ASSERT(!seen || (p->box.x0 >= b->x0 && p->box.x1 <= b->x1 && p->box.y0 >= b->y0 && p->box.y1 <= b->y1));
     if (seen)
         f->space->seen |= 1u << (p->segment->draw & 31u);
     return seen;
@@ -164,7 +165,7 @@ bool smear_subframe_pose(struct posed *p, const struct subframes *f, uint32_t tr
     if (s->path) {
         const struct smear_path_bounds *b = bins_bounds(g, triangle);
         if (b->space != 0)
-            return pose_in_space(p, f, t, b->space, path_phase(time));
+            return pose_in_space(p, f, t, b, path_phase(time));
         /* In the middle, vertices are where their records say. */
         moves = time != SHUTTER_CLOSE / 2 || (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0);
         if (moves)
