@@ -132,7 +132,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
         travel = max_i32(travel, max_i32(dx, dy) + (min_i32(dx, dy) >> 1));
         curvature = max_i32(curvature, curvature_of(p));
     }
-    int32_t margin = (curvature >> 3) + bins_margin(a->bins) * 256;
+    int32_t margin = ((curvature + 4) >> 3) + bins_margin(a->bins) * 256;
     struct box box = { (x0 - margin + 127) >> 8, (y0 - margin + 127) >> 8, (x1 + margin + 128 + 127) >> 8,
                        (y1 + margin + 128 + 127) >> 8 };
     /* Of the whole frame, so that it is the same in every part. */
