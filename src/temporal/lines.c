@@ -35,6 +35,9 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
  * suite, of which 80 % lie within 0.8 and 1.25 of the error that it tells. */
 static const uint16_t left_of_contrast[LINE_PICTURES] = { 3060, 1290, 741, 531 };
 
+/* The squared error that so many pictures may have, in quarters of what is asked for: a second one costs as much as the first. */
+static const uint8_t allowed[LINE_PICTURES] = { 10, 6, 6, 7 };
+
 /* Returns how many pictures a frame begins with: as many as the one before it would have been good with; one after a frame that lines did
  * not do for, to see whether this is one, too. */
 static int first_pictures(const struct smear_lines *lines, int32_t target)
@@ -44,7 +47,9 @@ static int first_pictures(const struct smear_lines *lines, int32_t target)
     int k = 1;
     if (lines->blocks == 0)
         return target >= LINE_ONE_PICTURE ? 1 : 2;
-    while (k <= LINE_PICTURES && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 4 * (k < lines->pictures ? 5 : 6))
+    /* One less than the last had must do well, as pictures would flicker between both. */
+    while (k <= LINE_PICTURES
+           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 16 * (allowed[k - 1] * (k < lines->pictures ? 3u : 4u)))
         k++;
     return k > LINE_PICTURES ? 1 : k;
 }
@@ -102,12 +107,11 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     const uint64_t most = (uint64_t)(target * target) * VALUES, error = lines->error;
     int k = lines->pictures - 1;
     lines->contrast += contrast;
-    /* The squared error may be a quarter more, and a quarter of what the rows below may have is spent ahead: most frames have their
-     * contrast in the middle. */
-    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * 6) {
-        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 6)
+    /* A quarter of what the rows below may have is spent ahead: most frames have their contrast in the middle. */
+    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * allowed[k]) {
+        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * allowed[k])
             k++;
-        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * 7;
+        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * allowed[k];
     }
     if (k + 1 > lines->pictures) {
         lines->contrast -= contrast;
