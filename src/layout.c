@@ -57,7 +57,7 @@ static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const
     struct smear_line_seen *seen = arena_take(a, 2 * blocks, sizeof *seen);
     t->lines = arena_take(a, 1, sizeof *t->lines);
     if (t->lines != NULL)           /* else it is only measured */
-        *t->lines = (struct smear_lines){ .row = row, .depth = depth, .kind = kind, .own = own, .block = block, .seen = seen,
+        *t->lines = (struct smear_lines){ .seen = seen, .row = row, .depth = depth, .kind = kind, .own = own, .block = block,
                                           .over = over };
 }
 
