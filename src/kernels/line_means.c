@@ -437,13 +437,18 @@ static uint32_t mixed_light(uint32_t mean, uint32_t more, uint32_t k)
     return out[2] << 16 | out[1] << 8 | out[0];
 }
 
-/* Light of codes that are nearly alike is mixed as codes: it differs by less than one but in the dark. */
+/* Whether no channel differs by 16 or more, about: light of such codes is mixed as codes, which are off by less than one but in the
+ * dark. Halves of codes are told apart, by 8. */
+static inline bool is_near(uint32_t a, uint32_t b)
+{
+    return ((((a >> 1 & 0x7f7f7fu) | 0x808080u) - (b >> 1 & 0x7f7f7fu) + 0x080808u) & 0xf0f0f0u) == 0x808080u;
+}
+
 static inline uint32_t mixed(uint32_t mean, uint32_t more, uint32_t k, bool linear)
 {
-    const uint32_t differs = mean ^ more;
-    if ((differs & 0xffffffu) == 0)
+    if (((mean ^ more) & 0xffffffu) == 0)
         return more & 0xffffffu;
-    if (SMEAR_WITH_LINEAR && linear && (differs & 0xf0f0f0u) != 0)
+    if (SMEAR_WITH_LINEAR && linear && !is_near(mean, more))
         return mixed_light(mean, more, k);
     return k == 1 ? line_between(mean, more) & 0xffffffu
                   : mixed_halves(mean, more, k) | (mixed_halves(mean >> 8, more >> 8, k) & 0xffu) << 8;
@@ -467,8 +472,13 @@ void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, 
     const uint32_t weight = 0x10001u * (uint32_t)k, part = 0x10001u * (256u / ((uint32_t)k + 1u));
     const smear_v4u weights = { weight, weight, weight, weight }, parts = { part, part, part, part };
     int32_t i = 0;
-    for (; i + 4 <= n && !linear; i += 4) {
+    for (; i + 4 <= n; i += 4) {
         const smear_v4u a = v4u_load(mean + i), b = v4u_load(more + i);
+        const smear_v4u half = (a >> 1 & 0x7f7f7fu) | 0x808080u, other = b >> 1 & 0x7f7f7fu;
+        if (SMEAR_WITH_LINEAR && linear && v4u_any(((half - other + 0x080808u) & 0xf0f0f0u) ^ 0x808080u)) {
+            smear_line_mix_reference(mean + i, more + i, 4, k, true);
+            continue;
+        }
         const smear_v4u red_blue = mixed_halves4(a, b, weights, parts, k + 1 == THIRD);
         v4u_store(mean + i, red_blue | (mixed_halves4(a >> 8, b >> 8, weights, parts, k + 1 == THIRD) & 0xffu) << 8);
     }

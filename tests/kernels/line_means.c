@@ -134,8 +134,12 @@ static void mix(struct kernel_call *c, void (*mixes)(uint32_t *mean, const uint3
 static void mix_one_by_one(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
     for (int32_t i = 0; i < n; i++) {
-        const bool light = linear && ((mean[i] ^ more[i]) & 0xf0f0f0u) != 0;
+        bool light = false;
         uint32_t out = 0;
+        for (int channel = 0; channel < 24; channel += 8) {
+            const int32_t apart = (int32_t)((mean[i] >> channel & 0xffu) / 2) - (int32_t)((more[i] >> channel & 0xffu) / 2);
+            light = light || (linear && (apart < -8 || apart >= 8));
+        }
         for (int channel = 0; channel < 24; channel += 8) {
             const uint32_t a = mean[i] >> channel & 0xffu, b = more[i] >> channel & 0xffu, count = (uint32_t)k + 1u;
             const uint32_t sum = (uint32_t)k * a + b, square = (uint32_t)k * a * a + b * b;
