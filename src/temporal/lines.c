@@ -129,41 +129,44 @@ static uint32_t square_between(uint32_t a, uint32_t b)
     return red * red + green * green + blue * blue;
 }
 
-/* Returns the contrast of a block of the first picture, from a place on. */
-static uint16_t contrast_at(const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+/* Adds the contrast of one pixel of each block of columns [x0, x1), `in` from its left, with those beside and below it. */
+static void add_contrast(struct smear_line_seen *seen, const uint32_t *row, const uint32_t *below, int32_t in, int32_t x0, int32_t x1)
 {
-    uint32_t sum = 0;
-    for (int32_t i = 1; i < LINE_BLOCK; i += 4) {
-        const int32_t x = min_i32(x0 + i, x1 - 2), y = min_i32(y0 + i, y1 - 2);
-        if (x < x0 || y < y0)
+    for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
+        const int32_t at = min_i32(x + in, x1 - 2);
+        if (at < x || ((row[at] ^ row[at + 1]) | (row[at] ^ below[at])) == 0)
             continue;
-        const uint32_t *p = w->color + window_ring_row(w, y) * w->width + x;
-        sum += square_between(p[0], p[1]) + square_between(p[0], w->color[window_ring_row(w, y + 1) * w->width + x]);
+        const uint32_t square = square_between(row[at], row[at + 1]) + square_between(row[at], below[at]);
+        seen->contrast = (uint16_t)(seen->contrast + (square >> 4));
     }
-    return (uint16_t)(sum >> 4);
 }
 
-/* Notes the nearest of some pixels of a block. */
-static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int32_t x, int32_t right)
+/* Notes the nearest of the outer two pixels of each block. */
+static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int32_t x0, int32_t x1)
 {
-    enum { STEP = 7 };
-    for (; x < right; x += STEP)
-        seen->depth = (uint16_t)max_u32(seen->depth, depth[x]);
+    for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
+        const uint32_t nearest = max_u32(depth[x], depth[min_i32(x + BLOCK, x1) - 1]);
+        seen->depth = (uint16_t)max_u32(nearest, seen->depth);
+    }
 }
 
 void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    enum { STEP = 7 };
     const bool first = lines->picture == 0;
     for (int32_t y = y0; y < y1; y += BLOCK) {
+        struct smear_line_seen *const seen = seen_at(lines, w, x0, y);
         const int32_t end = min_i32(y + BLOCK, y1);
-        for (int32_t x = x0; first && x < x1; x += BLOCK)
-            *seen_at(lines, w, x, y) = (struct smear_line_seen){ .contrast = contrast_at(w, x, min_i32(x + BLOCK, x1), y, end) };
-        for (int32_t v = y; v < end; v += STEP) {
-            const uint16_t *const depth = first ? w->depth + window_ring_row(w, v) * w->width : lines->depth + (v - y0) * w->width;
-            for (int32_t x = x0; x < x1; x += BLOCK)
-                note_depth(seen_at(lines, w, x, y), depth, x, min_i32(x + BLOCK, x1));
+        if (first)
+            __builtin_memset(seen, 0, (size_t)line_blocks(x1 - x0) * sizeof *seen);
+        for (int32_t in = 1; first && in < BLOCK; in += BLOCK / 2) {
+            const int32_t v = min_i32(y + in, end - 2);
+            if (v < y)
+                break;
+            add_contrast(seen, w->color + window_ring_row(w, v) * w->width, w->color + window_ring_row(w, v + 1) * w->width, in, x0,
+                         x1);
         }
+        for (int32_t v = y; v < end; v += BLOCK - 1)
+            note_depth(seen, first ? w->depth + window_ring_row(w, v) * w->width : lines->depth + (v - y0) * w->width, x0, x1);
     }
 }
 
