@@ -146,8 +146,8 @@ static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
 /* Hard texels of a pixel or two, as these rooms have, are what lines show worst. */
 static void test_drafts_and_sketches_of_them_have_as_many_pictures_as_they_need(void)
 {
-    check_target(SMEAR_DRAFT, SMEAR_SET_SKETCH, 6.4, 12);
-    check_target(SMEAR_SKETCH, SMEAR_SET_SKETCH, 14, 24);
+    check_target(SMEAR_DRAFT, SMEAR_SET_SKETCH, 7, 12);
+    check_target(SMEAR_SKETCH, SMEAR_SET_SKETCH, 16, 24);
 }
 
 #include "build/suites/rooms.h"
