@@ -43,7 +43,7 @@ static const uint8_t allowed[LINE_PICTURES] = { 10, 6, 6, 7 };
 static int first_pictures(const struct smear_lines *lines, int32_t target)
 {
     enum { VALUES = 6 };
-    const uint64_t most = (uint64_t)(target * target) * VALUES;
+    const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES;
     int k = 1;
     if (lines->blocks == 0)
         return target >= LINE_ONE_PICTURE ? 1 : 2;
@@ -104,7 +104,7 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     enum { VALUES = 6 };                /* per block: two pixels' three channels are compared with two others' */
     const uint32_t all = (uint32_t)(line_blocks(w->width) * line_blocks(w->height)), contrast = contrast_of(lines, w, y0, y1);
     const uint32_t blocks = lines->blocks + (uint32_t)(line_blocks(w->width) * line_blocks(y1 - y0));
-    const uint64_t most = (uint64_t)(target * target) * VALUES, error = lines->error;
+    const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES, error = lines->error;
     int k = lines->pictures - 1;
     lines->contrast += contrast;
     /* A quarter of what the rows below may have is spent ahead: most frames have their contrast in the middle. */
