@@ -44,7 +44,7 @@ static struct smear_homogeneous place_of(const double at[3])
     const double unit = is_even() ? 256 * EVEN_SCALE : 1 << SCALE, pixels = H / 2.0 / (1 << space.depths.coarse);
     if (is_even())
         return (struct smear_homogeneous){ (int32_t)lrint(at[0] * unit), (int32_t)lrint(at[1] * unit), (int32_t)unit,
-                                           (int32_t)lrint((1 - at[2]) * SMEAR_DEPTH_MAX) };
+                                           (int32_t)lrint((1 - at[2]) * space.depths.far_distance) };
     const int32_t w = (int32_t)lrint(at[2] * unit);
     return (struct smear_homogeneous){ (int32_t)lrint(at[0] * pixels * unit), (int32_t)lrint(at[1] * pixels * unit), w, w };
 }
@@ -104,7 +104,8 @@ static void test_what_a_camera_turns_past_goes_around_it(void)
 static bool goes_evenly(const struct smear_homogeneous key[KEYS])
 {
     const double pixel = 1 << space.depths.coarse;
-    const int32_t margin = is_even() ? 1 << 28 : space.depths.near_distance / 50;       /* nothing of the path is cut */
+    /* Nothing of the path is cut. */
+    const int32_t margin = is_even() ? space.depths.far_distance / 4 : space.depths.near_distance / 50;
     for (int k = 0; k < KEYS; k++)
         if (key[k].distance < space.depths.near_distance + margin || key[k].distance > space.depths.far_distance - margin
             || fabs((double)key[k].w - key[1].w) > key[1].w / 256.0 || fmax(abs(key[k].x), abs(key[k].y)) * pixel > 200.0 * key[k].w)
