@@ -38,20 +38,22 @@ static const uint16_t left_of_contrast[LINE_PICTURES] = { 3060, 1290, 741, 531 }
 /* The squared error that so many pictures may have, in quarters of what is asked for: a second one costs as much as the first. */
 static const uint8_t allowed[LINE_PICTURES] = { 10, 6, 6, 7 };
 
-/* Returns how many pictures a frame begins with: as many as the one before it would have been good with; one after a frame that lines did
- * not do for, to see whether this is one, too. */
+enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
+
+/* Returns how many pictures a frame begins with: as many as the one before it would have been good with, but of drafts two; as few as
+ * there may be after a frame that lines did not do for, to see whether this is one, too. */
 static int first_pictures(const struct smear_lines *lines, int32_t target)
 {
-    enum { VALUES = 6 };
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES;
-    int k = 1;
+    const int least = target >= LINE_ONE_PICTURE ? 1 : 2;
+    int k = least;
     if (lines->blocks == 0)
-        return target >= LINE_ONE_PICTURE ? 1 : 2;
+        return least;
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= LINE_PICTURES
            && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 16 * (allowed[k - 1] * (k < lines->pictures ? 3u : 4u)))
         k++;
-    return k > LINE_PICTURES ? 1 : k;
+    return k > LINE_PICTURES ? least : k;
 }
 
 /* Finds n even instants of the exposure. */
@@ -101,7 +103,6 @@ static uint32_t contrast_of(const struct smear_lines *lines, const struct smear_
 
 int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1, int32_t target)
 {
-    enum { VALUES = 6 };                /* per block: two pixels' three channels are compared with two others' */
     const uint32_t all = (uint32_t)(line_blocks(w->width) * line_blocks(w->height)), contrast = contrast_of(lines, w, y0, y1);
     const uint32_t blocks = lines->blocks + (uint32_t)(line_blocks(w->width) * line_blocks(y1 - y0));
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES, error = lines->error;

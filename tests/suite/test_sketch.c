@@ -294,6 +294,23 @@ static void test_everything_is_nearer_to_the_finest_target_than_a_sharp_picture(
     }
 }
 
+/* Of a third frame, too, which has as many pictures as the second was good with, but two. */
+static void test_drafts_are_nearer_to_the_finest_target_than_sketches(void)
+{
+    for (int kind = 0; kind < CUT; kind++) {
+        smear_desc desc = sketch_desc();
+        uint8_t *fine = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_FINE, NULL),
+                *draft = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_DRAFT, NULL),
+                *sketch = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
+        const double coarse = difference(sketch, fine, WIDTH * HEIGHT), after = difference(draft, fine, WIDTH * HEIGHT);
+        if (!CHECK(after < (coarse > 3 ? coarse : 3)))      /* where a sketch is that near, both are */
+            say("    kind %d: sketch %.2f, draft %.2f\n", kind, coarse, after);
+        free(fine);
+        free(draft);
+        free(sketch);
+    }
+}
+
 static void paint(struct world *w, int i, uint8_t red, uint8_t green, uint8_t blue)
 {
     const uint8_t color[4] = { red, green, blue, 255 };
