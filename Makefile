@@ -235,7 +235,7 @@ NO_ROOMS := platform/examples $(patsubst %/,%,$(sort $(dir $(shell find tests/ex
 FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
 
 .PHONY: core-alone
-## the core links without the rooms of other systems' methods, and draws the same
+## the core links without models and the rooms of other systems' methods, and draws the same
 core-alone: build/host/libsmear.a
 	sh tests/shell/core_alone.sh $< $(filter-out $(OTHER_ROOMS),$(SRC_ROOMS))
 
