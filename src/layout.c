@@ -54,7 +54,7 @@ static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const
     uint8_t *kind = arena_take(a, d->max_draws, sizeof *kind);
     const size_t blocks = (size_t)line_blocks(d->width) * (size_t)line_blocks(d->tile);
     struct smear_line_block *block = arena_take(a, blocks, sizeof *block);
-    struct smear_line_seen *seen = arena_take(a, 2 * blocks, sizeof *seen);
+    struct smear_line_seen *seen = arena_take(a, LINE_ROWS_SEEN * blocks, sizeof *seen);
     t->lines = arena_take(a, 1, sizeof *t->lines);
     if (t->lines != NULL)           /* else it is only measured */
         *t->lines = (struct smear_lines){ .seen = seen, .row = row, .depth = depth, .kind = kind, .own = own, .block = block,

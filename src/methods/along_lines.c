@@ -14,6 +14,7 @@
 #if SMEAR_WITH_LINES
 
 enum { MEASURED = SMEAR_SKETCH - 65 };      /* the coarsest target of which it is measured how many instants it takes */
+enum { WAIT = 16 };         /* frames by instants, until it is seen again whether lines do */
 
 static void lines_job(void *argument, int job, int worker)
 {
@@ -225,11 +226,12 @@ static int finish_rows(struct smear_temporal *self, struct smear_rows *rows, int
 /* From here on there are so many pictures, or none, and instants. */
 static SMEAR_NOINLINE void go_on_with(struct smear_temporal *self, const struct smear_rows *rows, int pictures)
 {
-    if (pictures <= LINE_PICTURES && self->lines->takes_movers) {
+    if (pictures <= self->lines->most) {
         smear_lines_take(self->lines, rows->bins.shot, pictures);
         return;
     }
     self->lines->on = false;
+    self->lines->wait = WAIT;
     self->target = min_i32(self->target, MEASURED);
 }
 

@@ -437,10 +437,20 @@ static void add_shares(struct smear_temporal *self, int workers)
     }
 }
 
+/* Tiles that stand still have no error: others may have theirs. */
+static void add_still(struct smear_temporal *self, const struct smear_rows *rows, int row)
+{
+    const int32_t high = block_rows(row_bottom(rows, row) - row_top(rows, row));
+    for (int32_t i = 0; i < rows->window.columns; i++)
+        if (is_static(&self->moving.travel[i]))
+            self->before.blocks += (uint32_t)(high * block_columns(tile_right(rows, i) - tile_left(rows, i)));
+}
+
 void smear_temporal_begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
+    add_still(self, rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
@@ -513,13 +523,17 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
         min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&self->shutter)
     };
     if (SMEAR_WITH_LINES && self->lines != NULL) {
-        self->lines->on = frame->method == SMEAR_AUTO && shot->camera_moves && !shot->cut && smear_shutter_is_box(&self->shutter)
-                       && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
-        self->lines->takes_movers = frame->edges == SMEAR_EDGES_HARD;
-        if (self->lines->on)
-            smear_lines_begin(self->lines, shot, w, frame->target, frame_is_linear(&rows->raster));
-        else
-            lines_forget(self->lines);
+        struct smear_lines *lines = self->lines;
+        const bool may = frame->method == SMEAR_AUTO && shot->camera_moves && !shot->cut && smear_shutter_is_box(&self->shutter)
+                      && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
+        lines->on = may && lines->wait == 0;
+        lines->wait = (uint8_t)(lines->wait - (may && lines->wait != 0));
+        if (lines->on) {
+            smear_lines_begin(lines, shot, w, frame->target, frame_is_linear(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
+        } else if (!may) {
+            lines->wait = 0;
+            lines_forget(lines);
+        }
     }
     self->target = frame->target;
     self->budget = frame->budget;

@@ -9,7 +9,8 @@
 #include "base/pixel.h"
 #include "kernels/line_means.h"
 
-enum { BLOCK = LINE_BLOCK };
+enum { BLOCK = LINE_BLOCK,
+       LINE_BORDER = 4 };               /* so many pixels beside the frame's border share taps that are cut off there */
 
 /* Distances from a pixel to its taps, px, and how far they reach. */
 struct taps {
@@ -31,29 +32,29 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
     smear_flow_make(flow, &r, spans ? 65536 : shot->half_exposure >> 7);
 }
 
-/* The part of the contrast that pictures leave of the squared error, q16: medians of 150 rooms of random texels and five scenes of the
- * suite, of which 80 % lie within 0.8 and 1.25 of the error that it tells. */
-static const uint16_t left_of_contrast[LINE_PICTURES] = { 3060, 1290, 741, 531 };
+/* The part of the contrast that pictures leave of the squared error, q16: medians of five scenes of the suite, three rooms and twelve
+ * models that a camera goes round, of which 80 % lie within 0.7 and 1.3 of the error that it tells. */
+static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1050, 820 };
 
-/* The squared error that so many pictures may have, in quarters of what is asked for: a second one costs as much as the first. */
-static const uint8_t allowed[LINE_PICTURES] = { 10, 6, 6, 7 };
+/* Returns the squared error that so many pictures may have, in quarters of what is asked for: a sketch's second picture costs as much as
+ * its first. */
+static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 11 : 6; }
+
+/* Returns how many there are at least: what blocks show is told by few of their pixels. */
+static int fewest(int32_t target) { return target_is_sketch(target) ? 1 : 2; }
 
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
-/* Returns how many pictures a frame begins with: as many as the one before it would have been good with, but of drafts two; as few as
- * there may be after a frame that lines did not do for, to see whether this is one, too. */
-static int first_pictures(const struct smear_lines *lines, int32_t target)
+/* Returns how many pictures a frame takes that is like the last one: more than there may be where no number will do. */
+static int pictures_for(const struct smear_lines *lines, int32_t target)
 {
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES;
-    const int least = target >= LINE_ONE_PICTURE ? 1 : 2;
-    int k = least;
-    if (lines->blocks == 0)
-        return least;
+    int k = fewest(target);
     /* One less than the last had must do well, as pictures would flicker between both. */
-    while (k <= LINE_PICTURES
-           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 16 * (allowed[k - 1] * (k < lines->pictures ? 3u : 4u)))
+    while (k <= lines->most
+           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 16 * (allowed(k, target) * (k < lines->pictures ? 3 : 4)))
         k++;
-    return k > LINE_PICTURES ? least : k;
+    return k;
 }
 
 /* Finds n even instants of the exposure. */
@@ -71,22 +72,25 @@ void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, 
     find_instants(lines->mover_instant, shot, line_mover_pictures(lines));
 }
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear)
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear,
+                       bool smooth)
 {
-    const int pictures = first_pictures(lines, target);
+    lines->most = smooth ? 1 : LINE_PICTURES;
+    lines->takes_movers = !smooth;
+    const int pictures = lines->blocks == 0 ? fewest(target) : pictures_for(lines, target);
     lines->linear = linear;
     lines->movers = lines->behind = 0;
     lines->drawn = 0;
     lines->finished = 0;
-    lines->contrast = lines->error = 0;
-    lines->blocks = 0;
+    lines_forget(lines);
+    lines->error = 0;
     smear_lines_make_flow(&lines->flow, shot, w, shot->camera);
-    smear_lines_take(lines, shot, pictures);
+    smear_lines_take(lines, shot, min_i32(pictures, lines->most));
 }
 
 static struct smear_line_seen *seen_at(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
 {
-    return &lines->seen[((y & (2 * w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
+    return &lines->seen[((y & (LINE_ROWS_SEEN * w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
 }
 
 /* Returns the contrast of the blocks of a tile row that move. */
@@ -106,21 +110,19 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     const uint32_t all = (uint32_t)(line_blocks(w->width) * line_blocks(w->height)), contrast = contrast_of(lines, w, y0, y1);
     const uint32_t blocks = lines->blocks + (uint32_t)(line_blocks(w->width) * line_blocks(y1 - y0));
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES, error = lines->error;
-    int k = lines->pictures - 1;
+    int k = lines->pictures;
     lines->contrast += contrast;
     /* A quarter of what the rows below may have is spent ahead: most frames have their contrast in the middle. */
-    if (error + (uint64_t)contrast * left_of_contrast[k] > most * (blocks + (all - blocks) / 4) / 4 * allowed[k]) {
-        while (k < LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * allowed[k])
+    if (error + (uint64_t)contrast * left_of_contrast[k - 1] > most * (blocks + (all - blocks) / 4) / 4 * allowed(k, target))
+        while (k <= lines->most && lines->contrast * left_of_contrast[k - 1] > most * blocks / 4 * allowed(k, target))
             k++;
-        k += k == LINE_PICTURES - 1 && lines->contrast * left_of_contrast[k] > most * blocks / 4 * allowed[k];
-    }
-    if (k + 1 > lines->pictures) {
+    if (k > lines->pictures) {
         lines->contrast -= contrast;
-        return k + 1;
+        return k;
     }
-    lines->error += (uint64_t)contrast * left_of_contrast[k];
+    lines->error += (uint64_t)contrast * left_of_contrast[k - 1];
     lines->blocks = blocks;
-    return lines->pictures;
+    return k;
 }
 
 /* Returns the square by which two colours differ. */
@@ -173,10 +175,7 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
 
 void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
 {
-    uint16_t *const nearest = w->depth + window_ring_row(w, y) * w->width;
-    const uint16_t *const more = lines->depth + (y & (w->tile - 1)) * w->width;
-    for (int32_t x = x0; x < x1; x++)
-        nearest[x] = nearest[x] > more[x] ? nearest[x] : more[x];
+    smear_line_join(w->depth + window_ring_row(w, y) * w->width + x0, lines->depth + (y & (w->tile - 1)) * w->width + x0, x1 - x0);
 }
 
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
@@ -209,9 +208,9 @@ int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smea
 }
 
 /* Places two taps per pixel of the way, evenly. */
-static void place_taps(struct taps *t, int32_t x, int32_t y)
+static void place_taps(struct taps *t, int32_t x, int32_t y, int pictures)
 {
-    enum { LONG = 8 * 256,              /* so that what is four pixels beside each other on it is nearly alike, */
+    enum { LONG = 8 * 256,              /* so that what is four pixels beside each other on it is nearly alike; half of it for one picture */
            LEVEL_LOG2 = 1 };            /* and two lie between them across */
     const int32_t length = max_i32(abs_i32(x), abs_i32(y));
     int32_t log = 0;
@@ -223,7 +222,7 @@ static void place_taps(struct taps *t, int32_t x, int32_t y)
         t->y[k] = (y * (2 * k + 1 - n) + half) >> down;
     }
     t->log = log;
-    t->sparse = length >= LONG && abs_i32(y) << LEVEL_LOG2 <= length;
+    t->sparse = length >= (pictures == 1 ? LONG / 2 : LONG) && abs_i32(y) << LEVEL_LOG2 <= length;
     t->left = min_i32(t->x[0], t->x[n - 1]);
     t->right = max_i32(t->x[0], t->x[n - 1]);
     t->up = min_i32(t->y[0], t->y[n - 1]);
@@ -267,24 +266,48 @@ static struct taps taps_within(const struct taps *all, int32_t left, int32_t rig
     return t;
 }
 
+/* Blurs columns [x0, x1) of rows [y0, y1) of which all taps lie within the rows that there are. */
+static void blur_columns(const struct smear_lines *lines, const struct smear_window *w, const struct taps *t, int32_t x0, int32_t x1,
+                         int32_t y0, int32_t y1)
+{
+    for (int32_t x = x0, next; x < x1; x = next) {
+        const int32_t inside = (min_i32(x1, w->width - t->right - t->sparse) - x) & (t->sparse ? -LINE_SPARSE : -1);
+        if (x + t->left >= 0 && inside > 0) {
+            next = x + inside;
+            blur_within(lines, w, t, x, next, y0, y1);
+            continue;
+        }
+        next = min_i32(x + LINE_BORDER, x1);
+        struct taps clamped = taps_within(t, -x, w->width - next, t->up, t->down);
+        clamped.sparse = false;
+        blur_within(lines, w, &clamped, x, next, y0, y1);
+    }
+}
+
 void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const int32_t d[2], int32_t x0, int32_t x1,
                              int32_t y0, int32_t y1, int32_t first, int32_t end)
 {
-    struct taps all;
-    place_taps(&all, d[0], d[1]);
-    const struct taps t = taps_within(&all, -w->width, w->width, first - y0, end - y1);
-    for (int32_t x = x0, next; x < x1; x = next) {
-        next = min_i32(x + BLOCK, x1);
-        if (x + t.left < 0 || next + t.right + t.sparse > w->width) {
-            struct taps inside = taps_within(&t, -x, w->width - next, first - y0, end - y1);
-            inside.sparse = false;
-            blur_within(lines, w, &inside, x, next, y0, y1);
-            continue;
-        }
-        while (next < x1 && min_i32(next + BLOCK, x1) + t.right + t.sparse <= w->width)
-            next = min_i32(next + BLOCK, x1);
-        blur_within(lines, w, &t, x, next, y0, y1);
+    struct taps t;
+    place_taps(&t, d[0], d[1], lines->pictures);
+    const int32_t top = clamp_i32(first - t.up, y0, y1), bottom = clamp_i32(end - t.down, top, y1);
+    for (int32_t y = y0, next; y < y1; y = next) {
+        next = y < top ? min_i32(y + LINE_BORDER, top) : y < bottom ? bottom : min_i32(y + LINE_BORDER, y1);
+        const struct taps within = taps_within(&t, -w->width, w->width, first - y, end - next);
+        blur_columns(lines, w, &within, x0, x1, y, next);
     }
+}
+
+/* Finds how a block goes if it shows something at a depth. */
+static void displace_block(const struct smear_lines *lines, const struct smear_window *w, struct smear_line_seen *seen, int32_t x, int32_t y,
+                           uint32_t depth)
+{
+    int32_t d[2];
+    const uint32_t times = (uint32_t)smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, w->width - 1),
+                                                              min_i32(y + BLOCK / 2, w->height - 1), depth);
+    if (times > 1)      /* what is left of a way that is cut off stays sharp */
+        seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
+    seen->x = (int16_t)(d[0] >> 8);
+    seen->y = (int16_t)(d[1] >> 8);
 }
 
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
@@ -292,26 +315,48 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
     for (int32_t y = y0; y < y1; y += BLOCK)
         for (int32_t x = x0; x < x1; x += BLOCK) {
             struct smear_line_seen *const seen = seen_at(lines, w, x, y);
-            int32_t d[2];
-            const uint32_t times = (uint32_t)smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, x1 - 1),
-                                                                      min_i32(y + BLOCK / 2, y1 - 1), seen->depth);
-            if (times > 1)      /* what is left of a way that is cut off stays sharp */
-                seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
-            seen->x = (int16_t)(d[0] >> 8);
-            seen->y = (int16_t)(d[1] >> 8);
+            displace_block(lines, w, seen, x, y, seen->depth);
         }
+}
+
+/* Returns the nearest depth that the blocks beside a block show, as far as its taps reach. Rows are seen from `top` on. */
+static uint32_t depth_beside(const struct smear_lines *lines, const struct smear_window *w, const struct smear_line_seen *seen, int32_t x,
+                             int32_t y, int32_t top)
+{
+    const int32_t aside = (abs_i32(seen->x) / 2 & -BLOCK) + BLOCK, along = (abs_i32(seen->y) / 2 & -BLOCK) + BLOCK;
+    uint32_t nearest = 0;
+    for (int32_t v = max_i32(y - along, top); v <= y + along && v < lines->drawn; v += BLOCK)
+        for (int32_t u = max_i32(x - aside, 0); u <= x + aside && u < w->width; u += BLOCK)
+            nearest = max_u32(nearest, seen_at(lines, w, u, v)->depth);
+    return nearest;
+}
+
+/* Nothing but the clear colour is seen in a bare block, so that only what its taps meet beside it can show how it goes. */
+static void settle_bare(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    const int32_t top = max_i32((y0 & -w->tile) - w->tile, 0);
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        struct smear_line_seen *seen = seen_at(lines, w, x0, y);
+        for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
+            const uint32_t beside = seen->depth != 0 ? 0 : depth_beside(lines, w, seen, x, y, top);
+            if (beside != 0)
+                displace_block(lines, w, seen, x, y, beside);
+        }
+    }
 }
 
 void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    for (int32_t y = y0; y < y1; y += BLOCK)
+    settle_bare(lines, w, x0, x1, y0, y1);
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        const struct smear_line_seen *seen = seen_at(lines, w, x0, y);
         for (int32_t x = x0, right; x < x1; x = right) {
-            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
             const int32_t d[2] = { seen->x * 256, seen->y * 256 };
-            for (right = x + BLOCK; right < x1; right += BLOCK)
-                if (seen_at(lines, w, right, y)->x != seen->x || seen_at(lines, w, right, y)->y != seen->y)
-                    break;
+            right = x + BLOCK;
+            for (seen++; right < x1 && seen->x * 256 == d[0] && seen->y * 256 == d[1]; seen++)
+                right += BLOCK;
             right = min_i32(right, x1);
             smear_lines_blur_blocks(lines, w, d, x, right, y, min_i32(y + BLOCK, y1), 0, lines->drawn);
         }
+    }
 }

@@ -5,8 +5,8 @@
  * The plain form of [GPUGems3] chapter 27: what a block's depth and two cameras say holds for the whole block, and its taps
  * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach.
  *
- * A line errs by a share of what pixels beside each other differ by: the more pictures, the less. A frame begins with as few as its
- * target may do with; where what is seen so far says that they are too few, what is left of it takes more. */
+ * A line errs by a share of what pixels beside each other differ by: the more pictures, the less. A frame begins with as many as
+ * the last would have been good with; where what is seen so far says that they are too few, what is left of it takes more. */
 #ifndef SMEAR_LINES_H
 #define SMEAR_LINES_H
 
@@ -17,10 +17,14 @@
 enum {
     LINE_PICTURES = 4,              /* at most */
     LINE_MOVERS = 2,                /* of what moves by itself (line_movers.h), at most */
-    LINE_ONE_PICTURE = SMEAR_SKETCH - 64,               /* the finest target for which one is tried where nothing is known */
     LINE_BEHIND = LINE_PICTURES,    /* number of the picture of what stands still behind all of them */
+    LINE_ROWS_SEEN = 4,             /* tile rows of blocks that are kept: the one that is blurred, those around it, and one more */
     LINE_LISTS = LINE_BEHIND + LINE_MOVERS              /* in bins.more_last: of pictures from the second on, then of movers */
 };
+
+/* Targets so coarse that lines do; and those for which little is measured of what lines do not blur: from 7 codes on. */
+static inline bool target_has_lines(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_DRAFT; }
+static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_SKETCH - 64; }
 
 static inline int line_list(int picture) { return picture - 1; }
 static inline int line_movers_list(int picture) { return LINE_BEHIND + picture; }
@@ -44,11 +48,13 @@ struct smear_lines {
     int finished;
     uint64_t contrast, error;       /* of the blocks drawn, together, where they move: as each block's; squared, by lines, q16 of it */
     uint32_t blocks;
-    struct smear_line_seen *seen;   /* of the row that is drawn and the one above it */
+    struct smear_line_seen *seen;   /* of the row that is drawn and LINE_ROWS_SEEN - 1 above it */
     uint32_t *row;                  /* pixels of a tile row: of a further picture, then blurred ones */
     uint16_t *depth;                /* of a further picture, then of the blurred one: planes of a target are alike */
     uint16_t movers, behind;        /* draws that are */
-    bool takes_movers;
+    uint8_t most;                   /* pictures in this frame */
+    uint8_t wait;                   /* frames by instants after one that lines did not do for */
+    bool takes_movers;              /* else they are drawn at instants */
     uint8_t *kind;                  /* of each draw: enum smear_line_kind */
     struct smear_flow *own;         /* of each draw that has one */
     struct smear_line_block *block; /* of the tile row */
@@ -76,17 +82,22 @@ struct smear_line_block {
 
 static inline int32_t line_blocks(int32_t pixels) { return (pixels + LINE_BLOCK - 1) >> LINE_BLOCK_LOG2; }
 
-/* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. */
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear);
+/* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. Smoothed edges have one picture. */
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear,
+                       bool smooth);
 
-/* Forgets what the frame before showed. */
-static inline void lines_forget(struct smear_lines *lines) { lines->blocks = 0; }
+/* Forgets what the rows before showed. */
+static inline void lines_forget(struct smear_lines *lines)
+{
+    lines->contrast = 0;
+    lines->blocks = 0;
+}
 
 /* From here on there are so many pictures. */
 void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, int pictures);
 
 /* Returns how many it takes for an error of `target`, 1/64 codes, from the tile row of pixel rows [y0, y1) on, which has been drawn and
- * displaced: LINE_PICTURES + 1 where that is more than there may be. Where it takes no more than now, that row is noted. */
+ * displaced: more than lines->most where no number will do. Where it takes no more than now, that row is noted. */
 int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1, int32_t target);
 
 /* Makes the flow of what stands still before three cameras, those of the shot's poses. */

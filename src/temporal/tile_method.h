@@ -3,6 +3,7 @@
 #ifndef SMEAR_TILE_METHOD_H
 #define SMEAR_TILE_METHOD_H
 
+#include "temporal/lines.h"
 #include "temporal/subframes.h"
 #include "temporal/tile_contrast.h"
 #include "temporal/timemask.h"
@@ -46,10 +47,6 @@ struct smear_tile_choice {
     int32_t instants;                           /* TILE_SUBFRAMES */
     struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
-
-/* Targets so coarse that lines do; and those for which little is measured of what lines do not blur: from 7 codes on. */
-static inline bool target_has_lines(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_DRAFT; }
-static inline bool target_is_sketch(int32_t target) { return SMEAR_WITH_LINES && target >= SMEAR_SKETCH - 64; }
 
 struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
