@@ -314,6 +314,12 @@ rv32imc() {
     fi
 }
 
+lx106() {
+    if needs xtensa-lx106-elf-gcc "gcc-xtensa-lx106" qemu-system-xtensa "qemu-system-misc"; then
+        on lx106 target symbols demo
+    fi
+}
+
 linux_arm() {
     needs qemu-arm-static "qemu-user-static" || return 0
     ! needs arm-linux-gnueabi-gcc "gcc-arm-linux-gnueabi libc6-dev-armel-cross" || on linux-armel target demo
@@ -357,7 +363,7 @@ check) groups="sanitized_briefly documents symbols format golden frames $suites"
 test) groups="portable $tests" ;;
 all)
     groups="one_file coverage boards generated switches web files linux_arm cortex_m3 linux raspi0 cortex_m7 cortex_m4 cortex_m33"
-    groups="$groups $tests rv32imc screens all_objects proofs"
+    groups="$groups $tests rv32imc lx106 screens all_objects proofs"
     ;;
 esac
 [ $# -gt 0 ] || eval "set -- $groups"
