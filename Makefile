@@ -99,7 +99,7 @@ LIB := $(if $(filter-out $(OWN),src/smear.c),build/host,$(BUILD))/libsmear.a
 # Programs for people lie in build/; those with sanitizers or checks beside their objects.
 BIN := $(if $(SAN)$(CHECK)$(COVERAGE),$(BUILD),build)
 
-.PHONY: all cost-model host-display help demo readme-pictures check test test-all bench chart chart-picture layers house tables clean
+.PHONY: all cost-model host-display help demo readme-pictures check test test-all bench chart chart-readme chart-picture layers house tables clean
 ## start: the programs build/smear and build/smear-bench, and the library (build/host/libsmear.a)
 all: $(BIN)/smear $(BIN)/smear-bench
 
@@ -158,11 +158,16 @@ bench: $(BIN)/smear-bench
 chart: $(BIN)/smear-bench
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(BIN)/smear-bench chart --scenes '$(SCENES)' --methods '$(METHODS)' $(if $(QUICK),--quick)
 
+## again: the README's chart, measured anew (needs valgrind)
+chart-readme: $(BIN)/smear-bench
+	$(BIN)/smear-bench chart --marks
+	cp build/chart/part/marks.svg tools/bench/pictures/marks.svg
+
 ## again: the pictures of the READMEs and the numbers of the page's chart, from the last whole chart
 chart-picture: $(BIN)/smear-bench
 	@mkdir -p tools/bench/pictures
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
-	cp build/chart/chart.svg tools/bench/pictures/chart.svg
+	cp build/chart/marks.svg build/chart/chart.svg tools/bench/pictures/
 	cp build/chart/study-chart.svg tools/bench/pictures/study.svg
 	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 

@@ -361,6 +361,15 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
             chart.value[CHART_MAIN][k][i] = chart.value[CHART_MAIN][0][i];
     memcpy(chart.value[CHART_DEFAULT], chart.value[CHART_MAIN], sizeof chart.value[CHART_MAIN]);
     CHECK(chart_write_pictures(&chart, FOLDER, &f));
+    uint8_t *marks;
+    size_t marks_size;
+    REQUIRE(file_read(FOLDER "/marks.svg", 1 << 20, &marks, &marks_size, &f));
+    static const char *const plain[] = { ">smear<", ">mean of sharp frames<", ">sharp<", ">draft<", ">balanced<", ">fine<", ">8<" };
+    CHECK(is_well_formed((const char *)marks));
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        CHECK(strstr((const char *)marks, plain[i]) != NULL);
+    CHECK(strstr((const char *)marks, "TGX") == NULL && strstr((const char *)marks, ">object<") == NULL);
+    free(marks);
     for (int i = 0; i < 4; i++) {
         char path[64];
         uint8_t *bytes;

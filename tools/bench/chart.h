@@ -56,6 +56,7 @@ enum chart_mark { MARK_CIRCLE, MARK_SQUARE, MARK_TRIANGLE, MARK_DIAMOND, MARK_CR
 struct chart_curve {
     const char *name;           /* as a stranger should read it */
     const char *method;         /* where there is little room */
+    const char *plain;          /* to one who knows no methods; null: such a picture leaves it out */
     const char *color;
     enum chart_mark mark;
     bool bold;
@@ -84,6 +85,9 @@ extern const int chart_none;    /* the setting that cost is relative to */
 
 /* Whether pictures have a mark for it; tables have all. */
 bool chart_is_shown(int setting);
+
+/* Whether the picture of the README has one: what `auto` is told by name, and what an application can do itself. */
+bool chart_is_plain(int setting);
 
 /* -1 when there is none. */
 int chart_find_setting(const char *name);
@@ -222,8 +226,8 @@ void chart_print_bars(FILE *out, const struct chart *chart, bool all, int except
                       struct chart_verdict *verdict);
 bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 
-/* chart.svg: four planes of means as users get it; scenes.svg: each scene for itself. The same with "study-" before it for
- * the study's conditions. Those for which nothing is known are left out. */
+/* marks.svg: what is plain, in two planes. chart.svg: four planes of means as users get it; scenes.svg: each scene for
+ * itself. The two with "study-" before their names for the study's conditions. Those for which nothing is known are left out. */
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
 
 /* The command `chart`, arguments behind its name. */

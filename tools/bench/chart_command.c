@@ -21,7 +21,7 @@ struct options {
     struct chart_choice choice;
     const char *from, *out;
     int jobs;
-    bool is_part, few_scenes, quick, strict;
+    bool is_part, few_scenes, quick, marks, strict;
 };
 
 /* ------------------------------------------------------------------ options */
@@ -87,6 +87,7 @@ static const struct option table[] = {
     { "--out", OPTION_TEXT, AT(out), .needs = "a folder" },
     { "--jobs", OPTION_INTEGER, AT(jobs), .low = 1, .high = 8 },
     { "--quick", OPTION_FLAG, AT(quick) },
+    { "--marks", OPTION_FLAG, AT(marks) },
     { "--strict", OPTION_FLAG, AT(strict) },
     { .name = NULL },
 };
@@ -99,6 +100,11 @@ static int read_options(struct options *o, int count, char **text)
     int status = arguments_read(count, text, table, o, NULL, 0, &wants_help);
     if (status == STATUS_OK && wants_help)
         return say_bad_usage("chart", "smear help chart lists its options");
+    for (int k = 0; k < ALL_KINDS && o->marks; k++)
+        o->choice.kind[k] &= chart_set_has(SET_MOVING, k);
+    for (int s = 0; s < chart_setting_count && o->marks; s++)
+        o->choice.setting[s] &= chart_is_plain(s);
+    o->quick |= o->marks;
     if (o->quick) {
         o->is_part = true;
         memset(o->choice.condition, 0, sizeof o->choice.condition);

@@ -302,7 +302,7 @@ static void add_names(struct lettering *l, const struct panel *p)
         struct label *label = add_label(l, (struct svg_font){
             .size = p->name_size + (chart_curves[c].bold ? 1.5 : 0.0),
             .color = chart_curves[c].color, .bold = true, .halo = true },
-            1.8 * p->mark, chart_curves[c].method);
+            1.8 * p->mark, p->plain ? chart_curves[c].plain : chart_curves[c].method);
         add_anchor(label, x[n - 1], y[n - 1]);
         add_anchor(label, x[0], y[0]);
         for (int i = 0; i + 1 < n; i++) {

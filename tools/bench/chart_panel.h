@@ -28,6 +28,7 @@ struct panel {
     double mark;                /* size of marks */
     double tick_size;           /* of fonts */
     double name_size;           /* 0: neither names nor labels */
+    bool plain;                 /* names of curves are plain ones */
 };
 
 /* Gives some panels one scale, which shows all of their points. */

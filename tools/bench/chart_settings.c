@@ -17,21 +17,21 @@ enum {
 };
 
 const struct chart_curve chart_curves[] = {
-    [NONE] = { "none: no blur", "none", "#222222", MARK_CROSS, false },
-    [ACCUMULATE] = { "accumulate: N whole frames", "accumulate", "#6b7280", MARK_SQUARE, false },
-    [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", "#e69f00",
+    [NONE] = { "none: no blur", "none", "sharp", "#222222", MARK_CROSS, false },
+    [ACCUMULATE] = { "accumulate: N whole frames", "accumulate", "mean of sharp frames", "#6b7280", MARK_SQUARE, false },
+    [PUBLISHED] = { "reconstruct: screen-space filter, N taps", "reconstruct", NULL, "#e69f00",
                     MARK_TRIANGLE, false },
-    [MENDED] = { "reconstruct, mended", "mended", "#d55e00", MARK_TRIANGLE, false },
-    [CAMERA] = { "camera: velocity from depth, a mean", "camera", "#8c564b", MARK_CIRCLE, false },
-    [PINGPONG] = { "pingpong: 8 and 8 taps", "pingpong", "#4b8b3b", MARK_SQUARE, false },
-    [HALF] = { "half: reconstruct at half the size", "half", "#c77cba", MARK_TRIANGLE, false },
-    [TWO_CAMERAS] = { "two cameras: one velocity, N taps, over all", "plain", "#a0a0a0", MARK_SQUARE, false },
-    [OBJECT] = { "object: each mover along one velocity", "object", "#56b4e9", MARK_SQUARE, false },
-    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", "#7b5ea7", MARK_TRIANGLE,
+    [MENDED] = { "reconstruct, mended", "mended", NULL, "#d55e00", MARK_TRIANGLE, false },
+    [CAMERA] = { "camera: velocity from depth, a mean", "camera", NULL, "#8c564b", MARK_CIRCLE, false },
+    [PINGPONG] = { "pingpong: 8 and 8 taps", "pingpong", NULL, "#4b8b3b", MARK_SQUARE, false },
+    [HALF] = { "half: reconstruct at half the size", "half", NULL, "#c77cba", MARK_TRIANGLE, false },
+    [TWO_CAMERAS] = { "two cameras: one velocity, N taps, over all", "plain", NULL, "#a0a0a0", MARK_SQUARE, false },
+    [OBJECT] = { "object: each mover along one velocity", "object", NULL, "#56b4e9", MARK_SQUARE, false },
+    [LAYERED] = { "layered: by velocity over the still scene, N taps", "layered", NULL, "#7b5ea7", MARK_TRIANGLE,
                   false },
-    [SUBFRAMES] = { "subframes: up to N per tile", "subframes", "#009e73", MARK_DIAMOND, false },
-    [TIMEMASK] = { "timemask: N time slots", "timemask", "#0072b2", MARK_CIRCLE, false },
-    [AUTO] = { "auto: the cheapest that is good enough", "auto", "#b5126b", MARK_STAR, true },
+    [SUBFRAMES] = { "subframes: up to N per tile", "subframes", NULL, "#009e73", MARK_DIAMOND, false },
+    [TIMEMASK] = { "timemask: N time slots", "timemask", NULL, "#0072b2", MARK_CIRCLE, false },
+    [AUTO] = { "auto: the cheapest that is good enough", "auto", "smear", "#b5126b", MARK_STAR, true },
 };
 const int chart_curve_count = sizeof chart_curves / sizeof *chart_curves;
 
@@ -161,6 +161,11 @@ bool chart_error_take(int index, struct take *out)
 bool chart_is_shown(int setting)
 {
     return chart_settings[setting].label != NULL || chart_curves[chart_settings[setting].curve].bold;
+}
+
+bool chart_is_plain(int setting)
+{
+    return chart_settings[setting].label != NULL && chart_curves[chart_settings[setting].curve].plain != NULL;
 }
 
 bool chart_is_wanted(const struct chart_choice *choice, int condition, int kind, int setting)
