@@ -216,19 +216,17 @@ $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix t
 
 PICTURES := tools/demo/pictures
 
-# Of each machine the name of its screen in platform/demo_player.c, and how much its pixels are enlarged.
-README_SCREENS := pico-240:1 gba:2 oled:2
+# Of each machine the name of its screen in platform/demo_player.c, how much its pixels are enlarged, and which frame of the demo.
+README_SCREENS := pi-640:1:14 pico-240:1:14 gba:2:45
 
-## again: pictures of the README: the loop, what the panels show of frame 45, and the first program's
+## again: pictures of the README: the loop, what panels show, and the first program's
 readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --readme $(PICTURES)
 	for screen in $(README_SCREENS); do \
-	    build/demo/target_screen picture $${screen%:*} 45 180 build/screen.png && \
-	    $(BIN)/smear-demo --enlarge $${screen#*:} build/screen.png $(PICTURES)/$${screen%:*}.png || exit 1; \
+	    set -- $$(echo $$screen | tr : ' ') && \
+	    build/demo/target_screen picture $$1 $$3 180 build/screen.png && \
+	    $(BIN)/smear-demo --enlarge $$2 build/screen.png $(PICTURES)/$$1.png || exit 1; \
 	done
-	$(MAKE) --no-print-directory -s build/host/tiny
-	build/host/tiny 22 build/screen.ppm
-	$(BIN)/smear-demo --enlarge 2 build/screen.ppm $(PICTURES)/microbit.png
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
 
 ## tests: includes run one way: a file includes only what lies in its own room or below

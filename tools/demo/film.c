@@ -9,8 +9,8 @@
 static struct present_options options_of(const struct scene *scene, enum film_look look)
 {
     return (struct present_options){
-        .fps = scene->fps, .shutter_degrees = 180, .exposure = SMEAR_CENTRED,
-        .shutter_poses = true, .method = look == FILM_SHARP ? SMEAR_NONE : SMEAR_AUTO,
+        .fps = scene->fps, .shutter_degrees = look == FILM_SHARP ? 0 : 180, .exposure = SMEAR_CENTRED,
+        .shutter_poses = true, .method = SMEAR_AUTO, .edges = SMEAR_EDGES_SMOOTH,
         .light = SMEAR_LIGHT_LINEAR, .clear = scene->clear,
     };
 }

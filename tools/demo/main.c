@@ -104,9 +104,13 @@ static const struct room demo_rooms[] = {
 /* ------------------------------------------------------------------ of the README */
 
 static const struct exhibit readme_race[] = { README_LOOP };
+static const struct exhibit readme_night[] = {
+    { .name = "oled.png", .kind = OLED, .zoom = 3, .what = "mills on a display of 128x64 in 16 greys, sharp above blurred" },
+};
 
 static const struct room readme_rooms[] = {
     { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
+    { .open = night_open, .exhibit = readme_night, .count = COUNT_OF(readme_night) },
 };
 
 /* ------------------------------------------------------------------ making pictures */
