@@ -37,6 +37,7 @@ static void movers_job(void *argument, int job, int worker)
     struct smear_raster_target t = f->background;
     (void)worker;
     t.over = true;
+    SMEAR_ASSERT(target_is_opaque(&t));
     if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
         smear_raster_list(&rows->raster, &t, lines->list[line_movers_list(lines->picture)]);
 }
@@ -140,7 +141,7 @@ static void look_job(void *argument, int job, int worker)
     for (int32_t y = top; x0 < x1 && y < bottom; y++)
         if (lines->picture != 0 && lines->movers != 0)
             smear_lines_join_depth(lines, &rows->window, x0, x1, y);
-        else if (lines->behind != 0)
+        else if (lines->picture == 0 && lines->behind != 0)
             smear_lines_take_depth(lines, &rows->window, x0, x1, y);
 }
 
@@ -151,23 +152,25 @@ static void behind_job(void *argument, int job, int worker)
     struct smear_raster_target t = f->background;
     (void)worker;
     t.over = true;
+    SMEAR_ASSERT(target_is_opaque(&t));
     if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
         smear_raster_list(&rows->raster, &t, f->self->lines->list[line_list(LINE_BEHIND)]);
 }
 
-/* Draws what stands still far behind a picture of a row into it. */
+/* Draws what stands still far behind a picture of a row into it. The depth of the first picture, in the window, stays what it is. */
 static void draw_behind(struct smear_temporal *self, struct smear_finish *f)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_lines *lines = self->lines;
+    const struct smear_window *w = &rows->window;
     const uint8_t picture = lines->picture;
-    f->background.depth = lines->depth;
-    f->background.window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
     if (rows->refill == NULL && picture == 0)
         temporal_advance(self, rows, line_list(LINE_BEHIND), f->row.row);
     lines->picture = LINE_BEHIND;
     smear_row_run(rows, behind_job, &f->row, FILL_MOVING);
     lines->picture = picture;
+    for (int32_t y = row_top(rows, f->row.row); picture == 0 && y < row_bottom(rows, f->row.row); y++)
+        smear_lines_put_depth(lines, w, y);
 }
 
 /* Draws a further picture of a row. */

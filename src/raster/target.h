@@ -53,6 +53,13 @@ static inline bool target_has_velocity(const struct smear_raster_target *t)
     return SMEAR_WITH_RECONSTRUCT && (t->velocity8 != NULL || t->velocity16 != NULL);
 }
 
+/* Whether opaque lists may be drawn there: rows of colour and depth lie alike. */
+static inline bool target_is_opaque(const struct smear_raster_target *t)
+{
+    const struct smear_plane_rows *const c = &t->color_rows, *const w = &t->window_rows;
+    return c->stride == w->stride && c->ring_row == w->ring_row && c->ring == w->ring && c->x0 == w->x0;
+}
+
 static inline bool target_is_direct(const struct smear_raster_target *t)
 {
     return SMEAR_DIRECT && t->direct != NULL;

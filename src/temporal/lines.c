@@ -184,6 +184,12 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
                      (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
+void smear_lines_put_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t y)
+{
+    __builtin_memcpy(w->depth + window_ring_row(w, y) * w->width, lines->depth + (y & (w->tile - 1)) * w->width,
+                     (uint32_t)w->width * sizeof *w->depth);
+}
+
 int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
                                  int32_t y, uint32_t depth)
 {

@@ -123,6 +123,9 @@ void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_
 /* Copies the depth of columns [x0, x1) of row y of the window to lines->depth. */
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
 
+/* Copies row y of lines->depth back. */
+void smear_lines_put_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t y);
+
 /* Finds the displacements of the blocks of columns [x0, x1) of a tile row whose pictures have been looked at. */
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
 

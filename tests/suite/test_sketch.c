@@ -42,7 +42,7 @@ static void say(const char *format, ...)
 }
 
 /* What is special in a frame. */
-enum kind { PLAIN, ENCODED, TRAILING, LEADING, CURVE, POSES, LONG, FOG, SMOOTH, OVERLAY, FLAT, ZOOM, SKY, CUT, FIXED, KINDS };
+enum kind { PLAIN, ENCODED, TRAILING, LEADING, CURVE, POSES, LONG, FOG, SMOOTH, OVERLAY, FLAT, ZOOM, SKY, HILLS, CUT, FIXED, KINDS };
 
 static void place(smear_transform *pose, double t)
 {
@@ -72,15 +72,21 @@ static smear_camera camera_of(enum kind kind, double t)
     }
     if (kind == FIXED)
         c = camera_at(0.5 * t, 0.1, 0, 0);
+    if (kind == HILLS)
+        c = camera_at(2 * t - 4, 0.1, 0, 0);
     return c;
 }
 
-/* The sky goes where the camera is; with FIXED the mover is carried along. */
+/* The sky goes where the camera is, and so do hills, which are as far as lines draw what stands still on the screen; with FIXED the
+ * mover is carried along. */
 static void carry(smear_transform *pose, const smear_camera *camera, enum kind kind)
 {
     if (kind == SKY)
         for (int k = 0; k < 3; k++)
             pose[WALL].origin[k] = camera->pose.origin[k] + (k == 2 ? -12 * 65536 : 0);
+    if (kind == HILLS)
+        for (int k = 0; k < 3; k++)
+            pose[WALL].origin[k] = camera->pose.origin[k] + (k == 2 ? -20 * 65536 : k == 1 ? -10 * 65536 : 0);
     if (kind == FIXED) {
         pose[MOVER] = pose_at(0.2, 0.1, -2, 0.4, 0.3);
         for (int k = 0; k < 3; k++)
@@ -109,6 +115,8 @@ static void dress(struct world *w)
 static void dress_up(struct world *w, enum kind kind)
 {
     smear_frame *f = &w->frame;
+    if (kind == HILLS)
+        w->material[WALL].texture = NULL;
     f->light_space = kind == ENCODED ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR;
     f->shutter.exposure = kind == TRAILING ? SMEAR_TRAILING : kind == LEADING ? SMEAR_LEADING : SMEAR_CENTRED;
     f->shutter.degrees = kind == LONG ? 720 : 0;
