@@ -216,16 +216,15 @@ $(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix t
 
 PICTURES := tools/demo/pictures
 
-# Of each machine the name of its screen in platform/demo_player.c, how much its pixels are enlarged, and which frame of the demo.
-README_SCREENS := pi-640:1:14 pico-240:1:14 gba:2:45
+# Of each machine the name of its screen in platform/demo_player.c, and how much its pixels are enlarged.
+README_SCREENS := pi-640:1 pico-240:1 gba:2
 
-## again: pictures of the README: the loop, what panels show, and the first program's
+## again: pictures of the README: the loop, what the panels show of frame 14, and the first program's
 readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --readme $(PICTURES)
 	for screen in $(README_SCREENS); do \
-	    set -- $$(echo $$screen | tr : ' ') && \
-	    build/demo/target_screen picture $$1 $$3 180 build/screen.png && \
-	    $(BIN)/smear-demo --enlarge $$2 build/screen.png $(PICTURES)/$$1.png || exit 1; \
+	    build/demo/target_screen picture $${screen%:*} 14 180 build/screen.png && \
+	    $(BIN)/smear-demo --enlarge $${screen#*:} build/screen.png $(PICTURES)/$${screen%:*}.png || exit 1; \
 	done
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
 
