@@ -28,20 +28,28 @@ for report in "$@"; do
     fi
 done
 
+# measure NAME [VARIABLE=VALUE...] of make
 measured=
+measure() {
+    name=$1
+    shift
+    "$make" "$@" "build/$name/target_bench.elf" >"$folder/$name.log" 2>&1 ||
+        { cat "$folder/$name.log" >&2; exit 1; }
+    "$make" -s --no-print-directory "$@" target-bench >"$folder/$name.tmp"
+    mv "$folder/$name.tmp" "$folder/$name.txt"
+    measured="$measured $folder/$name.txt"
+}
+
 if [ -n "$targets" ]; then
-    for target in cortex-m0plus cortex-m4 cortex-m7; do
-        if ! command -v arm-none-eabi-gcc >/dev/null ||
-            ! command -v qemu-system-arm >/dev/null; then
-            echo "bench: $target is left out: no arm-none-eabi-gcc or qemu-system-arm" >&2
-            continue
-        fi
-        "$make" TARGET="$target" "build/$target/target_bench.elf" >"$folder/$target.log" 2>&1 ||
-            { cat "$folder/$target.log" >&2; exit 1; }
-        "$make" -s --no-print-directory TARGET="$target" target-bench >"$folder/$target.tmp"
-        mv "$folder/$target.tmp" "$folder/$target.txt"
-        measured="$measured $folder/$target.txt"
-    done
+    if command -v arm-none-eabi-gcc >/dev/null && command -v qemu-system-arm >/dev/null; then
+        for target in cortex-m0plus cortex-m4 cortex-m7 cortex-m33; do
+            measure "$target" TARGET="$target"
+        done
+        # As an RP2350 has the library.
+        measure cortex-m33-dsp TARGET=cortex-m33 OPT="-O2 -DSMEAR_ASM_ARMV7EM=1" BUILD=build/cortex-m33-dsp
+    else
+        echo "bench: targets are left out: no arm-none-eabi-gcc or qemu-system-arm" >&2
+    fi
 fi
 
 # Words of these lists hold no spaces.

@@ -3,10 +3,11 @@
  * scenes at 320x240), and puts it beside the peers' figures on the same core. */
 #include "tools/bench/sheet.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SCENES = 7, USER_FROM = 5, LINE_LIMIT = 512 };        /* scenes from F on are drawn as a user gets them, too */
+enum { SCENES = 7, USER_FROM = 5, LINE_LIMIT = 512, PATH_LIMIT = 512 };        /* scenes from F on are drawn as a user gets them, too */
 
 static const char *const scenes[SCENES] = { "A", "B64", "C", "D", "E", "F", "F-lit" };
 static const double band_bar[SCENES] = { 1.3, 1.15, 1.3, 1.3, 1.15, 1.3, 1.3 };     /* bands of 16 rows against the whole frame */
@@ -18,15 +19,19 @@ static const struct target {
     double bar[SCENES];
     double user[SCENES];        /* bars of what a user gets who asks for nothing */
     double peer[SCENES];        /* best comparable peer */
+    const char *base;           /* the target without what this one has, and the bar of what it takes of that: a mean; or null */
+    double base_bar;
 } targets[] = {
     { "cortex-m0plus", "no multiply beyond 32 bits; peers: small3dlib",
-      { 26.0, 9.0, 45.0, 34.0, 2.8, 0.0, 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 10.5, 0.0 },
-      { 118.0, 34.2, 176.7, 131.0, 14.4, 27.3, 0.0 } },
+      .bar = { 26.0, 9.0, 45.0, 34.0, 2.8, 0.0, 0.0 }, .user = { 0.0, 0.0, 0.0, 0.0, 0.0, 10.5, 0.0 },
+      .peer = { 118.0, 34.2, 176.7, 131.0, 14.4, 27.3, 0.0 } },
     { "cortex-m4", "without its FPU; peers use it: TGX, small3dlib in D",
-      { 14.0, 5.5, 28.0, 20.0, 1.9, 5.0, 6.5 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 6.2, 7.8 },
-      { 24.9, 8.78, 60.6, 47.6, 3.70, 5.18, 6.54 } },
+      .bar = { 14.0, 5.5, 28.0, 20.0, 1.9, 5.0, 6.5 }, .user = { 0.0, 0.0, 0.0, 0.0, 0.0, 6.2, 7.8 },
+      .peer = { 24.9, 8.78, 60.6, 47.6, 3.70, 5.18, 6.54 } },
     { "cortex-m7", "without its FPU; peers use it: TGX",
-      { 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 5.5, 0.0 }, { 0.0, 0.0, 0.0, 0.0, 0.0, 4.58, 0.0 } },
+      .user = { 0.0, 0.0, 0.0, 0.0, 0.0, 5.5, 0.0 }, .peer = { 0.0, 0.0, 0.0, 0.0, 0.0, 4.58, 0.0 } },
+    { .name = "cortex-m33", .what = "without its FPU and DSP instructions" },
+    { "cortex-m33-dsp", "with its DSP instructions, as a Pico 2 has the library", .base = "cortex-m33", .base_bar = 0.85 },
 };
 
 static const struct target *find_target(const char *path)
@@ -59,6 +64,27 @@ static bool read_tape(const char *path, const char *scene, const char *layout, d
     }
     fclose(file);
     return found || fail(f, "has no figure for %s%s (%s)", name, layout, path);
+}
+
+/* What the frames take of those of the target's base, whose file lies beside `path`: by scene, and the geometric mean. */
+static bool report_base(struct sheet *sheet, const struct target *target, const char *path, struct failure *f)
+{
+    const char *slash = strrchr(path, '/');
+    char base[PATH_LIMIT];
+    double product = 1.0;
+    if (snprintf(base, sizeof base, "%.*s%s.txt", slash != NULL ? (int)(slash + 1 - path) : 0, path, target->base) >= PATH_LIMIT)
+        return fail(f, "the path is too long");
+    printf("\nof %s:", target->base);
+    for (int s = 0; s < SCENES; s++) {
+        double with, without;
+        if (!read_tape(path, scenes[s], "whole", &with, f) || !read_tape(base, scenes[s], "whole", &without, f))
+            return false;
+        printf(" %s %.2f,", scenes[s], with / without);
+        product *= with / without;
+    }
+    const double mean = pow(product, 1.0 / SCENES);
+    printf(" mean %.2f; bar %.2f %s\n", mean, target->base_bar, sheet_most(sheet, mean, target->base_bar));
+    return true;
 }
 
 bool targets_report(struct sheet *sheet, const char *path, struct failure *f)
@@ -94,5 +120,5 @@ bool targets_report(struct sheet *sheet, const char *path, struct failure *f)
         }
         printf("\n");
     }
-    return true;
+    return target->base == NULL || report_base(sheet, target, path, f);
 }
