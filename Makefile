@@ -470,7 +470,7 @@ test-examples: $(LIB)
 
 # flush() for other people's displays (platform/examples), on stand-ins of their headers: one picture on all panels.
 FLUSH_CXX := adafruit_gfx arduino_gfx ili9341_t4 lovyangfx tft_espi u8g2
-FLUSH_ALL := $(filter-out cube fox terminal,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h)))
+FLUSH_ALL := $(filter-out cube fox terminal,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h))) esp_bsp_dsi
 test-flush: $(LIB)
 	CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) \
 	    $(filter-out $(if $(call with_cxx,yes),,$(FLUSH_CXX)),$(FLUSH_ALL))

@@ -4,14 +4,18 @@
 #include <smear_math.h>
 
 static smear_context *ctx;
-#include "display.h"            /* SCREEN_WIDTH, _HEIGHT, _FORMAT, _BANDS where it is 2; display_begin() */
+#include "display.h"            /* SCREEN_WIDTH, _HEIGHT, _FORMAT; where two: _BANDS, _WORKERS; display_begin(), display_workers() */
 #ifndef SCREEN_BANDS
 #define SCREEN_BANDS 1
+#endif
+#ifndef SCREEN_WORKERS
+#define SCREEN_WORKERS 1
 #endif
 
 /* For 32 triangles and 4 draws. */
 static uint64_t memory[SMEAR_MEMORY(SCREEN_WIDTH, SCREEN_HEIGHT, 32, 4, SCREEN_FORMAT)
-                       + (SCREEN_BANDS - 1) * SMEAR_MEMORY_BAND(SCREEN_WIDTH, SCREEN_HEIGHT, SCREEN_FORMAT)];
+                       + (SCREEN_BANDS - 1) * SMEAR_MEMORY_BAND(SCREEN_WIDTH, SCREEN_HEIGHT, SCREEN_FORMAT)
+                       + (SCREEN_WORKERS - 1) * SMEAR_MEMORY_WORKER(SCREEN_WIDTH, SCREEN_HEIGHT)];
 static const int16_t corner[] = { -1, -1, -1,  1, -1, -1,  1, 1, -1,  -1, 1, -1,  -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1 };
 static const uint16_t side[] = {                /* counter-clockwise seen from outside */
     4, 5, 6,  4, 6, 7,  1, 0, 3,  1, 3, 2,  5, 1, 2,  5, 2, 6,  0, 4, 7,  0, 7, 3,  7, 6, 2,  7, 2, 3,  0, 1, 5,  0, 5, 4
@@ -31,6 +35,7 @@ static int cube_begin(void)
     desc.max_draws = 4;
     desc.format = SCREEN_FORMAT;
     desc.bands = SCREEN_BANDS;
+    desc.workers = SCREEN_WORKERS;
     display_begin(&desc);
     cube.position = corner;
     cube.vertex_count = 8;
@@ -41,7 +46,12 @@ static int cube_begin(void)
     frame.clear = 0x203040;
     draw.id = 1;
     draw.mesh = &cube;
-    return smear_init(&ctx, &desc, memory, sizeof memory);
+    const int result = smear_init(&ctx, &desc, memory, sizeof memory);
+#if SCREEN_WORKERS > 1
+    if (result == SMEAR_OK)
+        display_workers();
+#endif
+    return result;
 }
 
 /* Draws one frame: from left to right in 20 frames, turning. */

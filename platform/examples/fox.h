@@ -10,13 +10,17 @@
 #include "coin.h"
 
 static smear_context *ctx;
-#include "display.h"            /* SCREEN_WIDTH, _HEIGHT, _FORMAT, _BANDS where it is 2; display_begin() */
+#include "display.h"            /* SCREEN_WIDTH, _HEIGHT, _FORMAT; where two: _BANDS, _WORKERS; display_begin(), display_workers() */
 #ifndef SCREEN_BANDS
 #define SCREEN_BANDS 1
 #endif
+#ifndef SCREEN_WORKERS
+#define SCREEN_WORKERS 1
+#endif
 
 static uint64_t memory[SMEAR_MEMORY(SCREEN_WIDTH, SCREEN_HEIGHT, MODEL_TRIANGLES, MODEL_DRAWS, SCREEN_FORMAT)
-                       + (SCREEN_BANDS - 1) * SMEAR_MEMORY_BAND(SCREEN_WIDTH, SCREEN_HEIGHT, SCREEN_FORMAT)];
+                       + (SCREEN_BANDS - 1) * SMEAR_MEMORY_BAND(SCREEN_WIDTH, SCREEN_HEIGHT, SCREEN_FORMAT)
+                       + (SCREEN_WORKERS - 1) * SMEAR_MEMORY_WORKER(SCREEN_WIDTH, SCREEN_HEIGHT)];
 static uint64_t actor_memory[MODEL_ACTOR_BYTES(2) / 8];
 static smear_desc desc;                         /* all zero: the default of every field */
 static smear_actor *actor;
@@ -38,6 +42,7 @@ static int fox_begin(void)
     desc.max_draws = MODEL_DRAWS;
     desc.format = SCREEN_FORMAT;
     desc.bands = SCREEN_BANDS;
+    desc.workers = SCREEN_WORKERS;
     display_begin(&desc);
     camera = smear_perspective(SMEAR_DEGREES(40), model->radius / 4, 0);
     camera.pose = smear_compose(view, smear_move(0, 0, model->radius * 3));
@@ -53,6 +58,10 @@ static int fox_begin(void)
     overlay.count = 2;
     play.loop = 1;
     const int result = smear_init(&ctx, &desc, memory, sizeof memory);
+#if SCREEN_WORKERS > 1
+    if (result == SMEAR_OK)
+        display_workers();
+#endif
     return result == SMEAR_OK ? smear_actor_init(&actor, model, 2, actor_memory, sizeof actor_memory) : result;
 }
 

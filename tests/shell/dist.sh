@@ -231,6 +231,12 @@ for places in "$dist/platformio/smear examples include pio" "$made/tree examples
         idf)
             compiles "$name" $cc -std=gnu17 $esp -I"$1/$3" "$folder/main/main.c"
             compiles "$name as C++" $cxx -std=gnu++11 $esp -Wno-missing-field-initializers -fno-exceptions -fno-rtti -I"$1/$3" -x c++ "$folder/main/main.c"
+            bsp=$1/$2/board/main
+            [ $example = cube ] || for display in "" -DBOARD_DSI "-DBOARD_DSI -DCONFIG_FREERTOS_UNICORE"; do
+                compiles "${name%fox}board $display" $cc -std=gnu17 $esp $display -I"$1/$3" "$bsp/main.c"
+                compiles "${name%fox}board as C++ $display" $cxx -std=gnu++11 $esp $display -Wno-missing-field-initializers -fno-exceptions -fno-rtti \
+                    -I"$1/$3" -x c++ "$bsp/main.c"
+            done
             ;;
         zephyr) compiles "$name" $cc $zephyr_flags -I"$1/$3" "$folder/src/main.c" ;;
         pico)

@@ -24,7 +24,7 @@ copy() { # KIND
             cp src/*.h "$base/smear/src" && mkdir "$base/smear/examples" && cp -r examples/cube "$base/smear/examples")
     else
         (cd "$dist/esp-idf/smear" && cp -r README.md LICENSE CMakeLists.txt idf_component.yml "$base/smear" && mkdir "$base/smear/examples" &&
-            cp -r examples/cube examples/fox "$base/smear/examples" && rm "$base/smear/examples/fox/main/model.h")
+            cp -r examples/cube examples/fox examples/board "$base/smear/examples" && rm "$base/smear/examples/"*/main/model.h)
     fi
 }
 # breaks KIND RULE COMMAND...: in a copy, that command; then that rule is broken

@@ -42,10 +42,12 @@ for name in "$@"; do
     u8g2) panel=small option=-DSMALL_PANEL ;;
     ili9341_t4) panel=tall option=-DTALL_PANEL ;;
     playdate) panel=wide option=-DWIDE_PANEL ;;
+    esp_bsp) option=-pthread ;;
+    esp_bsp_dsi) option="-pthread -DBOARD_DSI" ;;
     esac
-    claim "$name" shows "$name" platform/examples/"$name".h $option
+    claim "$name" shows "$name" platform/examples/"${name%_dsi}".h $option
     claim "$name shows the picture" same "$base/$panel/panel" "$base/$name/panel"
     claim "$name in about 15 lines" is_true "$(awk '/^static int display_flush/ { on = 1 } on { n++ } /^}/ { on = 0 } END { print n + 0 }' \
-        platform/examples/"$name".h) <= 15"
+        platform/examples/"${name%_dsi}".h) <= 15"
 done
 finish

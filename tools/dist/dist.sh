@@ -140,6 +140,19 @@ esp_examples() {
     done
 }
 
+# The fox on a board with a support package.
+esp_board() {
+    name=fox what="A converted model, animated and blurred, a sprite and text, on a board's display, by both cores."
+    drawing "$1/board/main" esp_bsp
+    fill $from/esp-idf/example/CMakeLists.txt "$1/board/CMakeLists.txt" ""
+    for file in CMakeLists.txt main.c; do
+        fill $from/esp-idf/example/main/$file "$1/board/main/$file" ""
+    done
+    fill $from/esp-idf/board/idf_component.yml "$1/board/main/idf_component.yml" ""
+    cp $from/esp-idf/board/sdkconfig.defaults* "$1/board"
+    name='' what=''
+}
+
 zephyr_examples() {
     drawing "$1/$name/src" zephyr_display
     fill $from/zephyr/sample/main.c "$1/$name/src/main.c" ""
@@ -231,6 +244,7 @@ fill $from/esp-idf/CMakeLists.txt "$out/esp-idf/smear/CMakeLists.txt" src/
 fill $from/esp-idf/idf_component.yml "$out/esp-idf/smear/idf_component.yml" ""
 esp_kconfig "$out/esp-idf/smear/Kconfig"
 each esp_examples "$out/esp-idf/smear/examples"
+esp_board "$out/esp-idf/smear/examples"
 
 zephyr_definitions
 tree zephyr
@@ -265,6 +279,7 @@ fill $from/platformio/library.json "$all/library.json" ""
 each platformio_examples "$all/examples/platformio"
 plain_example "$all/examples/platformio"
 each esp_examples "$all/examples/esp-idf"
+esp_board "$all/examples/esp-idf"
 each pico_examples "$all/examples/pico-sdk"
 each cmake_examples "$all/examples/cmake"
 root=../..

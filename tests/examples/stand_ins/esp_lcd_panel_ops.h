@@ -24,7 +24,14 @@ typedef struct {
 typedef struct { int reset_gpio_num; unsigned bits_per_pixel; } esp_lcd_panel_dev_config_t;
 enum { SPI2_HOST = 1, SPI_DMA_CH_AUTO = 3 };
 
+typedef struct { esp_lcd_panel_io_color_trans_done_cb_t on_color_trans_done; } esp_lcd_panel_io_callbacks_t;
+typedef struct { int unused; } esp_lcd_dpi_panel_event_data_t;
+typedef bool (*esp_lcd_dpi_panel_color_trans_done_cb_t)(esp_lcd_panel_handle_t panel, esp_lcd_dpi_panel_event_data_t *event, void *user);
+typedef struct { esp_lcd_dpi_panel_color_trans_done_cb_t on_color_trans_done; } esp_lcd_dpi_panel_event_callbacks_t;
+
 static esp_lcd_panel_io_spi_config_t stand_in_io;
+static esp_lcd_dpi_panel_color_trans_done_cb_t stand_in_dsi;      /* of a DSI, which takes one band at a time */
+static int stand_in_top;        /* row of the display in which the panel's first one is */
 static esp_err_t stand_in_ready = 1;
 
 static inline void stand_in_interrupt(void)
@@ -32,7 +39,24 @@ static inline void stand_in_interrupt(void)
     if (panel_queued == 0)
         return;
     panel_send_first();
-    stand_in_io.on_color_trans_done(NULL, NULL, stand_in_io.user_ctx);
+    if (stand_in_dsi != NULL)
+        stand_in_dsi(NULL, NULL, NULL);
+    else
+        stand_in_io.on_color_trans_done(NULL, NULL, stand_in_io.user_ctx);
+}
+
+static inline esp_err_t esp_lcd_panel_io_register_event_callbacks(esp_lcd_panel_io_handle_t io,
+                                                                  const esp_lcd_panel_io_callbacks_t *callbacks, void *user)
+{
+    stand_in_io.on_color_trans_done = callbacks->on_color_trans_done;
+    return (void)io, (void)user, ESP_OK;
+}
+
+static inline esp_err_t esp_lcd_dpi_panel_register_event_callbacks(esp_lcd_panel_handle_t panel,
+                                                                   const esp_lcd_dpi_panel_event_callbacks_t *callbacks, void *user)
+{
+    stand_in_dsi = callbacks->on_color_trans_done;
+    return (void)panel, (void)user, ESP_OK;
 }
 
 static inline esp_err_t spi_bus_initialize(int host, const spi_bus_config_t *bus, int dma)
@@ -77,9 +101,11 @@ static inline esp_err_t esp_lcd_panel_disp_on_off(esp_lcd_panel_handle_t panel, 
 static inline esp_err_t esp_lcd_panel_draw_bitmap(esp_lcd_panel_handle_t panel, int x0, int y0, int x1, int y1, const void *data)
 {
     (void)panel;
+    if (stand_in_dsi != NULL && panel_queued > 0)
+        return 1;
     while (panel_queued >= 2)
         stand_in_interrupt();
-    panel_queue_band(x0, y0, x1 - x0, y1 - y0, data);
+    panel_queue_band(x0, y0 - stand_in_top, x1 - x0, y1 - y0, data);
     return stand_in_ready;
 }
 
