@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* fox.h - a converted model that plays its first clip, blurred, below a sprite that turns and a line of text, on the display of
+/* fox.h - a converted model that plays its first clip, or turns, blurred, below a sprite that turns and a line of text, on the display of
  * display.h: what all examples draw. C99 or C++11.
  *
  *     smear convert Fox.glb --clip Run --texture-size 64 --name model -o model.h
@@ -69,6 +69,14 @@ static int fox_begin(void)
 static int fox_frame(void)
 {
     static uint32_t number;
+    const smear_model *model = &model_model;
+    static smear_transform place;
+    if (model->clip_count == 0) {           /* what has no clip turns about itself */
+        place = smear_move(model->center[0], model->center[1], model->center[2]);
+        place = smear_compose(place, smear_rotate_y(number * SMEAR_DEGREES(8)));
+        place = smear_compose(place, smear_move(-model->center[0], -model->center[1], -model->center[2]));
+        play.place = &place;
+    }
     play.time = (int32_t)(number * 65536u / 30u & INT32_MAX);
     item[0].cell = (uint16_t)(number / 3u % coin.cells);
     number++;
