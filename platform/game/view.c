@@ -202,7 +202,8 @@ static const smear_overlay *overlay_of(const struct race *race, int16_t width, i
     int16_t middle = width;
     for (const char *c = text[2]; *c != '\0'; c++)
         middle = (int16_t)(middle - 2 * letter);
-    item[0] = (smear_overlay_item){ .x = edge, .y = edge, .text = text[0], .font = &smear_font_8x8, .scale = (uint8_t)(letter / 8) };
+    const smear_font *clock = width < 128 ? &smear_font_6x8 : &smear_font_8x8;       /* beside the place */
+    item[0] = (smear_overlay_item){ .x = edge, .y = edge, .text = text[0], .font = clock, .scale = (uint8_t)(letter / 8) };
     item[1] = (smear_overlay_item){ .x = (int16_t)(width - edge - 66), .y = edge, .text = text[1], .font = &smear_font_6x8,
                                     .color = { 255, 240, 150, 255 } };
     item[2] = (smear_overlay_item){ .x = (int16_t)(middle / 2), .y = (int16_t)(height / 3), .text = text[2],
