@@ -417,22 +417,13 @@ void smear_line_means(const struct line_block *b, bool linear)
 
 /* ------------------------------------------------------------------ means of pictures */
 
-/* The part of each of k + 1 codes, q8: a sum times `whole`, and times `fine` 32 times as finely. Sums of eight codes have 11 bits. */
-struct mix_part {
-    uint32_t whole, fine;
-};
+enum { THIRD = 3 };             /* the mean of so many is a product by 85 and a quarter, in 16 bits: 256 / 3 = 85.33 */
 
-static inline struct mix_part mix_part_of(uint32_t k)
+/* Returns the mean of k codes in each half of a word, and one more; `part` of each, q8. */
+static inline uint32_t mixed_halves(uint32_t mean, uint32_t more, uint32_t k, uint32_t part)
 {
-    const uint32_t part = 65536 / (k + 1);
-    return (struct mix_part){ part >> 8, part >> 3 & 31u };
-}
-
-/* Returns the mean of k codes in each half of a word, and one more. */
-static inline uint32_t mixed_halves(uint32_t mean, uint32_t more, uint32_t k, struct mix_part part)
-{
-    const uint32_t sum = k * (mean & 0xff00ffu) + (more & 0xff00ffu), low = (sum & 0x7ffu) * part.fine, high = (sum >> 16) * part.fine;
-    return (sum * part.whole + (high >> 5 << 16) + (low >> 5) + 0x800080u) >> 8 & 0xff00ffu;
+    const uint32_t sum = k * (mean & 0xff00ffu) + (more & 0xff00ffu);
+    return (sum * part + (k + 1 == THIRD ? sum >> 2 & 0xff00ffu : 0) + 0x800080u) >> 8 & 0xff00ffu;
 }
 
 /* `part`: of each, q16. */
@@ -453,32 +444,18 @@ static inline bool is_near(uint32_t a, uint32_t b)
     return ((((a >> 1 & 0x7f7f7fu) | 0x808080u) - (b >> 1 & 0x7f7f7fu) + 0x080808u) & 0xf0f0f0u) == 0x808080u;
 }
 
-static inline uint32_t mixed(uint32_t mean, uint32_t more, uint32_t k, struct mix_part part)
-{
-    if (k == 1)
-        return line_between(mean, more) & 0xffffffu;
-    return mixed_halves(mean, more, k, part) | (mixed_halves(mean >> 8, more >> 8, k, part) & 0xffu) << 8;
-}
-
-/* Of three pictures and the fourth. */
-static inline uint32_t mixed_fourth(uint32_t mean, uint32_t more)
-{
-    const uint32_t red_blue = 3 * (mean & 0xff00ffu) + (more & 0xff00ffu) + 0x20002u, green = 3 * (mean & 0xff00u) + (more & 0xff00u) + 0x200u;
-    return (red_blue >> 2 & 0xff00ffu) | (green >> 2 & 0xff00u);
-}
-
 void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
-    const uint32_t q16 = 65536 / ((uint32_t)k + 1);
-    const struct mix_part part = mix_part_of((uint32_t)k);
+    const uint32_t weight = (uint32_t)k, part = 65536 / (weight + 1);
     for (const uint32_t *const end = mean + n; mean != end; mean++, more++) {
         const uint32_t a = *mean, b = *more;
         if (a == b)
             continue;
         if (SMEAR_WITH_LINEAR && linear && !is_near(a, b))
-            *mean = mixed_light(a, b, (uint32_t)k, q16);
+            *mean = mixed_light(a, b, weight, part);
         else
-            *mean = k == 3 ? mixed_fourth(a, b) : mixed(a, b, (uint32_t)k, part);
+            *mean = k == 1 ? line_between(a, b) & 0xffffffu
+                           : mixed_halves(a, b, weight, part >> 8) | (mixed_halves(a >> 8, b >> 8, weight, part >> 8) & 0xffu) << 8;
     }
 }
 
@@ -490,45 +467,39 @@ void smear_line_join_reference(uint16_t *nearest, const uint16_t *more, int32_t 
 }
 
 #if SMEAR_VECTORS
-static inline smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, smear_v4u k, smear_v4u part, smear_v4u fine)
+static inline smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, smear_v4u k, smear_v4u part, bool third)
 {
-    const smear_v4u sum = v4u_mul16(mean & 0xff00ffu, k) + (more & 0xff00ffu);
-    return (v4u_mul16(sum, part) + (v4u_mul16(sum, fine) >> 5 & 0x7ff07ffu) + 0x800080u) >> 8 & 0xff00ffu;
+    const smear_v4u sum = v4u_mul16(mean & 0xff00ffu, k) + (more & 0xff00ffu), quarter = sum >> 2 & 0xff00ffu;
+    return (v4u_mul16(sum, part) + (third ? quarter : quarter ^ quarter) + 0x800080u) >> 8 & 0xff00ffu;
 }
 
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
-    const struct mix_part part = mix_part_of((uint32_t)k);
-    const uint32_t weight = 0x10001u * (uint32_t)k, whole = 0x10001u * part.whole, fine = 0x10001u * part.fine;
-    const smear_v4u weights = { weight, weight, weight, weight }, wholes = { whole, whole, whole, whole }, fines = { fine, fine, fine, fine };
+    const uint32_t weight = 0x10001u * (uint32_t)k, part = 0x10001u * (256u / ((uint32_t)k + 1u));
+    const smear_v4u weights = { weight, weight, weight, weight }, parts = { part, part, part, part };
     int32_t i = 0;
     for (; i + 4 <= n; i += 4) {
-        const smear_v4u a = v4u_load(mean + i), b = v4u_load(more + i);
-        if (!v4u_any(a ^ b))
+        const smear_v4u a = v4u_load(mean + i), b = v4u_load(more + i), differs = (smear_v4u)(a != b);
+        if (!v4u_any(differs))
             continue;
         const smear_v4u half = (a >> 1 & 0x7f7f7fu) | 0x808080u, other = b >> 1 & 0x7f7f7fu;
         if (SMEAR_WITH_LINEAR && linear && v4u_any(((half - other + 0x080808u) & 0xf0f0f0u) ^ 0x808080u)) {
             smear_line_mix_reference(mean + i, more + i, 4, k, true);
             continue;
         }
-        const smear_v4u red_blue = mixed_halves4(a, b, weights, wholes, fines);
-        const smear_v4u differs = (smear_v4u)(a != b), mix = red_blue | (mixed_halves4(a >> 8, b >> 8, weights, wholes, fines) & 0xffu) << 8;
-        v4u_store(mean + i, (a & ~differs) | (mix & differs));
+        const smear_v4u green = mixed_halves4(a >> 8, b >> 8, weights, parts, k + 1 == THIRD) & 0xffu;
+        v4u_store(mean + i, (a & ~differs) | ((mixed_halves4(a, b, weights, parts, k + 1 == THIRD) | green << 8) & differs));
     }
     smear_line_mix_reference(mean + i, more + i, n - i, k, linear);
 }
 
 void smear_line_join(uint16_t *nearest, const uint16_t *more, int32_t n)
 {
-    int32_t i = 0;
-    for (; i + 8 <= n; i += 8) {
-        smear_v8u a, b;
-        __builtin_memcpy(&a, nearest + i, sizeof a);
-        __builtin_memcpy(&b, more + i, sizeof b);
-        a = b + v8u_less(a, b);
-        __builtin_memcpy(nearest + i, &a, sizeof a);
+    for (; n >= 8; n -= 8, nearest += 8, more += 8) {
+        const smear_v8u b = (smear_v8u)v8i_load(more), a = b + v8u_less((smear_v8u)v8i_load(nearest), b);
+        __builtin_memcpy(nearest, &a, sizeof a);
     }
-    smear_line_join_reference(nearest + i, more + i, n - i);
+    smear_line_join_reference(nearest, more, n);
 }
 #else
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)

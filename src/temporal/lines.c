@@ -216,7 +216,7 @@ int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smea
 /* Places two taps per pixel of the way, evenly. */
 static void place_taps(struct taps *t, int32_t x, int32_t y, int pictures)
 {
-    enum { LONG = 8 * 256,              /* so that what is four pixels beside each other on it is nearly alike; half of it for one picture */
+    enum { LONG = 8 * 256,              /* so that four pixels beside each other on it are nearly alike; half of it for one picture */
            LEVEL_LOG2 = 1 };            /* and two lie between them across */
     const int32_t length = max_i32(abs_i32(x), abs_i32(y));
     int32_t log = 0;
@@ -304,8 +304,8 @@ void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear
 }
 
 /* Finds how a block goes if it shows something at a depth. */
-static void displace_block(const struct smear_lines *lines, const struct smear_window *w, struct smear_line_seen *seen, int32_t x, int32_t y,
-                           uint32_t depth)
+static void displace_block(const struct smear_lines *lines, const struct smear_window *w, struct smear_line_seen *seen, int32_t x,
+                           int32_t y, uint32_t depth)
 {
     int32_t d[2];
     const uint32_t times = (uint32_t)smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, w->width - 1),

@@ -127,10 +127,10 @@ static void prepare_mix(struct kernel_call *c)
 
 static void mix(struct kernel_call *c, void (*mixes)(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear), bool linear)
 {
-    mixes(c->plane[OUT], c->plane[IN], c->n, 1 + (int32_t)(c->word[LOG] % 7u), linear);
+    mixes(c->plane[OUT], c->plane[IN], c->n, 1 + (int32_t)(c->word[LOG] % 3u), linear);
 }
 
-/* Each channel by itself; what is no whole part of 256 is told to a 32nd. Words that are the same stay. */
+/* Each channel by itself; a third is 85 and a quarter of 256. Words that are the same stay. */
 static void mix_one_by_one(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
     for (int32_t i = 0; i < n; i++) {
@@ -143,7 +143,7 @@ static void mix_one_by_one(uint32_t *mean, const uint32_t *more, int32_t n, int3
         for (int channel = 0; channel < 24; channel += 8) {
             const uint32_t a = mean[i] >> channel & 0xffu, b = more[i] >> channel & 0xffu, count = (uint32_t)k + 1u;
             const uint32_t sum = (uint32_t)k * a + b, lights = (uint32_t)k * smear_srgb_light[a] + smear_srgb_light[b];
-            const uint32_t part = 8192 / count, code = (sum * (part / 32) + sum * (part % 32) / 32 + 128) / 256;
+            const uint32_t code = count == 3 ? (85 * sum + sum / 4 + 128) / 256 : (2 * sum + count) / (2 * count);
             out |= (light ? smear_srgb_encode[(lights * (65536 / count) + 32768) >> 16] : code) << channel;
         }
         mean[i] = mean[i] == more[i] ? more[i] : out;
