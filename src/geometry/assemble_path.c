@@ -440,8 +440,10 @@ static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, con
     }
     if (e.passes)
         travel = max_i32(a->viewport.width, a->viewport.height) << 8;
-    /* Vertices without a path in space go along that on the screen from place to place. */
-    const int32_t margin = 1 + (curvature >> (8 + 3)) + bins_margin(a->bins);
+    /* Vertices without a path in space go along that on the screen from place to place. Places are rounded: where the near plane is few of
+     * their units away, one is many pixels. */
+    const int32_t rounded = depths_are_even(&space.depths) ? 0 : (2 << space.depths.coarse) / space.depths.near_distance;
+    const int32_t margin = 1 + (curvature >> (8 + 3)) + rounded + bins_margin(a->bins);
     struct box box = { (e.x0 >> 8) - margin, (e.y0 >> 8) - margin, (e.x1 >> 8) + 1 + margin, (e.y1 >> 8) + 1 + margin };
     box_cut(&box, a);
     if (box_is_empty(&box) || (!is_blend(batch->d) && (box.x0 >= a->path_x1 || box.x1 <= a->path_x0)))
