@@ -574,7 +574,7 @@ static void make_layers(struct fuzz_case *c)
 static uint16_t some_samples(struct fuzz_case *c, uint8_t method)
 {
     struct source *s = &c->source;
-    const int large = c->desc.width * c->desc.height > 4000 ? 4 : 1;
+    const int large = c->desc.width * c->desc.height > 4000 || c->triangles > CASE_DEAR ? 4 : 1;
     if (method == SMEAR_ACCUMULATE || method == SMEAR_DEFAULT_METHOD)
         return (uint16_t)source_range(s, 1, 6 / large + 1);
     if (method == SMEAR_SUBFRAMES)
@@ -601,7 +601,7 @@ static void make_settings(struct fuzz_case *c)
         c->frame.scale = (smear_motion_scale){ a_scale(s), a_scale(s), a_scale(s) };
     if (has(&c->desc, SMEAR_SET_TEMPORAL)) {
         c->frame.target = (uint16_t)source_range(s, SMEAR_BALANCED, source_chance(s, 3) ? 65535 : 1000);
-        if (source_chance(s, c->large ? 2 : 12))
+        if (c->triangles <= CASE_DEAR && source_chance(s, c->large ? 2 : 12))
             c->frame.target = (uint16_t)option(s, 2, 1, SMEAR_BALANCED);
         c->frame.budget = source_chance(s, 6) ? (uint32_t)source_any(s) : 0;
         const bool can = method == SMEAR_AUTO || method == SMEAR_SUBFRAMES;

@@ -38,7 +38,8 @@ enum { CASE_TEXTURES = 3,
        CASE_POINTS = 12,
        CASE_BLOCKS = 64 };
 
-enum { HUGE_ROOM = 30000 };      /* triangles of a huge mesh, all of which may pass the eye: in parts, it would take minutes */
+enum { HUGE_ROOM = 30000,       /* triangles of a huge mesh, all of which may pass the eye: in parts, it would take minutes */
+       CASE_DEAR = 2500 };      /* triangles of a case of many of which more are dear: fewer instants, seldom parts */
 
 struct fuzz_case {
     struct source source;

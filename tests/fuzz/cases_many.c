@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* cases_many.c - cases of 256 to 20,000 triangles, drawn by 2 to 8 workers, with room for all or for some: see cases.h. From 256
- * on, workers assemble draws in parts of their own, and draw rows of tiles apart. */
+ * on, workers assemble draws in parts of their own, and draw rows of tiles apart. Pictures are of 8 x 8 to 180 x 160 pixels; in parts, of
+ * 90 x 60 at most, and of more than CASE_DEAR triangles one case of eight is: a row is filled again for each instant. */
 #include "tests/fuzz/cases.h"
 
 #include <stdlib.h>
@@ -12,7 +13,8 @@ enum { LEAST = 256,
 void case_make_many(struct fuzz_case *c, uint64_t number)
 {
     struct source s = { .state = number * 0x9fb21c651e98df25u };
-    const int halves = source_range(&s, 0, 6), most = MOST >> halves; /* few as often as many */
+    const int fewer = source_range(&s, 0, 6), halves = fewer > 2 || source_chance(&s, 4) ? fewer : fewer + 3; /* few more often than many */
+    const int most = MOST >> halves;
     const int triangles = source_range(&s, most / 2 > LEAST ? most / 2 : LEAST, most);
     const int draws = source_chance(&s, 3) ? 1 : source_range(&s, 1, CASE_DRAWS);
     case_make_of(c, s.state, triangles, draws);
@@ -22,11 +24,12 @@ void case_many_desc(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     smear_desc *d = &c->desc;
-    d->width = (int16_t)source_range(s, 8, 180);
-    d->height = (int16_t)source_range(s, 8, source_chance(s, 2) ? 60 : 160);
-    d->workers = (uint8_t)source_range(s, 2, 8);
     const int32_t some = source_range(s, c->triangles / 16, c->triangles / 2);
-    d->max_triangles = (uint32_t)(source_chance(s, 3) ? 4 * c->triangles : some);
+    const bool has_room = source_chance(s, 3) || (c->triangles > CASE_DEAR && !source_chance(s, 8));
+    d->max_triangles = (uint32_t)(has_room ? 4 * c->triangles : some);
+    d->width = (int16_t)source_range(s, 8, has_room ? 180 : 90);
+    d->height = (int16_t)source_range(s, 8, source_chance(s, 2) ? 30 : has_room ? 160 : 60);
+    d->workers = (uint8_t)source_range(s, 2, 8);
     if (source_chance(s, 4)) /* rows of tiles apart: what takes no window, beside what takes memory */
         d->methods = (uint16_t)(SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_AUTO));
 }
