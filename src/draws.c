@@ -90,6 +90,14 @@ static SMEAR_NOINLINE bool assemble_one(const struct smear_context *c, struct sm
     return done;
 }
 
+static bool turns_inside_out(const struct smear_draw_poses *p, bool mirrored)
+{
+    for (int i = 1; SMEAR_BLURS && i < 3; i++)
+        if (p->object[i] != p->object[0] && smear_transform_is_mirrored(p->object[i]) != mirrored)
+            return true;
+    return false;
+}
+
 SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
                                               struct smear_assembly *a)
 {
@@ -103,6 +111,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     a->material = draw->material != NULL ? draw->material : &white;
     a->draw = (uint16_t)i;
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
+    a->backs = a->material->double_sided || turns_inside_out(&poses, a->mirrored);
     a->moves = 0;
     a->path = a->has_rest = false;
     /* Fog, of which a tiny triangle has one part however the frame is cut, and velocities that are not those of the depth. */

@@ -296,7 +296,7 @@ static void batch_start(struct batch *b)
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
              && bins_margin(g) == 0;
-    b->double_sided = d->material->double_sided;
+    b->double_sided = d->backs;
     if (d->shading.lit || !d->shading.white)
         return;
     if (s->shade == SHADE_FLAT && mesh->color == NULL)

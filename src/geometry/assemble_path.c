@@ -539,12 +539,12 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         if (codes & IN_SPACE) {     /* bounds tell which sides are seen */
             find_places(b, v);
             return add_triangle(b, v[0], v[d->mirrored ? 1 : 2], v[d->mirrored ? 2 : 1], triangle, false)
-                && (!d->material->double_sided
+                && (!d->backs
                     || add_triangle(b, v[0], v[d->mirrored ? 2 : 1], v[d->mirrored ? 1 : 2], triangle, true));
         }
     }
     /* Which sides are seen at some instant; a side that is not drawn counts as seen. */
-    bool front = false, behind = !d->material->double_sided;
+    bool front = false, behind = !d->backs;
     struct path_vertex *v1 = v[d->mirrored ? 1 : 2], *v2 = v[d->mirrored ? 2 : 1];
     for (int key = 0; key < KEYS && !(front && behind); key++) {
         int64_t area = area_of(&v[0]->screen[key], &v1->screen[key], &v2->screen[key]);
@@ -552,7 +552,7 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         behind = behind || area < 0;
     }
     return (!front || add_triangle(b, v[0], v1, v2, triangle, false))
-        && (!behind || !d->material->double_sided || add_triangle(b, v[0], v2, v1, triangle, true));
+        && (!behind || !d->backs || add_triangle(b, v[0], v2, v1, triangle, true));
 }
 
 bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)

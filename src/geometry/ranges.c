@@ -87,7 +87,7 @@ static void look_at_ranges(struct smear_assembler *a, const struct smear_assembl
 {
     const uint32_t most = 1u << a->bins->range_shift;
     struct smear_segment none = { 0 };
-    const struct batch b = { .a = a, .d = d, .segment = &none, .double_sided = d->material->double_sided != 0 };
+    const struct batch b = { .a = a, .d = d, .segment = &none, .double_sided = d->backs };
     struct places r;
     smear_bins_reset(a->bins, 0, a->bins->row_count);
     r.setup = places_setup(&b);

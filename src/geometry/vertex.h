@@ -137,6 +137,7 @@ struct smear_assembly {
     uint32_t first, end;                /* its triangles that are assembled */
     uint16_t draw;                      /* its index, for the raster */
     bool mirrored;                      /* negative determinant: the winding flips */
+    bool backs;                         /* faces are seen from behind, too: what turns inside out has either in front */
     bool path;                          /* motion.key is set, and records get a path (path.h); moves is 0 */
     bool flat;                          /* triangles have one colour each, though vertices have normals or colours */
     bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */

@@ -585,4 +585,32 @@ static void test_the_exposure_of_a_fixed_shutter_is_exact(void)
         }
 }
 
+/* Its x goes from 1 to -1, past 0 in the middle: it is in front of the wall all the time, though faces are wound the other way then. */
+static void test_what_turns_inside_out_is_seen_before_and_after(void)
+{
+    static const struct { uint8_t method, samples; } by[] = {
+        { SMEAR_ACCUMULATE, 32 }, { SMEAR_SUBFRAMES, 32 }, { SMEAR_TIMEMASK, 32 }, { SMEAR_AUTO, 0 }
+    };
+    smear_desc desc = small_desc(WIDTH, HEIGHT);
+    desc.methods = SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
+    RIG(r, &desc, false);
+    for (int i = 0; i < (int)(sizeof by / sizeof *by); i++) {
+        struct stage s;
+        stage_make(&s, by[i].method, VERTICES);
+        smear_transform close = s.square;
+        s.material[1].double_sided = 0;
+        s.square.basis[0] = 1 << 18;
+        close.basis[0] = -close.basis[0];
+        s.draw[1].close = &close;
+        s.frame.samples = by[i].samples;
+        s.frame.light_space = SMEAR_LIGHT_ENCODED;
+        s.frame.shutter.poses = 1;
+        REQUIRE(rig_frame(&r, &s.frame, s.draw, 2) == SMEAR_OK);
+        const uint8_t red = r.picture[(HEIGHT / 2 * WIDTH + WIDTH / 2) * 4 + 2];
+        if (!CHECK(red > 170)) /* of 200; the wall has 60 */
+            say("      method %d: %d\n", by[i].method, red);
+        rig_forget_output(&r);
+    }
+}
+
 #include "build/suites/motion.h"
