@@ -332,6 +332,7 @@ uint32_t smear_gather_merge(const struct smear_layer_area *a)
     struct gathering g = { .a = a, .color = l->color, .depth = l->depth, .width = l->width };
     g.taps.count = a->samples;
     g.taps.over = 16384 / a->samples;
+    probes_start(&g, g.top);
     uint32_t taken = 0;
     for (int32_t y = 0; y < a->height; y++) {
         const uint16_t *depth = a->background_depth + y * a->background_stride;
