@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_near.c - surfaces that lie closely above each other while both pass the near plane: the upper one is seen by every
- * method as the mean of many instants has it. */
+ * method as the mean of many instants has it. And what begins in the eye. */
 #include "tests/rig.h"
 
 enum { WIDTH = 120, HEIGHT = 80, BYTES = WIDTH * HEIGHT * 4 };
