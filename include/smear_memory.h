@@ -89,7 +89,7 @@ static inline size_t smear_memory_needed(int result)
     (SMEAR_WORKER_BYTES_(w, T) + (w) * SMEAR_MIN_(T, h) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
      + ((h) + (T) - 1u) / (T) * 12u)
 /* Sketches: at least the reach; two tile rows and the reach of colour and depth, and one more that lines have blurred, and once more
- * its colours where sums have no room for them; what its blocks show, and three rows above, and what moves by itself there. Draws have flows. */
+ * its colours where sums have no room for them; what blocks of four rows show, and what moves by itself there. Draws have flows. */
 #define SMEAR_SKETCH_TILE_(h) ((h) <= 179 ? 8u : (h) <= 339 ? 16u : (h) <= 659 ? 32u : 64u)
 #define SMEAR_SKETCH_COLUMNS_(w, T) ((T) == 8u ? SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u) : (w) > 128u ? 144u : SMEAR_UP_(w, T))
 #define SMEAR_SKETCH_ROWS_(w, h, T, bits) \

@@ -34,7 +34,7 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
 
 /* The part of the contrast that pictures leave of the squared error, q16: medians of five scenes of the suite, three rooms and twelve
  * models that a camera goes round, of which 80 % lie within 0.7 and 1.3 of the error that it tells. */
-static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1050, 820 };
+static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 };
 
 /* Returns the squared error that so many pictures may have, in quarters of what is asked for: a sketch's second picture costs as much as
  * its first. */
@@ -52,7 +52,7 @@ static int pictures_for(const struct smear_lines *lines, int32_t target)
     int k = fewest(target);
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
-           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 16 * (allowed(k, target) * (k < lines->pictures ? 3 : 4)))
+           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 32 * (allowed(k, target) * (k < lines->pictures ? 7 : 8)))
         k++;
     return k;
 }
