@@ -387,7 +387,7 @@ typedef struct smear_desc {
     uint8_t bands;              /* 1 or 2 band buffers; 0 means 1. With 2, drawing goes on while one is sent */
     uint8_t format;             /* smear_format */
     uint8_t workers;            /* 1..8 cores that assemble draws and run tile jobs; 0 means 1 */
-    uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 64 */
+    uint16_t vertex_cache;      /* transformed vertices remembered, a power of two 16..4096; 0 means 128 */
     smear_reuse reuse;
     smear_filter_room filter;   /* smear_methods.h */
     smear_display display;

@@ -51,7 +51,7 @@ static inline size_t smear_memory_needed(int result)
 #define SMEAR_TEMPORAL_TRIANGLE_BYTES 64u   /* with temporal methods: list entry (32), places at three instants: 36
                                              * bytes per vertex */
 #define SMEAR_FLOW_BYTES 61u                /* how it moves in sketches */
-#define SMEAR_CACHE_BYTES 40u               /* a transformed vertex in the cache */
+#define SMEAR_CACHE_BYTES 24u               /* a transformed vertex in the cache */
 #define SMEAR_STRIP 128                     /* strips this wide and wider take 16 columns more */
 
 /* NAME_ is for this file only: w h width and height, t triangles, d draws, f format, T tile. */
@@ -63,7 +63,7 @@ static inline size_t smear_memory_needed(int result)
 #define SMEAR_MIN_(a, b) ((a) < (b) ? (a) : (b))
 #define SMEAR_UP_(size, step) (((size) + (step) - 1u) / (step) * (step))
 /* With alignment, and the least list of triangles. */
-#define SMEAR_FIXED_BYTES_ (SMEAR_CONTEXT_BYTES + SMEAR_OLDER_CAMERA_BYTES + 64u * SMEAR_CACHE_BYTES + 448u)
+#define SMEAR_FIXED_BYTES_ (SMEAR_CONTEXT_BYTES + SMEAR_OLDER_CAMERA_BYTES + 128u * SMEAR_CACHE_BYTES + 448u)
 #define SMEAR_DRAW_BYTES_ \
     (SMEAR_SUBMITTED_BYTES + SMEAR_SAMPLER_BYTES + SMEAR_KEPT_BYTES + SMEAR_SEGMENT_BYTES \
      + (SMEAR_WITH_CURVES ? SMEAR_OLDER_BYTES : 0u))

@@ -83,7 +83,7 @@ static const struct field desc_fields[] = {
     DESC(width, WIDTH, 0, 1, 2048), DESC(height, HEIGHT, 0, 1, 2048),
     DESC(max_triangles, TRIANGLES, 1024, 1, 16u << 20), DESC(max_draws, DRAWS, 16, 1, 65535),
     DESC(bands, BANDS, 1, 1, 2), DESC(format, FORMAT, 0, 0, SMEAR_L1_PAGES),
-    DESC(workers, WORKERS, 1, 1, SMEAR_WORKERS_MAX), DESC(vertex_cache, VERTEX_CACHE, 64, 16, 4096),
+    DESC(workers, WORKERS, 1, 1, SMEAR_WORKERS_MAX), DESC(vertex_cache, VERTEX_CACHE, 128, 16, 4096),
     DESC(reuse.cache_static, CACHE_STATIC, 0, 0, SMEAR_CACHE_STATIC_MOST),
     DESC(reuse.buffer_age, BUFFER_AGE, 0, 0, SMEAR_BUFFER_AGE_MOST),
     DESC(reuse.one_pose, ONE_POSE, 0, 0, 1),

@@ -29,9 +29,9 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
     return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }
 
-/* Stores a vertex; returns the first word of its record. `known`: where it is now, before the division, or null. */
-static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen,
-                                            const struct smear_homogeneous *known, uint32_t triangle, bool back)
+/* Stores a vertex; returns the first word of its record. */
+static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle,
+                                            bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
@@ -51,7 +51,7 @@ static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t inde
         smear_vertex_store_color(record + s->color, d, index, triangle, back);
     }
     if (segment_moves(s) != 0)
-        smear_batch_store_motion(record + s->motion, b, index, screen, known);
+        smear_batch_store_motion(record + s->motion, b, index, screen);
     return word;
 }
 
@@ -62,7 +62,7 @@ static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_
     const bool shares = batch_shares(b, back);
     if (shares && v->stored > b->segment->base)
         return v->stored - 1;
-    uint32_t word = store_vertex(b, index_of(v), &v->screen, cached_now(v), triangle, back);
+    uint32_t word = store_vertex(b, index_of(v), &v->screen, triangle, back);
     if (shares)
         v->stored = word + 1;
     return word;
@@ -153,10 +153,10 @@ void smear_assembler_reset(struct smear_assembler *a)
 static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
                                struct smear_cached_vertex *v, uint32_t tag)
 {
-    struct smear_homogeneous passing, *const kept = cached_now(v), *const now = kept != NULL ? kept : &passing;
+    struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
-    v->outcode = placement_project(&v->screen, now, &d->at, tag & 0xffffu, &a->viewport);
+    v->outcode = placement_project(&v->screen, &h, &d->at, tag & 0xffffu, &a->viewport);
 }
 
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
@@ -389,7 +389,7 @@ static inline uint32_t stored_place(const struct batch *b, const struct seen *t,
     const uint32_t index = t->index[i];
     if (shares && r->stored[index] > b->segment->base)
         return r->stored[index] - 1;
-    const uint32_t word = store_vertex(b, index, &r->place[index].screen, NULL, t->triangle, t->back);
+    const uint32_t word = store_vertex(b, index, &r->place[index].screen, t->triangle, t->back);
     if (shares)
         r->stored[index] = word + 1;
     return word;
@@ -499,8 +499,6 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
             v[i].screen = r->place[t->index[i]].screen;
             v[i].outcode = outcode_sides(&v[i].screen, viewport);
             v[i].tag = t->index[i];
-            if (segment_moves(b->segment) != 0)
-                placement_transform(cached_now(&v[i]), &b->d->at, t->index[i]);
         }
         v[i].stored = r->stored[t->index[i]];
     }

@@ -11,17 +11,6 @@ static inline uint32_t index_of(const struct smear_cached_vertex *v)
     return v->tag & 0xffffu;
 }
 
-/* Returns where a vertex is now, before the division; null where the cache has no room for that. */
-static inline struct smear_homogeneous *cached_now(struct smear_cached_vertex *v)
-{
-#if SMEAR_FAST_STACK
-    (void)v;
-    return NULL;
-#else
-    return &v->now;
-#endif
-}
-
 /* Whether the display lacks one of the tiles that the box reaches into; notes where triangles are seen. */
 bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct box *box);
 
@@ -56,9 +45,8 @@ static inline bool batch_shares(const struct batch *b, bool back)
     return b->shares && (!back || !segment_by_vertices(b->segment));
 }
 
-/* Stores the words of MOTION_* of a vertex, whose segment has them. `known`: where it is now, before the division, or null. */
-void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
-                              const struct smear_homogeneous *known);
+/* Stores the words of MOTION_* of a vertex, whose segment has them. */
+void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen);
 
 /* Adds what is left of a triangle that has to be clipped, as a fan. Its corners are in the mesh's order. Returns false where
  * there is no room. */

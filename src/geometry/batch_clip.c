@@ -40,18 +40,14 @@ static SMEAR_NOINLINE void store_pose(uint32_t *out, const struct smear_assembly
     out[MOTION_RATIO] = (uint32_t)ratio;
 }
 
-void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen,
-                              const struct smear_homogeneous *known)
+void smear_batch_store_motion(uint32_t *out, const struct batch *b, uint32_t index, const struct smear_screen *screen)
 {
     const struct smear_assembly *d = b->d;
     struct smear_homogeneous h, now;
-    if ((SMEAR_PLACES || SMEAR_FAST_STACK) && known == NULL) {
-        placement_transform(&now, &d->at, index);
-        known = &now;
-    }
+    placement_transform(&now, &d->at, index);
     for (int pose = 0; pose < segment_moves(b->segment); pose++) {
         pose_transform(&h, d, pose, index);
-        store_pose(out + pose * MOTION_WORDS, d, pose, &h, known->w, d->at.now.scale, screen, &b->a->viewport);
+        store_pose(out + pose * MOTION_WORDS, d, pose, &h, now.w, d->at.now.scale, screen, &b->a->viewport);
     }
 }
 

@@ -9,7 +9,7 @@
 
 enum {
     APART_WORDS_LEAST = 1024,
-    PART_CACHE = 64,                /* vertices */
+    PART_CACHE = 128,               /* vertices */
     PART_DRAW = 12                  /* triangles: what a draw takes on a Cortex-M0+ with a flash cache */
 };
 

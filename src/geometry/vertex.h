@@ -17,9 +17,6 @@ struct smear_cached_vertex {
     uint32_t stored;                /* its record in the pool: word + 1, or 0 */
     struct smear_screen screen;
     int32_t outcode;
-#if !SMEAR_FAST_STACK               /* where it is, few vertices need this, and those are transformed again */
-    struct smear_homogeneous now;
-#endif
 };
 
 /* What the three vertices of a triangle share. */

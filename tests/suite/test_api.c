@@ -36,7 +36,7 @@ static void test_zero_fields_of_a_desc_mean_the_documented_defaults(void)
     smear_desc given = { .width = 100, .height = 80, .methods = SMEAR_SET(SMEAR_AUTO), .reach = 4, .tile = 8,
                          .strip = 64, .band_rows = 8, .format = SMEAR_XRGB8888,
                          .display.dither = SMEAR_DITHER_ORDERED, .bands = 1, .workers = 1, .max_draws = 16,
-                         .max_triangles = 1024, .vertex_cache = 64 };
+                         .max_triangles = 1024, .vertex_cache = 128 };
     smear_desc zero = { .width = 100, .height = 80 };
     RIG(a, &given, false);
     RIG(b, &zero, false);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* order.c - triangles in an order that finds transformed vertices again.
  *
- * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64 (src/geometry/assemble.c). So
- * both orders matter: that of the triangles, and the numbers of the vertices. Vertices are numbered as they
- * come first, which makes the cache hold the newest 64 as long as nothing older is asked for. Triangles are
+ * The library remembers them in a direct-mapped cache: vertex v lies in slot v mod 64, of draws that stand still
+ * mod 128 (src/geometry/assemble.c). So both orders matter: that of the triangles, and the numbers of the vertices. Vertices are
+ * numbered as they come first, which makes the cache hold the newest 64 as long as nothing older is asked for. Triangles are
  * taken one by one: of those at a vertex in the cache the one that has to transform the fewest vertices;
  * among equals the one whose vertices have the fewest triangles left, or lie there longest. Whichever order
  * transforms the fewest vertices is kept, the file's own among them. */
@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum {
-    SLOTS = 64,                 /* smear_desc.vertex_cache by default */
+    SLOTS = 64,                 /* half of smear_desc.vertex_cache by default: moving vertices take two */
     MAX_LOOKS = 128,            /* triangles at a vertex that are looked at: more share none but the hubs of wheels */
     FEW_LOOKS = 4,              /* in a try that has looked at so many, as only tangles do: a second */
     MANY_LOOKS = 1 << 26
