@@ -28,7 +28,7 @@ struct beyond {
     int32_t to1, to2;
 };
 
-/* At the row's first pixel. */
+/* At the box's first pixel. */
 struct few_plane {
     int32_t at, right, down;
 };
@@ -39,7 +39,12 @@ struct few_edges {
     uint64_t at, right, down;
 };
 
-#define FEW_OUTSIDE (1ull << 20 | 1ull << 41 | 1ull << 62)
+static inline bool few_outside(uint64_t edges)
+{
+    if (SMEAR_ON_64)
+        return (edges & (1ull << 20 | 1ull << 41 | 1ull << 62)) != 0;
+    return (((uint32_t)(edges >> 32) | (uint32_t)edges << 10) & (1u << 9 | 1u << 30)) != 0;
+}
 
 static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
 {
@@ -51,7 +56,8 @@ struct few {
     const struct smear_raster_target *target;
     const struct setup *setup;      /* or null */
     struct few_edges edges;
-    int32_t columns;
+    int32_t columns, rows;
+    int32_t at, fits;               /* the first pixel, and how many rows there are before the ring's first one */
     struct few_plane depth;         /* codes q16 */
     struct few_plane u, v;
     struct few_plane bend;          /* q15: how much larger 1/w is than at v[0] */
@@ -281,23 +287,32 @@ static inline void few_white(void *to, uint32_t pixel, bool narrow)
         *(uint32_t *)to = pixel & 0xffffffu;
 }
 
-static inline void few_plane_down(struct few_plane *p) { p->at = add_wrap(p->at, p->down); }
+/* Returns a plane's value right of and below its first pixel. */
+static inline int32_t few_plane_at(const struct few_plane *p, int32_t x, int32_t y)
+{
+    return add_wrap(add_wrap(p->at, mul_wrap(p->right, x)), mul_wrap(p->down, y));
+}
 
-/* Draws n > 0 pixels of a row from its column `skip` on, whose edge functions are `edges`. */
-SMEAR_INLINE void few_row(const struct few *k, uint16_t *depth, void *pixel, int32_t skip, uint64_t edges, enum few_kind kind, bool bent)
+/* Draws n > 0 pixels of a row from its column `skip` on, which is pixel `at`. */
+SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t row, int32_t n, enum few_kind kind, bool bent)
 {
     const struct few_look *const l = k->look;
     const bool linear = frame_is_linear(l->frame), narrow = target_is_direct(k->target);
-    const uint64_t right = k->edges.right;
-    const uint16_t *const end = depth + (k->columns - skip);
+    uint16_t *depth = k->target->depth + at;
+    const uint16_t *const end = depth + n;
+    void *pixel = NULL;
+    if (kind == FEW_NARROW || (kind == FEW_WHITE && narrow))
+        pixel = k->target->direct + at;
+    else if (kind != FEW_ANY)
+        pixel = k->target->color + at;
     const int32_t dz = k->depth.right, du = k->u.right, dv = k->v.right;
-    uint32_t z = (uint32_t)add_wrap(k->depth.at, mul_wrap(dz, skip));
-    int32_t u = add_wrap(k->u.at, mul_wrap(du, skip)), v = add_wrap(k->v.at, mul_wrap(dv, skip));
-    int32_t e = bent ? add_wrap(k->bend.at, mul_wrap(k->bend.right, skip)) : 0;
+    uint32_t z = (uint32_t)few_plane_at(&k->depth, skip, row);
+    int32_t u = few_plane_at(&k->u, skip, row), v = few_plane_at(&k->v, skip, row);
+    int32_t e = bent ? few_plane_at(&k->bend, skip, row) : 0;
     struct few_pixel p = { 0, 0, { 0, 0, 0, 0 } };
     const int first = few_light_first(k, kind), end_light = few_light_end(k, kind);
     for (int c = first; c < end_light; c++)
-        p.light[c] = (uint32_t)add_wrap(k->light[c].at, mul_wrap(k->light[c].right, skip));
+        p.light[c] = (uint32_t)few_plane_at(&k->light[c], skip, row);
     do {
         if (z >> 16 > *depth) {
             p.u = (uint32_t)u;
@@ -318,7 +333,6 @@ SMEAR_INLINE void few_row(const struct few *k, uint16_t *depth, void *pixel, int
             if (kind != FEW_ANY || few_put(k, (int32_t)(depth - k->target->depth), index, &p))
                 *depth = (uint16_t)(z >> 16);
         }
-        edges += right;
         z += (uint32_t)dz;
         u = add_wrap(u, du);
         v = add_wrap(v, dv);
@@ -327,101 +341,63 @@ SMEAR_INLINE void few_row(const struct few *k, uint16_t *depth, void *pixel, int
         for (int c = first; c < end_light; c++)
             p.light[c] += (uint32_t)k->light[c].right;
         pixel = few_after(pixel, 1, kind, narrow);
-    } while (++depth != end && (edges & FEW_OUTSIDE) == 0);
+    } while (++depth != end);
 }
 
-/* Draws n rows whose first pixel is at `depth` and `pixel`. What rows need stays in memory: compilers that keep it at hand take longer for
- * that than rows of one or two pixels do. */
-SMEAR_INLINE void few_rows(struct few *k, uint16_t *depth, void *pixel, int32_t n, enum few_kind kind, bool bent)
+/* Draws the rows. What they need stays in memory: compilers that keep it at hand take longer for that than rows of one or two pixels do. */
+SMEAR_INLINE void few_rows(const struct few *k, enum few_kind kind, bool bent)
 {
-    const bool narrow = target_is_direct(k->target);
-    do {
-        struct few *row = k;
+    const struct smear_plane_rows *const w = &k->target->window_rows;
+    uint64_t first = k->edges.at;
+    int32_t at = k->at;
+    for (int32_t y = 0; y != k->rows; y++) {
+        const struct few *row = k;
         SMEAR_KEEP_VALUE(row);
-        uint64_t edges = row->edges.at;
-        int32_t skip = 0;
-        while ((edges & FEW_OUTSIDE) != 0 && ++skip != row->columns)
-            edges += row->edges.right;
-        if (skip != row->columns)
-            few_row(row, depth + skip, few_after(pixel, skip, kind, narrow), skip, edges, kind, bent);
-        row->edges.at += row->edges.down;
-        few_plane_down(&row->depth);
-        few_plane_down(&row->u);
-        few_plane_down(&row->v);
-        if (bent)
-            few_plane_down(&row->bend);
-        for (int c = few_light_first(k, kind); c < few_light_end(k, kind); c++)
-            few_plane_down(&row->light[c]);
-        const int32_t stride = row->target->window_rows.stride;
-        depth += stride;
-        pixel = few_after(pixel, stride, kind, narrow);
-    } while (--n != 0);
+        const uint64_t right = row->edges.right;
+        uint64_t edges = first;
+        int32_t left = row->columns, n = 0;
+        while (few_outside(edges) && --left != 0)
+            edges += right;
+        for (; n != left && !few_outside(edges); n++)
+            edges += right;
+        if (n != 0)
+            few_row(row, at + (row->columns - left), row->columns - left, y, n, kind, bent);
+        first += row->edges.down;
+        at += w->stride;
+        if (y + 1 == row->fits)
+            at -= w->ring * w->stride;
+    }
 }
 
-static SMEAR_NOINLINE void few_narrow(struct few *k, int32_t at, int32_t n)
-{
-    few_rows(k, k->target->depth + at, k->target->direct + at, n, FEW_NARROW, false);
-}
+static SMEAR_NOINLINE void few_narrow(const struct few *k) { few_rows(k, FEW_NARROW, false); }
+static SMEAR_NOINLINE void few_narrow_bent(const struct few *k) { few_rows(k, FEW_NARROW, true); }
+static SMEAR_NOINLINE void few_wide(const struct few *k) { few_rows(k, FEW_WIDE, false); }
+static SMEAR_NOINLINE void few_wide_bent(const struct few *k) { few_rows(k, FEW_WIDE, true); }
+static SMEAR_NOINLINE void few_any(const struct few *k) { few_rows(k, FEW_ANY, k->bent); }
 
-static SMEAR_NOINLINE void few_narrow_bent(struct few *k, int32_t at, int32_t n)
+static SMEAR_NOINLINE void few_lit(const struct few *k)
 {
-    few_rows(k, k->target->depth + at, k->target->direct + at, n, FEW_NARROW, true);
-}
-
-static SMEAR_NOINLINE void few_wide(struct few *k, int32_t at, int32_t n)
-{
-    few_rows(k, k->target->depth + at, k->target->color + at, n, FEW_WIDE, false);
-}
-
-static SMEAR_NOINLINE void few_wide_bent(struct few *k, int32_t at, int32_t n)
-{
-    few_rows(k, k->target->depth + at, k->target->color + at, n, FEW_WIDE, true);
-}
-
-static SMEAR_NOINLINE void few_lit(struct few *k, int32_t at, int32_t n)
-{
-    const struct smear_raster_target *const t = k->target;
-    void *const pixel = target_is_direct(t) ? (void *)(t->direct + at) : t->color + at;
     if (k->bent)
-        few_rows(k, t->depth + at, pixel, n, FEW_WHITE, true);
+        few_rows(k, FEW_WHITE, true);
     else
-        few_rows(k, t->depth + at, pixel, n, FEW_WHITE, false);
+        few_rows(k, FEW_WHITE, false);
 }
 
-static SMEAR_NOINLINE void few_any(struct few *k, int32_t at, int32_t n)
-{
-    few_rows(k, k->target->depth + at, NULL, n, FEW_ANY, k->bent);
-}
-
-static inline void few_rows_any(struct few *k, int32_t at, int32_t n)
+static inline void few_rows_any(const struct few *k)
 {
     const enum few_kind kind = k->look->kind;
     if (FEW_COPIES && kind == FEW_NARROW && !k->bent)
-        few_narrow(k, at, n);
+        few_narrow(k);
     else if (FEW_COPIES && kind == FEW_NARROW)
-        few_narrow_bent(k, at, n);
+        few_narrow_bent(k);
     else if (FEW_COPIES && kind == FEW_WIDE && !k->bent)
-        few_wide(k, at, n);
+        few_wide(k);
     else if (FEW_COPIES && kind == FEW_WIDE)
-        few_wide_bent(k, at, n);
+        few_wide_bent(k);
     else if (FEW_COPIES && kind == FEW_WHITE && k->light_kind == LIGHT_WHITE)
-        few_lit(k, at, n);
+        few_lit(k);
     else
-        few_any(k, at, n);
-}
-
-/* Rows of the box, by stretches of the ring. */
-static inline void few_stretches(struct few *k, int32_t left, int32_t top, int32_t bottom)
-{
-    const struct smear_plane_rows *const w = &k->target->window_rows;
-    int32_t ring_row = w->ring_row + (top - k->target->y0);
-    for (int32_t rows = bottom - top; rows > 0;) {
-        ring_row -= ring_row >= w->ring ? w->ring : 0;
-        const int32_t n = min_i32(rows, w->ring - ring_row);
-        few_rows_any(k, ring_row * w->stride - w->x0 + left, n);
-        ring_row += n;
-        rows -= n;
-    }
+        few_any(k);
 }
 
 /* ------------------------------------------------------------------ triangles */
@@ -480,6 +456,11 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     k.target = t;
     k.setup = setup;
     k.light_kind = LIGHT_NONE;
+    const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
+    const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
+    const int32_t e0 = area + bias1 + bias2 + tiny_bias(x2 - x1, y2 - y1) - e1 - e2;
+    k.edges = (struct few_edges){ few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8), few_edges_word(y1 - y2, y2, -y1),
+                                  few_edges_word(x2 - x1, -x2, x1) };
     if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy) || !few_depth_make(&k, &w, q0, q, cx, cy)
         || !few_coordinates_make(&k, &w, v, q))
         return false;
@@ -489,12 +470,13 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     } else if (l->segment->shade != SHADE_NONE) {
         few_flat_light(&k, color, frame_is_linear(l->frame));
     }
-    const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
-    const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
-    const int32_t e0 = area + bias1 + bias2 + tiny_bias(x2 - x1, y2 - y1) - e1 - e2;
-    k.edges = (struct few_edges){ few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8), few_edges_word(y1 - y2, y2, -y1),
-                                  few_edges_word(x2 - x1, -x2, x1) };
     k.columns = right - left;
-    few_stretches(&k, left, top, bottom);
+    k.rows = bottom - top;
+    const struct smear_plane_rows *const rows = &t->window_rows;
+    int32_t ring_row = rows->ring_row + (top - t->y0);
+    ring_row -= ring_row >= rows->ring ? rows->ring : 0;
+    k.at = ring_row * rows->stride - rows->x0 + left;
+    k.fits = rows->ring - ring_row;
+    few_rows_any(&k);
     return true;
 }
