@@ -100,33 +100,6 @@ static inline bool is_flat_block(const uint32_t *in)
 enum { DITHER_31 = 249, DITHER_63 = 253 };
 
 #if !SMEAR_ASM_ARMV6M
-/* Two pixels: codes times factors. */
-struct dither_pair {
-    uint32_t high, green, low;
-};
-
-SMEAR_INLINE struct dither_pair dither_pair_of(uint32_t first, uint32_t second, bool is_555)
-{
-    const uint32_t both = 0xff00ffu;
-#if SMEAR_BIG_ENDIAN
-    const uint32_t p = second, q = first;
-#else
-    const uint32_t p = first, q = second;
-#endif
-    const uint32_t low_half = (p & 0xffffu) | q << 16, red = (p >> 16 | (q & 0xffff0000u)) & both, blue = low_half & both;
-    return (struct dither_pair){ (is_555 ? blue : red) * DITHER_31, (low_half >> 8 & both) * (is_555 ? DITHER_31 : DITHER_63),
-                                 (is_555 ? red : blue) * DITHER_31 };
-}
-
-/* The same of a pixel twice. */
-SMEAR_INLINE struct dither_pair dither_twice(uint32_t p, bool is_555)
-{
-    const uint32_t levels = 0x10001u * DITHER_31;
-    const uint32_t red = pixel_red(p) * levels, blue = pixel_blue(p) * levels;
-    return (struct dither_pair){ is_555 ? blue : red, pixel_green(p) * (is_555 ? levels : 0x10001u * DITHER_63),
-                                 is_555 ? red : blue };
-}
-
 /* Exchanges the bytes of each half. */
 static inline uint32_t bytes_exchanged(uint32_t pair)
 {
@@ -138,12 +111,14 @@ static inline uint32_t bytes_exchanged(uint32_t pair)
 #endif
 }
 
-SMEAR_INLINE uint32_t dithered_pair(const struct dither_pair *d, uint32_t step, bool is_555, bool swapped)
+/* Returns two pixels, by factors that the compiler takes as they are: it would make sums of DITHER_31 and DITHER_63. */
+SMEAR_INLINE uint32_t dithered_pair(uint32_t p, uint32_t q, uint32_t step, uint32_t by_31, uint32_t by_63, bool is_555, bool swapped)
 {
     const uint32_t five = 0xf800f800u;
-    const uint32_t high = (d->high + step) & five, low = (d->low + step) & five;
-    const uint32_t pair = is_555 ? high >> 1 | ((d->green + step) & five) >> 6 | low >> 11
-                                 : high | ((d->green + (step >> 1)) & 0xfc00fc00u) >> 5 | low >> 11;
+    const uint32_t red = pair_of(pixel_red(p), pixel_red(q)) * by_31 + step, blue = pair_of(pixel_blue(p), pixel_blue(q)) * by_31 + step;
+    const uint32_t green = pair_of(pixel_green(p), pixel_green(q)), high = is_555 ? blue : red, low = is_555 ? red : blue;
+    const uint32_t pair = is_555 ? (high & five) >> 1 | ((green * by_31 + step) & five) >> 6 | (low & five) >> 11
+                                 : (high & five) | ((green * by_63 + (step >> 1)) & 0xfc00fc00u) >> 5 | (low & five) >> 11;
     return swapped != SMEAR_BIG_ENDIAN ? bytes_exchanged(pair) : pair;
 }
 
@@ -155,35 +130,24 @@ SMEAR_INLINE void dithered_blocks(uint16_t *out, const uint32_t *in, int32_t blo
     static const pixel_word black[BLOCK_PAIRS] = { 0 };
     pixel_word *to = (pixel_word *)(void *)out;
     const pixel_word *kept = black;
-    uint32_t last = 0, flat = 0;
-    struct dither_pair twice = { 0, 0, 0 };
+    uint32_t flat = 0, by_31 = DITHER_31, by_63 = DITHER_63;
+    SMEAR_KEEP_VALUE(by_31);
+    SMEAR_KEEP_VALUE(by_63);
     for (; blocks > 0; blocks--, in += BLOCK, to += BLOCK_PAIRS) {
-        if (*in == flat && is_flat_block(in)) {
+        const bool is_flat = is_flat_block(in);
+        if (is_flat && *in == flat) {
             to[0] = kept[0];
             to[1] = kept[1];
             to[2] = kept[2];
             to[3] = kept[3];
             continue;
         }
-        bool is_flat = true;
-        for (int i = 0; i < BLOCK_PAIRS; i++) {
-            const uint32_t p = in[2 * i], q = in[2 * i + 1];
-            if (p == last && q == last) {
-                to[i] = dithered_pair(&twice, step[i], is_555, swapped);
-            } else if (p == q) {
-                SMEAR_KEEP_BRANCH();
-                is_flat = i == 0;
-                last = p;
-                twice = dither_twice(p, is_555);
-                to[i] = dithered_pair(&twice, step[i], is_555, swapped);
-            } else {
-                const struct dither_pair two = dither_pair_of(p, q, is_555);
-                is_flat = false;
-                to[i] = dithered_pair(&two, step[i], is_555, swapped);
-            }
-        }
+        to[0] = dithered_pair(in[0], in[1], step[0], by_31, by_63, is_555, swapped);
+        to[1] = dithered_pair(in[2], in[3], step[1], by_31, by_63, is_555, swapped);
+        to[2] = dithered_pair(in[4], in[5], step[2], by_31, by_63, is_555, swapped);
+        to[3] = dithered_pair(in[6], in[7], step[3], by_31, by_63, is_555, swapped);
         if (is_flat) {
-            flat = last;
+            flat = *in;
             kept = to;
         }
     }
