@@ -106,9 +106,11 @@ static inline void few_plane_make(struct few_plane *p, const struct few_weights 
 static inline bool few_weights_make(struct few_weights *w, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area, int32_t cx,
                                     int32_t cy)
 {
-    const uint32_t across = max_u32(max_u32(magnitude_i32(x1), magnitude_i32(y1)), max_u32(magnitude_i32(x2), magnitude_i32(y2)));
-    if (across * 64 > (uint32_t)area || area < 256)
-        return false;
+    if (area < (FEW_PX + 1) * 256 * 64) {        /* larger ones are no slivers */
+        const uint32_t across = max_u32(max_u32(magnitude_i32(x1), magnitude_i32(y1)), max_u32(magnitude_i32(x2), magnitude_i32(y2)));
+        if (across * 64 > (uint32_t)area || area < 256)
+            return false;
+    }
     const int up = count_leading_zeros((uint32_t)area), down = 24 - up;
     const int32_t recip = (int32_t)(recip_norm((uint32_t)area << up) >> 14);
     w->right1 = y2 * recip >> down;
