@@ -127,7 +127,7 @@ static inline bool few_weights_make(struct few_weights *w, int32_t x1, int32_t y
 /* floor(a g / 2^15), for |a| <= 2^28 and |g| <= 2^17. */
 static inline int32_t part_q15(int32_t a, int32_t g)
 {
-    return SMEAR_HAS_MUL64 ? mul_shift(a, g, 15) : (a >> 14) * g + ((a & 0x3fff) * g >> 14) >> 1;
+    return SMEAR_HAS_MUL64 ? mul_shift(a, g, 15) : ((a >> 14) * g + ((a & 0x3fff) * g >> 14)) >> 1;
 }
 
 /* floor(a c / 2^8), modulo 2^32, for c < 2^15. */
