@@ -75,7 +75,7 @@ struct few_weights {
 /* Planes of light from the first one that a triangle has, and before the last. */
 SMEAR_INLINE int few_light_first(const struct few *k, enum few_kind kind)
 {
-    if (kind == FEW_WHITE)
+    if (kind == FEW_WHITE || kind == FEW_LINEAR)
         return 2;
     return kind != FEW_ANY || k->light_kind == LIGHT_NONE ? 4 : k->light_kind == LIGHT_WHITE ? 2 : 0;
 }
@@ -332,6 +332,8 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
                 *(uint16_t *)pixel = ((const uint16_t *)l->texels)[index];
             else if (kind == FEW_WIDE)
                 *(uint32_t *)pixel = ((const uint32_t *)l->texels)[index] & 0xffffffu;
+            else if (kind == FEW_LINEAR)
+                *(uint32_t *)pixel = shaded_pixel(((const uint32_t *)l->texels)[index], 0, 0, p.light[2] >> 7, true, true);
             else if (kind == FEW_WHITE)
                 few_white(pixel, shaded_pixel(texel_fetch(l->texels, l->draw->sampler.palette, index, l->draw->sampler.format), 0, 0,
                                               p.light[2] >> 7, true, linear), narrow);
@@ -388,6 +390,15 @@ static SMEAR_NOINLINE void few_lit(const struct few *k)
         few_rows(k, FEW_WHITE, false);
 }
 
+/* As a program gets it that asks for nothing. */
+static SMEAR_NOINLINE void few_linear(const struct few *k)
+{
+    if (k->bent)
+        few_rows(k, FEW_LINEAR, true);
+    else
+        few_rows(k, FEW_LINEAR, false);
+}
+
 static inline void few_rows_any(const struct few *k)
 {
     const enum few_kind kind = k->look->kind;
@@ -401,6 +412,8 @@ static inline void few_rows_any(const struct few *k)
         few_wide_bent(k);
     else if (FEW_COPIES && kind == FEW_WHITE && k->light_kind == LIGHT_WHITE)
         few_lit(k);
+    else if (FEW_COPIES && kind == FEW_LINEAR && k->light_kind == LIGHT_WHITE)
+        few_linear(k);
     else
         few_any(k);
 }
@@ -432,7 +445,7 @@ bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, 
     if (!draw_is_opaque(draw) || target_has_velocity(t) || frame_has_fog(frame))
         return true;
     if (segment->shade != SHADE_NONE)
-        l->kind = FEW_WHITE;
+        l->kind = frame_is_linear(frame) && !target_is_direct(t) && m->format == SMEAR_TEXEL_8888 ? FEW_LINEAR : FEW_WHITE;
     else if (m->format == (target_is_direct(t) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
         l->kind = target_is_direct(t) ? FEW_NARROW : FEW_WIDE;
     return true;

@@ -9,8 +9,9 @@
 /* Boxes of at most so many columns and rows. */
 enum { FEW_PX = 16 };
 
-/* Texels that are copied into pixels of 16 or 32 bits; opaque ones with turns, in white light; any. */
-enum few_kind { FEW_NARROW, FEW_WIDE, FEW_WHITE, FEW_ANY };
+/* Texels that are copied into pixels of 16 or 32 bits; opaque ones with turns, in white light, and of these whole codes in linear light;
+ * any. */
+enum few_kind { FEW_NARROW, FEW_WIDE, FEW_WHITE, FEW_LINEAR, FEW_ANY };
 
 /* What such triangles of a segment have in common. With turns, coordinates are turns q32, and a texel is number
  * v >> from_v & mask_v | u >> from_u; else they are mesh units q15. */
