@@ -9,8 +9,8 @@
 /* Boxes of at most so many columns and rows. */
 enum { FEW_PX = 16 };
 
-/* Opaque texels with turns: copied into pixels of 16 or of 32 bits; in white light; such of 32 bits in white linear light, into pixels of 32
- * bits. And any. */
+/* Opaque texels with turns: copied into pixels of 16 or of 32 bits; in white light; such of 32 bits in white linear light, into pixels of
+ * 32 bits. And any. */
 enum few_kind { FEW_NARROW, FEW_WIDE, FEW_WHITE, FEW_LINEAR, FEW_ANY };
 
 /* What such triangles of a segment have in common. With turns, coordinates are turns q32, and a texel is number
