@@ -29,7 +29,8 @@ static void lines_job(void *argument, int job, int worker)
         smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
 }
 
-static void movers_job(void *argument, int job, int worker)
+/* Draws over a picture what is behind all of them, or movers over what lines have blurred. */
+static void over_job(void *argument, int job, int worker)
 {
     const struct smear_finish *f = (const struct smear_finish *)argument;
     const struct smear_rows *rows = f->row.rows;
@@ -39,7 +40,8 @@ static void movers_job(void *argument, int job, int worker)
     t.over = true;
     SMEAR_ASSERT(target_is_opaque(&t));
     if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
-        smear_raster_list(&rows->raster, &t, lines->list[line_movers_list(lines->picture)]);
+        smear_raster_list(&rows->raster, &t,
+                          lines->list[lines->picture == LINE_BEHIND ? line_list(LINE_BEHIND) : line_movers_list(lines->picture)]);
 }
 
 /* Draws a picture of what moves by itself over what lines have blurred, and finds where it is. */
@@ -49,7 +51,7 @@ static void draw_mover_picture(struct smear_temporal *self, struct smear_finish 
     struct smear_lines *lines = self->lines;
     const int32_t row = f->row.row, top = row_top(rows, row), bottom = row_bottom(rows, row);
     const uint32_t *list = &lines->list[line_movers_list(lines->picture)];
-    smear_row_run(rows, movers_job, &f->row, FILL_MOVING);
+    smear_row_run(rows, over_job, &f->row, FILL_MOVING);
     if (rows->refill == NULL)
         smear_movers_find(lines, &rows->bins, &rows->window, *list, top, bottom);
     else
@@ -140,21 +142,9 @@ static void look_job(void *argument, int job, int worker)
         smear_lines_displace(lines, &rows->window, x0, x1, top, bottom);
     for (int32_t y = top; x0 < x1 && y < bottom; y++)
         if (lines->picture != 0 && lines->movers != 0)
-            smear_lines_join_depth(lines, &rows->window, x0, x1, y);
+            smear_line_join(window_depth(&rows->window, x0, y), line_depth(lines, &rows->window, x0, y), x1 - x0);
         else if (lines->picture == 0 && lines->behind != 0)
             smear_lines_take_depth(lines, &rows->window, x0, x1, y);
-}
-
-static void behind_job(void *argument, int job, int worker)
-{
-    const struct smear_finish *f = (const struct smear_finish *)argument;
-    const struct smear_rows *rows = f->row.rows;
-    struct smear_raster_target t = f->background;
-    (void)worker;
-    t.over = true;
-    SMEAR_ASSERT(target_is_opaque(&t));
-    if ((f->row.steps & ROW_DRAW) != 0 && smear_job_area(rows, job, &t))
-        smear_raster_list(&rows->raster, &t, f->self->lines->list[line_list(LINE_BEHIND)]);
 }
 
 /* Draws what stands still far behind a picture of a row into it. The depth of the first picture, in the window, stays what it is. */
@@ -167,10 +157,10 @@ static void draw_behind(struct smear_temporal *self, struct smear_finish *f)
     if (rows->refill == NULL && picture == 0)
         temporal_advance(self, rows, line_list(LINE_BEHIND), f->row.row);
     lines->picture = LINE_BEHIND;
-    smear_row_run(rows, behind_job, &f->row, FILL_MOVING);
+    smear_row_run(rows, over_job, &f->row, FILL_MOVING);
     lines->picture = picture;
     for (int32_t y = row_top(rows, f->row.row); picture == 0 && y < row_bottom(rows, f->row.row); y++)
-        smear_lines_put_depth(lines, w, y);
+        __builtin_memcpy(window_depth(w, 0, y), line_depth(lines, w, 0, y), (size_t)w->width * sizeof *w->depth);
 }
 
 /* Draws a further picture of a row. */

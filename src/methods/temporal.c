@@ -528,12 +528,10 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
                       && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
         lines->on = may && lines->wait == 0;
         lines->wait = (uint8_t)(lines->wait - (may && lines->wait != 0));
-        if (lines->on) {
+        if (lines->on)
             smear_lines_begin(lines, shot, w, frame->target, frame_is_linear(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
-        } else if (!may) {
-            lines->wait = 0;
+        else if (!may)
             lines_forget(lines);
-        }
     }
     self->target = frame->target;
     self->budget = frame->budget;

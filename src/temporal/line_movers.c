@@ -125,7 +125,7 @@ static struct smear_line_block *look(const struct smear_lines *lines, const stru
         return b;
     b->depth = 1;
     for (int32_t y = y0; y < min_i32(y0 + LINE_BLOCK, y1); y += 2) {
-        const uint16_t *still = w->depth + window_ring_row(w, y) * w->width, *now = lines->depth + (y & (w->tile - 1)) * w->width;
+        const uint16_t *const still = window_depth(w, 0, y), *const now = line_depth(lines, w, 0, y);
         for (int32_t x = x0; x < min_i32(x0 + LINE_BLOCK, w->width); x += 2)
             b->depth = now[x] != still[x] && now[x] > b->depth ? now[x] : b->depth;
     }

@@ -40,16 +40,14 @@ static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 
  * its first. */
 static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 11 : 6; }
 
-/* Returns how many there are at least: what blocks show is told by few of their pixels. */
-static int fewest(int32_t target) { return target_is_sketch(target) ? 1 : 2; }
-
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
-/* Returns how many pictures a frame takes that is like the last one: more than there may be where no number will do. */
+/* Returns how many pictures a frame takes that is like the last one, if anything is known of it: more than there may be where no number
+ * will do. There are two at least but of a sketch: what blocks show is told by few of their pixels. */
 static int pictures_for(const struct smear_lines *lines, int32_t target)
 {
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES;
-    int k = fewest(target);
+    int k = target_is_sketch(target) ? 1 : 2;
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
            && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 32 * (allowed(k, target) * (k < lines->pictures ? 7 : 8)))
@@ -77,7 +75,7 @@ void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
 {
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
-    const int pictures = lines->blocks == 0 ? fewest(target) : pictures_for(lines, target);
+    const int pictures = pictures_for(lines, target);
     lines->linear = linear;
     lines->movers = lines->behind = 0;
     lines->drawn = 0;
@@ -169,25 +167,13 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
                          x1);
         }
         for (int32_t v = y; v < end; v += BLOCK - 1)
-            note_depth(seen, first ? w->depth + window_ring_row(w, v) * w->width : lines->depth + (v - y0) * w->width, x0, x1);
+            note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
     }
-}
-
-void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
-{
-    smear_line_join(w->depth + window_ring_row(w, y) * w->width + x0, lines->depth + (y & (w->tile - 1)) * w->width + x0, x1 - x0);
 }
 
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
 {
-    __builtin_memcpy(lines->depth + (y & (w->tile - 1)) * w->width + x0, w->depth + window_ring_row(w, y) * w->width + x0,
-                     (size_t)(x1 - x0) * sizeof *lines->depth);
-}
-
-void smear_lines_put_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t y)
-{
-    __builtin_memcpy(w->depth + window_ring_row(w, y) * w->width, lines->depth + (y & (w->tile - 1)) * w->width,
-                     (uint32_t)w->width * sizeof *w->depth);
+    __builtin_memcpy(line_depth(lines, w, x0, y), window_depth(w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
 int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,

@@ -90,7 +90,7 @@ void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
 static inline void lines_forget(struct smear_lines *lines)
 {
     lines->contrast = 0;
-    lines->blocks = 0;
+    lines->blocks = lines->wait = 0;
 }
 
 /* From here on there are so many pictures. */
@@ -117,14 +117,19 @@ void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear
 /* Notes what columns [x0, x1) of pixel rows [y0, y1), a tile row, show in the picture that has been drawn. */
 void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
 
-/* Makes the depth of columns [x0, x1) of row y of the window that of the nearer one in lines->depth. */
-void smear_lines_join_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
+/* Points at the depth of a pixel: in the picture that is drawn, and in all of them. */
+static inline uint16_t *line_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
+{
+    return lines->depth + (y & (w->tile - 1)) * w->width + x;
+}
+
+static inline uint16_t *window_depth(const struct smear_window *w, int32_t x, int32_t y)
+{
+    return w->depth + window_ring_row(w, y) * w->width + x;
+}
 
 /* Copies the depth of columns [x0, x1) of row y of the window to lines->depth. */
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
-
-/* Copies row y of lines->depth back. */
-void smear_lines_put_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t y);
 
 /* Finds the displacements of the blocks of columns [x0, x1) of a tile row whose pictures have been looked at. */
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
