@@ -157,7 +157,7 @@ static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, 
     if (pixels > TINY_PIXELS || !p->boxed)
         return false;
     const struct tiny_depths depths = tiny_depths_of(s->v);
-    if (fog_varies(s) || !tiny_suits(&p->box, &depths, s->v))
+    if (fog_varies(s) || !tiny_suits(&p->box, &depths))
         return false;
     if (setup_writes_velocity(s))
         smear_velocity_tiny(&p->box, s, box, &depths);

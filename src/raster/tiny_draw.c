@@ -117,18 +117,6 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
     }
 }
 
-bool smear_tiny_mixes(const struct tiny_look *l, const struct tiny_depths *d, const int32_t *const v[3])
-{
-    uint32_t range = 0;
-    for (int c = 0; c < 3; c++) {
-        const int word = l->color + (c >> 1), down = c << 4 & 16;
-        const uint32_t r = (uint32_t)v[0][word] >> down & 0xffffu, s = (uint32_t)v[1][word] >> down & 0xffffu,
-                       t = (uint32_t)v[2][word] >> down & 0xffffu;
-        range = max_u32(range, max_u32(r, max_u32(s, t)) - min_u32(r, min_u32(s, t)));
-    }
-    return (range >> 9) * ((uint32_t)(d->high - d->low) >> 12) <= (uint32_t)d->low >> 12;
-}
-
 bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color)
 {
     struct tiny_span s;
@@ -136,7 +124,7 @@ bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, c
     const struct tiny_depths depths = { s.low, s.high };
     const struct pixel_box box = { s.left, s.right, s.top, s.bottom };
     if (s.right - s.left > SMALL_PX || s.bottom - s.top > SMALL_PX || (s.right - s.left) * (s.bottom - s.top) > TINY_PIXELS
-        || !tiny_suits(l, &depths, v))
+        || !tiny_suits(l, &depths))
         return false;
     smear_tiny_box(l, t, v, color, &box, &depths, NULL);
     return true;

@@ -13,7 +13,7 @@ enum { SMALL_PX = 8, TINY_PIXELS = 32 };
 /* What such triangles of a segment have in common; numbers of the box are those of the last one drawn. */
 struct tiny_look {
     int color;              /* in a record: the first of two words of colour */
-    bool mixes;             /* its colours, which perspective bends */
+    bool even;              /* depths must be nearly even (tiny_is_even) */
     struct tiny_box box;
 };
 
@@ -28,14 +28,10 @@ static inline struct tiny_depths tiny_depths_of(const int32_t *const v[3])
     return (struct tiny_depths){ min_i32(a, min_i32(b, c)), max_i32(a, max_i32(b, c)) };
 }
 
-/* Whether colours that are mixed on the screen are off by half a code at most: a quarter of their range times the part by which 1/w
- * changes. */
-bool smear_tiny_mixes(const struct tiny_look *l, const struct tiny_depths *d, const int32_t *const v[3]);
-
-/* Whether a triangle's colours may be mixed on the screen: where depths are nearly even (tiny_is_even), too. */
-static inline bool tiny_suits(const struct tiny_look *l, const struct tiny_depths *d, const int32_t *const v[3])
+/* Whether a triangle's colours may be mixed on the screen, as tiny_is_even has it. */
+static inline bool tiny_suits(const struct tiny_look *l, const struct tiny_depths *d)
 {
-    return !l->mixes || d->high - d->low <= d->low >> 5 || smear_tiny_mixes(l, d, v);
+    return !l->even || d->high - d->low <= d->low >> 5;
 }
 
 /* False where a segment's triangles are others. */
@@ -45,7 +41,7 @@ static inline bool tiny_look_take(struct tiny_look *l, const struct smear_raster
     if (segment_textured(segment) || segment_moves(segment) != 0 || !draw_is_opaque(&frame->draw[segment->draw]))
         return false;
     l->color = segment->color;
-    l->mixes = segment_gouraud(segment) && !segment_flat_depth(segment);
+    l->even = segment_by_vertices(segment) && !segment_flat_depth(segment);
     l->box.shaded = segment_gouraud(segment);
     l->box.linear = frame_is_linear(frame);
     l->box.narrow = target_is_direct(t);
