@@ -102,14 +102,15 @@ static uint32_t exp2_q8(uint32_t x)
 
 /* Returns the part of the mean squared error that a run may have, q8. A frame of a given error costs least where each
  * run's squared error goes with the cube root of what one instant leaves of it and with the square of the cube root of
- * what an instant costs. The mean is that of the rows before, as the others are not known yet. */
-static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint32_t cost, uint32_t blocks)
+ * what an instant costs. The mean is that of the rows before, as the others are not known yet. What stands still counts
+ * but with `alone`: where something passes the eye, of which little is known, and for the finest targets. */
+static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint32_t cost, uint32_t blocks, bool alone)
 {
     enum { LEAST = 51,
            MOST = 1280 };
     const uint32_t log = (log2_q8(left / blocks + 1) + 2 * log2_q8(cost / blocks + 1)) / 3;
     const uint32_t share = exp2_q8(log > 1024 ? log - 1024 : 0) + 1, own = share * blocks;
-    const uint32_t sum = plan->before->sum + own, count = plan->before->blocks + blocks;
+    const uint32_t sum = plan->before->sum + own, count = plan->before->blocks + blocks + (alone ? 0 : plan->still);
     plan->own->sum += own;
     plan->own->blocks += blocks;
     return min_u32(max_u32((share << 8) / max_u32(sum / count, 1), LEAST), MOST);
@@ -150,17 +151,19 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const int tiles = tiles_in(t);
     int32_t least = drawn, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
+    bool alone = chooser->target < 64;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
         least = max_i32(least, least_instants(chooser, tile));
         reach = max_i32(reach, reach_of(tile));
+        alone = alone || (tile->flags & PATH_SPACE) != 0;
         if (c->moving == 0)
             unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
     for (int k = 0; k < CLOSING_CLASSES; k++)
         left += min_u32(c->plain[k], UINT32_MAX - left);
     left += min_u32(unseen, UINT32_MAX - left);
-    const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks), c->blocks);
+    const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
     for (instants = drawn; instants + 2 * drawn <= INSTANTS_MAX; instants += 2 * drawn)
         if (instants >= least && error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)

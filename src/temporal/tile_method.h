@@ -68,6 +68,7 @@ struct smear_tile_plan {
     struct smear_tile_travel *travel;           /* of the first tile */
     const struct smear_row_blocks *blocks;
     const struct smear_shares *before;          /* of the rows before */
+    uint32_t still;                             /* and blocks there that have no error */
     struct smear_shares *own;                   /* of what this worker drew in this row */
 };
 
