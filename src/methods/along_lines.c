@@ -224,6 +224,7 @@ static SMEAR_NOINLINE void go_on_with(struct smear_temporal *self, const struct 
         return;
     }
     self->lines->on = false;
+    lines_forget(self->lines);
     self->lines->wait = WAIT;
     self->target = min_i32(self->target, MEASURED);
 }
