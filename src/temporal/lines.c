@@ -39,7 +39,7 @@ static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 
 
 /* Returns the squared error that so many pictures may have, in quarters of what is asked for: a sketch's second picture costs as much as
  * its first. */
-static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 14 : 6; }
+static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 8 : 6; }
 
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
@@ -51,7 +51,8 @@ static int pictures_for(const struct smear_lines *lines, int32_t target)
     int k = target_is_sketch(target) ? 1 : 2;
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
-           && lines->contrast * left_of_contrast[k - 1] > most * lines->blocks / 32 * (allowed(k, target) * (k < lines->pictures ? 7 : 8)))
+           && (uint64_t)lines->contrast * left_of_contrast[k - 1]
+                  > most * lines->blocks / 32 * (allowed(k, target) * (k < lines->pictures ? 7 : 8)))
         k++;
     return k;
 }
@@ -108,19 +109,21 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
 {
     const uint32_t all = (uint32_t)(line_blocks(w->width) * line_blocks(w->height)), contrast = contrast_of(lines, w, y0, y1);
     const uint32_t blocks = lines->blocks + (uint32_t)(line_blocks(w->width) * line_blocks(y1 - y0));
-    const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES, error = lines->error;
+    const uint64_t error = lines->error + (uint64_t)contrast * left_of_contrast[lines->pictures - 1];
+    /* Most frames have their contrast in the middle: what is below has less. */
+    const uint64_t rest = (uint64_t)((lines->contrast + contrast) / blocks) * (all - blocks) * 3 / 4;
     int k = lines->pictures;
-    lines->contrast += contrast;
-    /* A quarter of what the rows below may have is spent ahead: most frames have their contrast in the middle. */
-    if (error + (uint64_t)contrast * left_of_contrast[k - 1] > most * (blocks + (all - blocks) / 4) / 4 * allowed(k, target))
-        while (k <= lines->most && lines->contrast * left_of_contrast[k - 1] > most * blocks / 4 * allowed(k, target))
-            k++;
-    if (k > lines->pictures) {
-        lines->contrast -= contrast;
-        return k;
+    for (; k <= lines->most; k++) {
+        /* The rest may have what is left of the frame's error, or its own share if that is more. */
+        const uint64_t each = (uint64_t)target * (uint64_t)target * VALUES * allowed(k, target) / 4, own = each * (all - blocks);
+        if (rest * left_of_contrast[k - 1] <= (each * all > error + own ? each * all - error : own))
+            break;
     }
-    lines->error += (uint64_t)contrast * left_of_contrast[k - 1];
-    lines->blocks = blocks;
+    if (k == lines->pictures) {
+        lines->contrast += contrast;
+        lines->error = error;
+        lines->blocks = blocks;
+    }
     return k;
 }
 

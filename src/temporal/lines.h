@@ -6,7 +6,8 @@
  * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach.
  *
  * A line errs by a share of what pixels beside each other differ by: the more pictures, the less. A frame begins with as many as
- * the last would have been good with; where what is seen so far says that they are too few, what is left of it takes more. */
+ * the last would have been good with; where what is seen so far says that they are too few, what is left of it takes more: as if it
+ * had three quarters of that contrast. */
 #ifndef SMEAR_LINES_H
 #define SMEAR_LINES_H
 
@@ -46,8 +47,9 @@ struct smear_lines {
     uint32_t list[LINE_LISTS];      /* of the row */
     int32_t drawn;                  /* pixel rows so far, and tile rows that are finished */
     int finished;
-    uint64_t contrast, error;       /* of the blocks drawn, together, where they move: as each block's; squared, by lines, q16 of it */
+    uint32_t contrast;              /* of the blocks drawn, together, where they move: as each block's */
     uint32_t blocks;
+    uint64_t error;                 /* squared, by lines, q16 of the contrast */
     struct smear_line_seen *seen;   /* of the row that is drawn and LINE_ROWS_SEEN - 1 above it */
     uint32_t *row;                  /* pixels of a tile row: of a further picture, then blurred ones */
     uint16_t *depth;                /* of a further picture, then of the blurred one: planes of a target are alike */
