@@ -383,41 +383,46 @@ static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, 
     return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
 }
 
+/* Draws and sums f->instants, of which `first` have been summed: these are every so manieth of them where that is cheaper than to
+ * begin again. Shifts, and light that is rounded, depend on how many there are. */
+static uint32_t draw_more(struct subframes *f, uint32_t first, uint32_t samples, struct subframe_box *all)
+{
+    const uint32_t times = (f->instants + first - 1) / first | 1u, instants = times * first;
+    if (has_shifts(f) || (sums_light(f) && instants > LIGHT_WHOLE) || instants > PACKED_INSTANTS_MAX || instants - first > f->instants)
+        return draw_rest(f, 0, 0, all);
+    f->instants = instants;
+    if (sums_light(f))
+        smear_subframe_sums_rescale(f, first);
+    return draw_rest(f, (int32_t)times, samples, all);
+}
+
 /* Draws and sums as many instants as the plan says, of which the middle one has been drawn. Where something passes the eye they show
- * what the middle does not, and by that they become instants of more. Returns the samples taken. */
+ * what the middle does not: some of them are drawn first, and what changes from one to the next is planned for, too. */
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
                              struct subframe_box *all)
 {
-    enum { LOOKS = 5 };
+    enum { LOOKS = 7, PART = 3 };
     const struct smear_shares before = *plan->own;
     const uint32_t cost = cost_of(f, middle);
     struct subframe_changes changes = { .sum = 0 };
     struct smear_contrast contrast;
     smear_tile_contrast(&contrast, f, plan, middle);
-    int32_t drawn = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
-    if (f->passing.in_space)
-        drawn = max_i32(drawn, LOOKS);
-    f->instants = (uint32_t)drawn;
+    const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
+    const int32_t first = f->passing.in_space ? max_i32(planned / PART | 1, LOOKS) : planned;
+    f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
     f->space->seen = 0;
-    const uint32_t samples = draw_rest(f, drawn, add_instant(f, middle, drawn / 2, 0, all), all);
+    const uint32_t samples = draw_rest(f, first, add_instant(f, middle, first / 2, 0, all), all);
     if (f->changes == NULL)
         return samples;
     f->changes = NULL;
     *plan->own = before;
     smear_add_changes(&contrast, f, &changes);
-    f->instants = (uint32_t)smear_tile_plan_instants(plan, f->t, &contrast, cost, drawn);
-    if (drawn < 2 * LOOKS && (passing & ~f->space->seen) != 0)
-        f->instants = max_u32(f->instants, 3 * (uint32_t)drawn);
-    if (f->instants == (uint32_t)drawn)
-        return samples;
-    /* Shifts, and light that is rounded, depend on how many there are. */
-    if (has_shifts(f) || (sums_light(f) && f->instants > LIGHT_WHOLE))
-        return draw_rest(f, 0, 0, all);
-    if (sums_light(f))
-        smear_subframe_sums_rescale(f, (uint32_t)drawn);
-    return draw_rest(f, (int32_t)f->instants / drawn, samples, all);
+    f->instants = (uint32_t)smear_tile_plan_instants(plan, f->t, &contrast, cost, max_i32(planned, first));
+    if (first < 2 * LOOKS && (passing & ~f->space->seen) != 0)
+        f->instants = max_u32(f->instants, 3 * (uint32_t)first);
+    return f->instants == (uint32_t)first ? samples : draw_more(f, (uint32_t)first, samples, all);
 }
 
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)

@@ -144,12 +144,12 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
 static int tiles_in(const struct smear_tile_run *t) { return (t->x1 - t->x0 + t->tile - 1) / t->tile; }
 
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *c,
-                                 uint32_t cost, int32_t drawn)
+                                 uint32_t cost, int32_t first)
 {
     enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     const int tiles = tiles_in(t);
-    int32_t least = drawn, reach = 0, instants;
+    int32_t least = first, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
     bool alone = chooser->target < 64;
     for (int i = 0; i < tiles; i++) {
@@ -165,7 +165,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     left += min_u32(unseen, UINT32_MAX - left);
     const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
-    for (instants = drawn; instants + 2 * drawn <= INSTANTS_MAX; instants += 2 * drawn)
+    for (instants = first; instants + 2 <= INSTANTS_MAX; instants += 2)
         if (instants >= least && error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
             break;
     for (int i = 0; i < tiles; i++)

@@ -98,10 +98,10 @@ struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile);
  * where they are unlike. */
 struct smear_step smear_tile_way(const struct smear_tile_travel *tile);
 
-/* Returns how many instants the tiles of a run take, of which `drawn` are drawn: an odd number of times as many, of which those are
- * some. `cost`: of one, about, in instructions. */
+/* Returns how many instants the tiles of a run take: an odd number, `first`, which is odd, at least. `cost`: of one, about, in
+ * instructions. */
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *contrast,
-                                 uint32_t cost, int32_t drawn);
+                                 uint32_t cost, int32_t first);
 
 /* Returns how many instants the tiles of a run take of a sketch: so many that gaps between them are closed well enough by the
  * displacement of the blocks, which are told to close them; 0: what moves is where it is in the middle, as near as can be seen;
