@@ -3,7 +3,7 @@
 #include "temporal/tile_contrast.h"
 
 #include "geometry/path.h"
-#include "kernels/differences.h"
+#include "temporal/differences.h"
 #include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 

@@ -1,16 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* differences.h - how unlike pixels are that lie behind one another on their path. */
-#ifndef SMEAR_KERNELS_DIFFERENCES_H
-#define SMEAR_KERNELS_DIFFERENCES_H
+#ifndef SMEAR_TEMPORAL_DIFFERENCES_H
+#define SMEAR_TEMPORAL_DIFFERENCES_H
 
 #include "base/pixel.h"
-#include "kernels/kernels.h"
-
-#ifdef __OPTIMIZE_SIZE__
-#define DIFFERENCES_ASM_ARMV6M 0
-#else
-#define DIFFERENCES_ASM_ARMV6M SMEAR_ASM_ARMV6M
-#endif
 
 /* Pixels of a row at an instant, what is static behind them, and depth codes of both: larger is nearer. */
 struct difference_rows {
@@ -59,7 +52,8 @@ struct difference_block {
     int32_t pitch, pitch_behind, rows, n;
 };
 
-static inline uint32_t difference_block_reference(const struct difference_block *b, uint32_t *moving)
+/* For up to 8 pixels in a row. */
+static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
 {
     struct difference_rows r = b->first;
     uint32_t sum = 0;
@@ -71,21 +65,6 @@ static inline uint32_t difference_block_reference(const struct difference_block 
         r.deep += b->pitch_behind;
     }
     return sum;
-}
-
-#if DIFFERENCES_ASM_ARMV6M
-/* 14 instructions a pixel that moves and is as the one there, 42 where they differ; compilers take 22 and 48. */
-uint32_t smear_difference_block_armv6m(const struct difference_block *b, uint32_t *moving);
-#endif
-
-/* For up to 8 pixels in a row. */
-static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
-{
-#if DIFFERENCES_ASM_ARMV6M
-    return smear_difference_block_armv6m(b, moving);
-#else
-    return difference_block_reference(b, moving);
-#endif
 }
 
 #endif
