@@ -4,6 +4,7 @@
 
 #include "kernels/pixel_rows_arm.h"
 #include "kernels/pixel_rows_armv6m.h"
+#include "kernels/pixel_rows_armv7em.h"
 
 /* ------------------------------------------------------------------ 16 bits, nearest levels */
 
@@ -99,7 +100,7 @@ static inline bool is_flat_block(const uint32_t *in)
  * those of 63. */
 enum { DITHER_31 = 249, DITHER_63 = 253 };
 
-#if !SMEAR_ASM_ARMV6M
+#if !SMEAR_ASM_ARMV6M && !SMEAR_ASM_ARMV7EM
 /* Exchanges the bytes of each half. */
 static inline uint32_t bytes_exchanged(uint32_t pair)
 {
@@ -114,9 +115,10 @@ static inline uint32_t bytes_exchanged(uint32_t pair)
 /* Returns two pixels, by factors that the compiler takes as they are: it would make sums of DITHER_31 and DITHER_63. */
 SMEAR_INLINE uint32_t dithered_pair(uint32_t p, uint32_t q, uint32_t step, uint32_t by_31, uint32_t by_63, bool is_555, bool swapped)
 {
-    const uint32_t five = 0xf800f800u;
-    const uint32_t red = pair_of(pixel_red(p), pixel_red(q)) * by_31 + step, blue = pair_of(pixel_blue(p), pixel_blue(q)) * by_31 + step;
-    const uint32_t green = pair_of(pixel_green(p), pixel_green(q)), high = is_555 ? blue : red, low = is_555 ? red : blue;
+    const uint32_t five = 0xf800f800u, bytes = 0x00ff00ffu;
+    const uint32_t lower = pair_of(p & 0xffffu, q & 0xffffu), upper = pair_of(p >> 16, q >> 16);
+    const uint32_t red = (upper & bytes) * by_31 + step, blue = (lower & bytes) * by_31 + step, green = lower >> 8 & bytes;
+    const uint32_t high = is_555 ? blue : red, low = is_555 ? red : blue;
     const uint32_t pair = is_555 ? (high & five) >> 1 | ((green * by_31 + step) & five) >> 6 | (low & five) >> 11
                                  : (high & five) | ((green * by_63 + (step >> 1)) & 0xfc00fc00u) >> 5 | (low & five) >> 11;
     return swapped != SMEAR_BIG_ENDIAN ? bytes_exchanged(pair) : pair;
@@ -166,6 +168,8 @@ SMEAR_INLINE void dithered_blocks_of(uint16_t *out, const uint32_t *in, int32_t 
 {
 #if SMEAR_ASM_ARMV6M
     dithered_blocks_armv6m(out, in, blocks, step, is_555, swapped);
+#elif SMEAR_ASM_ARMV7EM
+    dithered_blocks_armv7em(out, in, blocks, step, is_555, swapped);
 #else
 #if SMEAR_ASM_ARM
     if (is_555) {
