@@ -14,6 +14,7 @@
 enum {
     OCTAVE = 4,                     /* levels of depths up to twice as near */
     LEVELS = 12 * OCTAVE,
+    LEVEL_NONE = LEVELS,            /* of those that another job draws */
     STRIPS = 16,
     ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
     ORDER_PIXELS = 8,               /* of the target for each: smaller ones hide little; */
@@ -29,8 +30,8 @@ size_t smear_front_order_bytes(const struct smear_bins *bins)
 {
     if (bins_listed(bins) < ORDER_LEAST || bins_end(bins) > UINT16_MAX)
         return 0;
-    for (uint32_t i = 0; i < bins->segment_count; i++)
-        if (!segment_textured(&bins->segment[i]) || bins->segment[i].path != 0)
+    for (uint32_t i = 0; i < bins->segment_count; i++)      /* between those of several parts some are of none */
+        if (bins->segment[i].stride != 0 && (!segment_textured(&bins->segment[i]) || bins->segment[i].path != 0))
             return 0;
     return (min_u32(bins_listed(bins), ORDER_MOST) * 3u + 3u) & ~(size_t)3u;
 }
@@ -106,10 +107,9 @@ static uint32_t list_count(const struct smear_bins *bins, uint32_t head, uint32_
 /* Whether a list's order is worth finding: of small triangles not where little was hidden in one of the last lists. */
 static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
-    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * (target->y1 - target->y0));
-    const uint32_t most = min_u32(min_u32(bins_listed(frame->bins), ORDER_MOST), pixels / ORDER_PIXELS);
-    const uint32_t count = list_count(frame->bins, head, most);
+    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * frame->bins->row_px);
     struct front_memory *const memory = (struct front_memory *)target->cache.entry - 1;
+    const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS), count = list_count(frame->bins, head, most);
     if (count > pixels / SMALL_PIXELS && memory->rest != 0) {
         memory->rest--;
         return false;
@@ -117,13 +117,21 @@ static bool is_worth_it(const struct smear_raster_frame *frame, const struct sme
     return count <= most;
 }
 
+/* Whether no row of a triangle is one of the target's, which has not all rows of the list. */
+static inline bool is_apart(const struct smear_raster_target *t, const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+    const int32_t y0 = v0[VERTEX_Y], y1 = v1[VERTEX_Y], y2 = v2[VERTEX_Y];
+    return (min_i32(y0, min_i32(y1, y2)) + 127) >> 8 >= t->y1 || (max_i32(y0, max_i32(y1, y2)) + 127) >> 8 <= t->y0;
+}
+
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
  * is a point or blended. */
-static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct smear_raster_frame *frame,
+static uint32_t find_levels(uint16_t count[LEVELS + 1], uint8_t *level, const struct smear_raster_frame *frame,
                             const struct smear_raster_target *target, uint32_t head)
 {
     const struct smear_bins *const bins = frame->bins;
     const int shift = strip_shift(target);
+    const bool is_part = target->y1 - target->y0 < bins->row_px;
     struct front_taken taken;
     uint32_t n = 0;
     __builtin_memset(&taken, 255, sizeof taken);
@@ -134,9 +142,13 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
         const struct smear_segment *segment = &bins->segment[t->segment];
         if (draw_is_blended(&frame->draw[segment->draw]))
             return 0;
-        const struct front_range r = range_of(bins_vertex(bins, segment, t->vertex[0]), bins_vertex(bins, segment, t->vertex[1]),
-                                              bins_vertex(bins, segment, t->vertex[2]));
-        const uint32_t taken_level = take_level(&taken, target, &r, shift);
+        const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
+                      *const v2 = bins_vertex(bins, segment, t->vertex[2]);
+        uint32_t taken_level = LEVEL_NONE;
+        if (!is_part || !is_apart(target, v0, v1, v2)) {
+            const struct front_range r = range_of(v0, v1, v2);
+            taken_level = take_level(&taken, target, &r, shift);
+        }
         level[n++] = (uint8_t)taken_level;
         count[taken_level]++;
         head = t->next;
@@ -147,13 +159,13 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
 uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
     const struct smear_plane_rows *const rows = &target->window_rows;
-    uint16_t *const order = front_order_of(&target->cache), place[LEVELS] = { 0 };
+    uint16_t *const order = front_order_of(&target->cache), place[LEVELS + 1] = { 0 };
     if (order == NULL || head == SMEAR_NO_TRIANGLE || target_has_velocity(target) || frame_has_fog(frame)
         || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
         return 0;
     if (!is_worth_it(frame, target, head))
         return 0;
-    uint8_t *const level = (uint8_t *)(order + min_u32(bins_listed(frame->bins), ORDER_MOST));
+    uint8_t *const level = (uint8_t *)(order + front_order_most((const struct front_memory *)target->cache.entry - 1));
     const uint32_t n = find_levels(place, level, frame, target, head);
     if (n < ORDER_LEAST)
         return 0;
@@ -163,9 +175,10 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
         place[i] = (uint16_t)at;
         at += count;
     }
+    place[LEVEL_NONE] = (uint16_t)at;
     for (uint32_t i = 0; i < n; i++, head = bins_triangle(frame->bins, head)->next)
         order[place[level[i]]++] = (uint16_t)head;
-    return n;
+    return at;
 }
 
 bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t)

@@ -84,11 +84,11 @@ static uint32_t entry_bytes_of(const struct smear_bins *bins)
     return (entry_bytes + ALIGN - 1u) & ~(ALIGN - 1u);
 }
 
-/* An order lies before the entries of each part. */
+/* An order lies before the entries of each part, of fewer triangles where there is no room for all. */
 static size_t order_bytes(const struct smear_bins *bins, size_t most)
 {
-    const size_t order = smear_front_order_bytes(bins);
-    return ((order <= most / ORDER_PART ? order : 0) + sizeof(struct front_memory) + ALIGN - 1u) & ~(size_t)(ALIGN - 1u);
+    const size_t order = smear_front_order_bytes(bins), room = most / ORDER_PART & ~(size_t)3u;
+    return ((order < room ? order : room) + sizeof(struct front_memory) + ALIGN - 1u) & ~(size_t)(ALIGN - 1u);
 }
 
 struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, int count, const struct smear_bins *bins)

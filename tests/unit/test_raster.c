@@ -525,6 +525,7 @@ static int32_t draw_bands(struct planes *p, int32_t band, bool order)
     if (order)
         cache = smear_raster_cache_make(memory, sizeof memory, 1, &geometry);
     uint16_t *const number = front_order_of(&cache);
+    geometry.row_px = H;        /* bands are parts of it */
     planes_clear(p);
     for (int32_t y = 0; y < H; y += band) {
         struct smear_raster_target t = target_of(p);
