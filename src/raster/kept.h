@@ -78,7 +78,7 @@ struct front_memory {
 /* Returns how many triangles of a list find room: each has a number of 16 bits and a level. */
 static inline uint32_t front_order_most(const struct front_memory *m)
 {
-    return (m->bytes - (uint32_t)sizeof(struct front_memory)) / 3u & ~1u;
+    return (m->bytes - (uint32_t)sizeof(struct front_memory)) / 3u;
 }
 
 /* Returns the bytes, a multiple of four, that the order of a frame's list takes; 0 where lists stay as they are. */
