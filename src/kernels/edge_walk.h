@@ -231,7 +231,7 @@ static inline void edge_fine_step(struct edge_fine *e)
 }
 
 /* Left sides of n > 0 rows, 0 at least. The edge goes on by so many rows. */
-SMEAR_INLINE void edge_left_reference(struct span_side *side, struct edge_walk *edge, int32_t n)
+SMEAR_INLINE void edge_left(struct span_side *side, struct edge_walk *edge, int32_t n)
 {
     struct edge_walk e = *edge;
     struct span_side *const end = side + n;
@@ -243,7 +243,7 @@ SMEAR_INLINE void edge_left_reference(struct span_side *side, struct edge_walk *
 }
 
 /* Right sides, `width` at most, and where they are. */
-SMEAR_INLINE void edge_right_reference(struct span_side *side, struct edge_walk *edge, int32_t n, int32_t width)
+SMEAR_INLINE void edge_right(struct span_side *side, struct edge_walk *edge, int32_t n, int32_t width)
 {
     struct edge_walk e = *edge;
     struct span_side *const end = side + n;
@@ -254,75 +254,6 @@ SMEAR_INLINE void edge_right_reference(struct span_side *side, struct edge_walk 
         edge_step(&e);
     } while (++side != end);
     *edge = e;
-}
-
-#if SMEAR_ASM_ARMV6M
-SMEAR_STATIC_ASSERT(sizeof(struct span_side) == 12 && offsetof(struct span_side, edge) == 8 && sizeof(struct edge_walk) == 20
-                        && offsetof(struct edge_walk, step_rest) == 12,
-                    "the assembly knows edges and sides");
-
-/* The edge at r0 into r1 to r5, rows at r6; STORE takes its pixel in r7. The last row's end in r8, the width in r9. Half of the
- * instructions that compilers take. */
-#define EDGE_SIDES_ARMV6M(STORE) \
-    __asm__ volatile(".syntax unified\n\t" \
-                     "mov r8, r7\n\t" \
-                     "mov r9, r1\n\t" \
-                     "ldm r0!, {r1, r2, r3, r4, r5}\n\t" \
-                     "subs r0, #20\n" \
-                     "1: asrs r7, r1, #8\n\t" STORE "adds r6, #12\n\t" \
-                     "adds r1, r1, r3\n\t" \
-                     "adds r2, r2, r4\n\t" \
-                     "ble 3f\n\t" \
-                     "subs r2, r2, r5\n\t" \
-                     "adds r1, #1\n" \
-                     "3: cmp r6, r8\n\t" \
-                     "bne 1b\n\t" \
-                     "stm r0!, {r1, r2}" \
-                     : "+r"(r0), "+r"(r1), "+r"(r6), "+r"(r7) \
-                     : \
-                     : "r2", "r3", "r4", "r5", "r8", "r9", "cc", "memory")
-
-static inline void edge_left_armv6m(struct span_side *side, struct edge_walk *edge, int32_t n)
-{
-    register struct edge_walk *r0 __asm__("r0") = edge;
-    register int32_t r1 __asm__("r1") = 0;
-    register struct span_side *r6 __asm__("r6") = side;
-    register struct span_side *r7 __asm__("r7") = side + n;
-    EDGE_SIDES_ARMV6M("bpl 2f\n\t"
-                      "movs r7, #0\n"
-                      "2: str r7, [r6]\n\t");
-}
-
-static inline void edge_right_armv6m(struct span_side *side, struct edge_walk *edge, int32_t n, int32_t width)
-{
-    register struct edge_walk *r0 __asm__("r0") = edge;
-    register int32_t r1 __asm__("r1") = width;
-    register struct span_side *r6 __asm__("r6") = side;
-    register struct span_side *r7 __asm__("r7") = side + n;
-    EDGE_SIDES_ARMV6M("str r7, [r6, #8]\n\t"
-                      "cmp r7, r9\n\t"
-                      "ble 2f\n\t"
-                      "mov r7, r9\n"
-                      "2: str r7, [r6, #4]\n\t");
-}
-#endif
-
-static inline void edge_left(struct span_side *side, struct edge_walk *edge, int32_t n)
-{
-#if SMEAR_ASM_ARMV6M
-    edge_left_armv6m(side, edge, n);
-#else
-    edge_left_reference(side, edge, n);
-#endif
-}
-
-static inline void edge_right(struct span_side *side, struct edge_walk *edge, int32_t n, int32_t width)
-{
-#if SMEAR_ASM_ARMV6M
-    edge_right_armv6m(side, edge, n, width);
-#else
-    edge_right_reference(side, edge, n, width);
-#endif
 }
 
 /* Both sides of n > 0 rows. */

@@ -6,7 +6,7 @@
 #include "kernels/pixel_rows_armv6m.h"
 #include "kernels/pixel_rows_armv7em.h"
 
-/* ------------------------------------------------------------------ 16 bits, nearest levels */
+/* ------------------------------------------------------------------ 16 bits, dithered */
 
 #ifndef __OPTIMIZE_SIZE__
 /* Returns two pixels of 16 bits as they lie in memory. */
@@ -19,74 +19,6 @@ static inline uint32_t pair_of(uint32_t first, uint32_t second)
 #endif
 }
 
-static inline void store_pair(uint16_t *out, uint32_t pair)
-{
-    __builtin_memcpy(__builtin_assume_aligned(out, 4), &pair, 4);
-}
-
-SMEAR_INLINE void nearest_pairs(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
-{
-    if (((uintptr_t)out & 2u) != 0 && n > 0) {
-        *out++ = (uint16_t)nearest_16bit(*in++, format);
-        n--;
-    }
-    if (n <= 0)
-        return;
-    uint32_t last = ~*in, packed = 0, pair = 0;
-    const uint32_t *end = in + n, *end_of_pairs = end - 1, *end_of_sixes = end - 5;
-    for (; in < end_of_pairs; in += 2, out += 2) {
-        uint32_t a = in[0], b = in[1], first = packed;
-        if (a != last) {
-            first = nearest_16bit(a, format);
-            packed = b == a ? first : nearest_16bit(b, format);
-        } else if (b != last) {
-            packed = nearest_16bit(b, format);
-        } else {
-            store_pair(out, pair);
-            for (; in < end_of_sixes && in[2] == last && in[3] == last && in[4] == last && in[5] == last;
-                 in += 4, out += 4) {
-                store_pair(out + 2, pair);
-                store_pair(out + 4, pair);
-            }
-            continue;
-        }
-        last = b;
-        pair = pair_of(packed, packed);
-        store_pair(out, pair_of(first, packed));
-    }
-    if (in < end)
-        *out = (uint16_t)nearest_16bit(*in, format);
-}
-
-static SMEAR_NOINLINE void nearest_555(uint16_t *out, const uint32_t *in, int32_t n)
-{
-    nearest_pairs(out, in, n, ROW_555);
-}
-
-static SMEAR_NOINLINE void nearest_565(uint16_t *out, const uint32_t *in, int32_t n)
-{
-    nearest_pairs(out, in, n, ROW_565);
-}
-
-static SMEAR_NOINLINE void nearest_565_swapped(uint16_t *out, const uint32_t *in, int32_t n)
-{
-    nearest_pairs(out, in, n, ROW_565_SWAPPED);
-}
-
-void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
-{
-    if (SMEAR_WITH_RGB && format == ROW_555)
-        nearest_555(out, in, n);
-    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
-        nearest_565_swapped(out, in, n);
-    else if (SMEAR_WITH_RGB565)
-        nearest_565(out, in, n);
-}
-#endif
-
-/* ------------------------------------------------------------------ 16 bits, dithered */
-
-#ifndef __OPTIMIZE_SIZE__
 enum { BLOCK = 8, BLOCK_PAIRS = BLOCK / 2 };
 
 static inline bool is_flat_block(const uint32_t *in)

@@ -92,10 +92,6 @@ static inline void row_nearest_reference(uint16_t *out, const uint32_t *in, int3
         *out++ = (uint16_t)nearest_16bit(*in++, format);
 }
 
-#ifndef __OPTIMIZE_SIZE__
-/* Stores pairs of pixels. Flat areas are long: a pair that stays as it was costs a comparison. */
-void smear_row_nearest_unrolled(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
-#endif
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
 /* Stores eight pixels a round. */
 void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format);
@@ -103,12 +99,10 @@ void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum
 
 static inline void row_nearest(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
 {
-#ifdef __OPTIMIZE_SIZE__
-    row_nearest_reference(out, in, n, format);
-#elif SMEAR_VECTORS
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     smear_row_nearest_vector(out, in, n, format);
 #else
-    smear_row_nearest_unrolled(out, in, n, format);
+    row_nearest_reference(out, in, n, format);
 #endif
 }
 

@@ -87,36 +87,11 @@ static void fine_best(struct kernel_call *c)
 #define BEST
 #endif
 
-/* Rows of the same edge as left and as right sides. */
-static void sides_by(struct kernel_call *c, bool best)
-{
-    const int32_t a[2] = { word(c, AX), word(c, AY) }, b[2] = { word(c, BX), word(c, BY) }, width = a[0] >> 9;
-    const int32_t rows = min_i32(((b[1] + 127) >> 8) - word(c, Y), c->n);
-    struct edge_walk e, f;
-    if (rows <= 0)
-        return;
-    edge_start(&e, a, b, word(c, Y));
-    f = e;
-    if (best) {
-        edge_sides(c->plane[0], &e, &f, rows, width);
-    } else {
-        edge_left_reference(c->plane[0], &e, rows);
-        edge_right_reference(c->plane[0], &f, rows, width);
-    }
-    c->word[AX] = (uint32_t)edge_pixel(&e);
-    c->word[AY] = (uint32_t)edge_pixel(&f);
-}
-
-static void sides_reference(struct kernel_call *c) { sides_by(c, false); }
-static void sides_best(struct kernel_call *c) { sides_by(c, true); }
-
 extern const struct kernel kernels_edge_walk[];
 const struct kernel kernels_edge_walk[] = {
     { .name = "edge_walk", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", by_rest }, { "best", best } } },
     { .name = "edge_fine", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", by_rest }, { "divided", fine_divided }, { "near", fine_near } BEST } },
-    { .name = "edge_sides", .least = 1, .most = 19, .size = { 12 }, .align = { 4 }, .prepare = prepare, .timed = 19,
-      .form = { { "reference", sides_reference }, { "best", sides_best } } },
     { .name = NULL }
 };

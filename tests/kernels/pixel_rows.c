@@ -19,19 +19,11 @@ static void nearest_reference(struct kernel_call *c)
     row_nearest_reference(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
 }
 
-#ifndef __OPTIMIZE_SIZE__
-static void nearest_unrolled(struct kernel_call *c)
-{
-    smear_row_nearest_unrolled(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
-}
-
-#if SMEAR_VECTORS
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
 static void nearest_vector(struct kernel_call *c)
 {
     smear_row_nearest_vector(c->plane[0], c->plane[1], c->n, (enum row_16bit)c->word[LAYOUT]);
 }
-#endif
-
 #endif
 
 static void prepare_dithered(struct kernel_call *c)
@@ -164,11 +156,8 @@ const struct kernel kernels_pixel_rows[] = {
       } },
     { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
       .form = { { "reference", nearest_reference },
-#ifndef __OPTIMIZE_SIZE__
-                { "unrolled", nearest_unrolled },
-#if SMEAR_VECTORS
+#if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
                 { "vector", nearest_vector },
-#endif
 #endif
       } },
     { .name = "row_dithered", .most = 67, .size = { 2, 4 }, .prepare = prepare_dithered,
