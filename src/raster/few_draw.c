@@ -28,22 +28,14 @@ struct beyond {
     int32_t to1, to2;
 };
 
-/* At the box's first pixel. */
-struct few_plane {
-    int32_t at, right, down;
-};
-
-/* All three edge functions (tiny.h), 21 bits each, in one word: their lower 8 bits are the same in all pixels, and left out. One that is
- * negative makes that above it lower by one; but then the pixel is outside anyway. */
-struct few_edges {
-    uint64_t at, right, down;
-};
+/* In the upper word, or the lower one ten bits up. */
+#define FEW_OUTSIDE (1u << 9 | 1u << 30)
 
 static inline bool few_outside(uint64_t edges)
 {
     if (SMEAR_ON_64)
         return (edges & (1ull << 20 | 1ull << 41 | 1ull << 62)) != 0;
-    return (((uint32_t)(edges >> 32) | (uint32_t)edges << 10) & (1u << 9 | 1u << 30)) != 0;
+    return (((uint32_t)(edges >> 32) | (uint32_t)edges << 10) & FEW_OUTSIDE) != 0;
 }
 
 static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
@@ -55,16 +47,13 @@ struct few {
     const struct few_look *look;
     const struct smear_raster_target *target;
     const struct setup *setup;      /* or null */
-    struct few_edges edges;
+    struct few_rows box;
     int32_t columns, rows;
     int32_t at, fits;               /* the first pixel, and how many rows there are before the ring's first one */
-    struct few_plane depth;         /* codes q16 */
-    struct few_plane u, v;
-    struct few_plane bend;          /* q15: how much larger 1/w is than at v[0] */
     int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
     bool bent;
-    enum light_kind light_kind;
-    struct few_plane light[4];      /* r g b a, 16 bits q15; in white light those of r and g are not set */
+    enum light_kind light_kind;     /* white: planes of red and green are not set */
+    bool cut;                       /* columns on the right are beside the target */
 };
 
 /* The weights of v[1] and v[2], q15: at the box's first pixel, and their slopes. */
@@ -92,12 +81,22 @@ static inline int32_t weigh(struct beyond b, int32_t w1, int32_t w2)
     return add_wrap(mul_wrap(b.to1, w1), mul_wrap(b.to2, w2));
 }
 
-static inline void few_plane_make(struct few_plane *p, const struct few_weights *w, int32_t value, struct beyond b)
+static inline void few_plane_set(struct few *k, int plane, int32_t at, int32_t right, int32_t down)
 {
-    p->at = add_wrap(shl_wrap(value, 15), weigh(b, w->at1, w->at2));
-    p->right = weigh(b, w->right1, w->right2);
-    p->down = weigh(b, w->down1, w->down2);
+    k->box.at.plane[plane] = at;
+    k->box.right.plane[plane] = right;
+    k->box.down.plane[plane] = down;
 }
+
+/* `up`: the plane's, of which 15 bits after the point are made. */
+static inline void few_plane_make(struct few *k, int plane, const struct few_weights *w, int32_t value, struct beyond b, int up)
+{
+    few_plane_set(k, plane, shl_wrap(add_wrap(shl_wrap(value, 15), weigh(b, w->at1, w->at2)), up),
+                  shl_wrap(weigh(b, w->right1, w->right2), up), shl_wrap(weigh(b, w->down1, w->down2), up));
+}
+
+/* The plane of channel r, g, b or a of light. */
+static inline int light_plane(int c) { return c < 2 ? FEW_RED + c : FEW_BLUE + (c - 2); }
 
 /* ------------------------------------------------------------------ weights */
 
@@ -141,12 +140,11 @@ static inline bool few_depth_make(struct few *k, const struct few_weights *w, in
 {
     const int32_t low = q0 + min_i32(min_i32(q.to1, q.to2), 0), high = q0 + max_i32(max_i32(q.to1, q.to2), 0);
     const bool far = high < SLOPE_BREAK - 65536, near = low >= SLOPE_BREAK + 65536;     /* slopes are rounded */
-    struct few_plane *const p = &k->depth;
     const int32_t right = add_wrap(part_q15(q.to1, w->right1), part_q15(q.to2, w->right2));
     const int32_t down = add_wrap(part_q15(q.to1, w->down1), part_q15(q.to2, w->down2));
     const int32_t units = add_wrap(q0, add_wrap(part_q8(right, cx), part_q8(down, cy)));
     const enum depth_slope slope = far ? SLOPE_FAR : SLOPE_NEAR;
-    *p = (struct few_plane){ (int32_t)code_from_units(units, slope), step_from_units(right, slope), step_from_units(down, slope) };
+    few_plane_set(k, FEW_DEPTH, (int32_t)code_from_units(units, slope), step_from_units(right, slope), step_from_units(down, slope));
     return far || near;
 }
 
@@ -183,21 +181,17 @@ static inline bool few_coordinates_make(struct few *k, const struct few_weights 
         const int up = count_leading_zeros((uint32_t)q0) - 1;
         const int32_t recip = (int32_t)recip_norm((uint32_t)q0 << 1 << up);     /* 1/q0 = recip 2^(up - 60) */
         const struct beyond e = { mulh_i32(shl_wrap(q.to1, up), recip) >> 13, mulh_i32(shl_wrap(q.to2, up), recip) >> 13 };
-        few_plane_make(&k->bend, w, 0, e);
+        few_plane_make(k, FEW_BEND, w, 0, e, 0);
         u = (struct beyond){ u.to1 + (u.to1 * e.to1 >> 15), u.to2 + (u.to2 * e.to2 >> 15) };
         v = (struct beyond){ v.to1 + (v.to1 * e.to1 >> 15), v.to2 + (v.to2 * e.to2 >> 15) };
-        few_plane_make(&k->u, w, 0, u);
-        few_plane_make(&k->v, w, 0, v);
+        few_plane_make(k, FEW_U, w, 0, u, 0);
+        few_plane_make(k, FEW_V, w, 0, v, 0);
         k->u0 = shl_wrap((int16_t)(a & 0xffff), 15);
         k->v0 = shl_wrap(a >> 16, 15);
         return true;
     }
-    few_plane_make(&k->u, w, (int16_t)(a & 0xffff), u);
-    few_plane_make(&k->v, w, a >> 16, v);
-    if (l->turns) {
-        k->u = (struct few_plane){ shl_wrap(k->u.at, l->up), shl_wrap(k->u.right, l->up), shl_wrap(k->u.down, l->up) };
-        k->v = (struct few_plane){ shl_wrap(k->v.at, l->up), shl_wrap(k->v.right, l->up), shl_wrap(k->v.down, l->up) };
-    }
+    few_plane_make(k, FEW_U, w, (int16_t)(a & 0xffff), u, l->up);
+    few_plane_make(k, FEW_V, w, a >> 16, v, l->up);
     return true;
 }
 
@@ -213,7 +207,7 @@ static void few_flat_light(struct few *k, uint32_t color, bool linear)
 {
     for (int c = 0; c < 4; c++) {
         const uint32_t code = c < 3 ? color >> (16 - 8 * c) & 255u : pixel_alpha(color);
-        k->light[c] = (struct few_plane){ (int32_t)(linear && c < 3 ? smear_srgb_decode[code] : code << 8) * 32768, 0, 0 };
+        few_plane_set(k, light_plane(c), (int32_t)(linear && c < 3 ? smear_srgb_decode[code] : code << 8) * 32768, 0, 0);
     }
     k->light_kind = pixel_red(color) == pixel_green(color) && pixel_red(color) == pixel_blue(color) ? LIGHT_WHITE : LIGHT_COLORED;
 }
@@ -238,7 +232,7 @@ static bool few_light_make(struct few *k, const struct few_weights *w, const int
         const struct beyond b = few_beyond(value, few_light_value(c1, c, linear), few_light_value(c2, c, linear));
         if (!segment_flat_depth(l->segment) && (beyond_range(b) >> 9) * change > (uint32_t)r[0][VERTEX_DEPTH] >> 12)
             return false;
-        few_plane_make(&k->light[c], w, value, b);
+        few_plane_make(k, light_plane(c), w, value, b, 0);
     }
     return true;
 }
@@ -284,7 +278,7 @@ static inline void *few_after(void *pixel, int32_t n, enum few_kind kind, bool n
     return kind == FEW_ANY ? NULL : pixel_after(pixel, n, kind == FEW_NARROW || (kind == FEW_WHITE && narrow));
 }
 
-static inline void few_white(void *to, uint32_t pixel, bool narrow)
+static inline void few_put_white(void *to, uint32_t pixel, bool narrow)
 {
     if (narrow)
         *(uint16_t *)to = (uint16_t)rgb565_nearest(pixel);
@@ -293,9 +287,9 @@ static inline void few_white(void *to, uint32_t pixel, bool narrow)
 }
 
 /* Returns a plane's value right of and below its first pixel. */
-static inline int32_t few_plane_at(const struct few_plane *p, int32_t x, int32_t y)
+static inline int32_t few_plane_at(const struct few *k, int plane, int32_t x, int32_t y)
 {
-    return add_wrap(add_wrap(p->at, mul_wrap(p->right, x)), mul_wrap(p->down, y));
+    return add_wrap(add_wrap(k->box.at.plane[plane], mul_wrap(k->box.right.plane[plane], x)), mul_wrap(k->box.down.plane[plane], y));
 }
 
 /* Draws n > 0 pixels of a row from its column `skip` on, which is pixel `at`. */
@@ -310,14 +304,14 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
         pixel = k->target->direct + at;
     else if (kind != FEW_ANY)
         pixel = k->target->color + at;
-    const int32_t dz = k->depth.right, du = k->u.right, dv = k->v.right;
-    uint32_t z = (uint32_t)few_plane_at(&k->depth, skip, row);
-    int32_t u = few_plane_at(&k->u, skip, row), v = few_plane_at(&k->v, skip, row);
-    int32_t e = bent ? few_plane_at(&k->bend, skip, row) : 0;
+    const int32_t *const step = k->box.right.plane, dz = step[FEW_DEPTH], du = step[FEW_U], dv = step[FEW_V];
+    uint32_t z = (uint32_t)few_plane_at(k, FEW_DEPTH, skip, row);
+    int32_t u = few_plane_at(k, FEW_U, skip, row), v = few_plane_at(k, FEW_V, skip, row);
+    int32_t e = bent ? few_plane_at(k, FEW_BEND, skip, row) : 0;
     struct few_pixel p = { 0, 0, { 0, 0, 0, 0 } };
     const int first = few_light_first(k, kind), end_light = few_light_end(k, kind);
     for (int c = first; c < end_light; c++)
-        p.light[c] = (uint32_t)few_plane_at(&k->light[c], skip, row);
+        p.light[c] = (uint32_t)few_plane_at(k, light_plane(c), skip, row);
     do {
         if (z >> 16 > *depth) {
             p.u = (uint32_t)u;
@@ -335,7 +329,7 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
             else if (kind == FEW_LINEAR)
                 *(uint32_t *)pixel = shaded_pixel(((const uint32_t *)l->texels)[index], 0, 0, p.light[2] >> 7, true, true);
             else if (kind == FEW_WHITE)
-                few_white(pixel, shaded_pixel(texel_fetch(l->texels, l->draw->sampler.palette, index, l->draw->sampler.format), 0, 0,
+                few_put_white(pixel, shaded_pixel(texel_fetch(l->texels, l->draw->sampler.palette, index, l->draw->sampler.format), 0, 0,
                                               p.light[2] >> 7, true, linear), narrow);
             if (kind != FEW_ANY || few_put(k, (int32_t)(depth - k->target->depth), index, &p))
                 *depth = (uint16_t)(z >> 16);
@@ -344,9 +338,9 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
         u = add_wrap(u, du);
         v = add_wrap(v, dv);
         if (bent)
-            e = add_wrap(e, k->bend.right);
+            e = add_wrap(e, step[FEW_BEND]);
         for (int c = first; c < end_light; c++)
-            p.light[c] += (uint32_t)k->light[c].right;
+            p.light[c] += (uint32_t)step[light_plane(c)];
         pixel = few_after(pixel, 1, kind, narrow);
     } while (++depth != end);
 }
@@ -355,12 +349,12 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
 SMEAR_INLINE void few_rows(const struct few *k, enum few_kind kind, bool bent)
 {
     const struct smear_plane_rows *const w = &k->target->window_rows;
-    uint64_t first = k->edges.at;
+    uint64_t first = k->box.at.edges;
     int32_t at = k->at;
     for (int32_t y = 0; y != k->rows; y++) {
         const struct few *row = k;
         SMEAR_KEEP_VALUE(row);
-        const uint64_t right = row->edges.right;
+        const uint64_t right = row->box.right.edges;
         uint64_t edges = first;
         int32_t left = row->columns, n = 0;
         while (few_outside(edges) && --left != 0)
@@ -369,49 +363,73 @@ SMEAR_INLINE void few_rows(const struct few *k, enum few_kind kind, bool bent)
             edges += right;
         if (n != 0)
             few_row(row, at + (row->columns - left), row->columns - left, y, n, kind, bent);
-        first += row->edges.down;
+        first += row->box.down.edges;
         at += w->stride;
         if (y + 1 == row->fits)
             at -= w->ring * w->stride;
     }
 }
 
-static SMEAR_NOINLINE void few_narrow(const struct few *k) { few_rows(k, FEW_NARROW, false); }
-static SMEAR_NOINLINE void few_narrow_bent(const struct few *k) { few_rows(k, FEW_NARROW, true); }
+SMEAR_INLINE void few_rows_of(const struct few *k, enum few_kind kind)
+{
+    if (k->bent)
+        few_rows(k, kind, true);
+    else
+        few_rows(k, kind, false);
+}
+
+static SMEAR_NOINLINE void few_narrow(const struct few *k) { few_rows_of(k, FEW_NARROW); }
 static SMEAR_NOINLINE void few_wide(const struct few *k) { few_rows(k, FEW_WIDE, false); }
 static SMEAR_NOINLINE void few_wide_bent(const struct few *k) { few_rows(k, FEW_WIDE, true); }
+static SMEAR_NOINLINE void few_linear(const struct few *k) { few_rows_of(k, FEW_LINEAR); }
+static SMEAR_NOINLINE void few_white(const struct few *k) { few_rows_of(k, FEW_WHITE); }
 static SMEAR_NOINLINE void few_any(const struct few *k) { few_rows(k, FEW_ANY, k->bent); }
 
-static SMEAR_NOINLINE void few_lit(const struct few *k)
+static inline void few_texels_take(struct few_look *l, const struct smear_raster_target *t)
 {
-    if (k->bent)
-        few_rows(k, FEW_WHITE, true);
-    else
-        few_rows(k, FEW_WHITE, false);
+    const uint32_t depth = (uint32_t)(uintptr_t)t->depth, middle = l->height / 2 * l->width + l->width / 2;
+    const bool narrow = l->kind == FEW_NARROW;
+    l->rows = (struct few_texels){ l->width, l->height, (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u),
+                                   narrow ? (uint32_t)(uintptr_t)t->direct - depth - 2u : (uint32_t)(uintptr_t)t->color - 2u * depth - 4u,
+                                   FEW_OUTSIDE, smear_srgb_decode, smear_srgb_encode };
 }
 
-/* As a program gets it that asks for nothing. */
-static SMEAR_NOINLINE void few_linear(const struct few *k)
+/* Draws the box by the loop of this core, where that is one of its kind. */
+static inline bool few_rows_loop(struct few *k)
 {
-    if (k->bent)
-        few_rows(k, FEW_LINEAR, true);
-    else
-        few_rows(k, FEW_LINEAR, false);
+    const struct few_look *const l = k->look;
+    if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_LINEAR || (l->kind == FEW_LINEAR && k->light_kind != LIGHT_WHITE))
+        return false;
+    const struct smear_raster_target *const t = k->target;
+    struct few_rows *const r = &k->box;
+    r->columns = (uint32_t)k->columns;
+    r->depth = (uint32_t)(uintptr_t)t->depth + (uint32_t)k->at * 2u;
+    r->depth_bytes = (uint32_t)t->window_rows.stride * 2u;
+    r->depth_end = r->depth + (uint32_t)min_i32(k->rows, k->fits) * r->depth_bytes;
+    r->at.plane[FEW_U] = add_wrap(r->at.plane[FEW_U], INT32_MIN);
+    r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], INT32_MIN);
+    few_rows_armv7em(r, &l->rows, l->kind);
+    if (k->rows > k->fits) {
+        r->depth -= (uint32_t)t->window_rows.ring * r->depth_bytes;
+        r->depth_end = r->depth + (uint32_t)(k->rows - k->fits) * r->depth_bytes;
+        few_rows_armv7em(r, &l->rows, l->kind);
+    }
+    return true;
 }
 
-static inline void few_rows_any(const struct few *k)
+static inline void few_rows_any(struct few *k)
 {
     const enum few_kind kind = k->look->kind;
-    if (FEW_COPIES && kind == FEW_NARROW && !k->bent)
+    if (few_rows_loop(k))
+        return;
+    if (FEW_COPIES && kind == FEW_NARROW)
         few_narrow(k);
-    else if (FEW_COPIES && kind == FEW_NARROW)
-        few_narrow_bent(k);
     else if (FEW_COPIES && kind == FEW_WIDE && !k->bent)
         few_wide(k);
     else if (FEW_COPIES && kind == FEW_WIDE)
         few_wide_bent(k);
     else if (FEW_COPIES && kind == FEW_WHITE && k->light_kind == LIGHT_WHITE)
-        few_lit(k);
+        few_white(k);
     else if (FEW_COPIES && kind == FEW_LINEAR && k->light_kind == LIGHT_WHITE)
         few_linear(k);
     else
@@ -448,6 +466,8 @@ bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, 
         l->kind = frame_is_linear(frame) && !target_is_direct(t) && m->format == SMEAR_TEXEL_8888 ? FEW_LINEAR : FEW_WHITE;
     else if (m->format == (target_is_direct(t) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
         l->kind = target_is_direct(t) ? FEW_NARROW : FEW_WIDE;
+    if (FEW_ROWS_LOOP)
+        few_texels_take(l, t);
     return true;
 }
 
@@ -458,8 +478,10 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
     int32_t left = (x + min_i32(min_i32(x1, x2), 0) + 127) >> 8, right = (x + max_i32(max_i32(x1, x2), 0) + 127) >> 8;
     int32_t top = (y + min_i32(min_i32(y1, y2), 0) + 127) >> 8, bottom = (y + max_i32(max_i32(y1, y2), 0) + 127) >> 8;
+    struct few k;
     if (right - left > FEW_PX || bottom - top > FEW_PX)
         return false;
+    k.cut = FEW_ROWS_LOOP && right > t->x1;
     left = max_i32(left, t->x0);
     right = min_i32(right, t->x1);
     top = max_i32(top, t->y0);
@@ -469,7 +491,6 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     const int32_t cx = left * 256 + 128 - x, cy = top * 256 + 128 - y, area = x1 * y2 - x2 * y1, q0 = v[0][VERTEX_DEPTH];
     const struct beyond q = few_beyond(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]);
     struct few_weights w;
-    struct few k;
     k.look = l;
     k.target = t;
     k.setup = setup;
@@ -477,8 +498,9 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
     const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
     const int32_t e0 = area + bias1 + bias2 + tiny_bias(x2 - x1, y2 - y1) - e1 - e2;
-    k.edges = (struct few_edges){ few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8), few_edges_word(y1 - y2, y2, -y1),
-                                  few_edges_word(x2 - x1, -x2, x1) };
+    k.box.at.edges = few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8);
+    k.box.right.edges = few_edges_word(y1 - y2, y2, -y1);
+    k.box.down.edges = few_edges_word(x2 - x1, -x2, x1);
     if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy) || !few_depth_make(&k, &w, q0, q, cx, cy)
         || !few_coordinates_make(&k, &w, v, q))
         return false;

@@ -4,14 +4,11 @@
 #ifndef SMEAR_FEW_DRAW_H
 #define SMEAR_FEW_DRAW_H
 
+#include "kernels/few_rows.h"
 #include "raster/setup.h"
 
 /* Boxes of at most so many columns and rows. */
 enum { FEW_PX = 16 };
-
-/* Opaque texels with turns: copied into pixels of 16 or of 32 bits; in white light; such of 32 bits in white linear light, into pixels of
- * 32 bits. And any. */
-enum few_kind { FEW_NARROW, FEW_WIDE, FEW_WHITE, FEW_LINEAR, FEW_ANY };
 
 /* What such triangles of a segment have in common. With turns, coordinates are turns q32, and a texel is number
  * v >> from_v & mask_v | u >> from_u; else they are mesh units q15. */
@@ -26,6 +23,7 @@ struct few_look {
     uint8_t from_u, from_v;
     uint32_t mask_v;
     uint32_t width, height;         /* of the texture */
+    struct few_texels rows;         /* with turns, of kinds with a loop of their own */
 };
 
 /* False where a segment's triangles are others: blended, or with motions of their own. */
