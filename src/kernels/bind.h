@@ -260,22 +260,15 @@
 #define words_copy words_copy_reference
 #endif
 
-/* Of a track along textured rows: TEXEL_TRACK_STARTS where starting a row is a kernel, too: where size counts, what compilers make of it
- * is shorter. TEXEL_BLOCKS: several blocks of narrow texels are one. */
-#define TEXEL_TRACK_STARTS (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
+/* TEXEL_BLOCKS: several blocks of narrow texels along a row are one. */
 #define TEXEL_BLOCKS SMEAR_ASM_ARMV7EM
-#if TEXEL_TRACK_STARTS
-#define texel_track_start texel_track_start_armv6m
-#else
-#define texel_track_start texel_track_start_reference
-#endif
 #if TEXEL_BLOCKS
 #define texel_blocks texel_blocks_armv7em
 #else
 #define texel_blocks texel_blocks_reference
 #endif
 
-/* TEXEL_CURVE_ROWS where rows of narrow texels whose places are polynomials, one below the other, are a kernel: compilers have no
+/* TEXEL_CURVE_ROWS where rows of copied texels whose places are polynomials, one below the other, are a kernel: compilers have no
  * registers for what rows have in common. */
 #define TEXEL_CURVE_ROWS (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
 #if SMEAR_ASM_ARMV6M

@@ -149,7 +149,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_rows,
         : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
 /* Draws one row or more: 22 instructions for a pixel that is seen, of light 43; compilers take 30 and 70. */
-static SMEAR_NOINLINE void few_rows_armv7em(struct few_rows *rows, const struct few_texels *texels, enum few_kind kind)
+SMEAR_CALLED void few_rows_armv7em(struct few_rows *rows, const struct few_texels *texels, enum few_kind kind)
 {
     register struct few_rows *r0 __asm__("r0") = rows;
     register const struct few_texels *r1 __asm__("r1") = texels;

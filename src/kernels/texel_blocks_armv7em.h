@@ -194,7 +194,7 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
         "beq 52f\n\t"
         ARMV7EM_PARABOLA("ldr r0, [r12, #76]\n\t")
         ARMV7EM_RUN
-        ARMV7EM_BENT_QUADS("lsls r0, r11, #24\n\tbne 33b\n\t", "53f")
+        ARMV7EM_BENT_QUADS(NARROW, "lsls r0, r11, #24\n\tbne 33b\n\t", "53f")
         "52: lsl r10, r4, r11\n\t"
         "lsl lr, r5, r11\n\t"
             ARMV7EM_RUN
@@ -214,7 +214,7 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
         "cmp r0, #0\n\t"
         "beq 55f\n\t"
         ARMV7EM_PARABOLA("ldr r0, [r12, #60]\n\tsubs r0, r0, #1\n\t")
-        ARMV7EM_PART_RUN ARMV7EM_BENT("54b")
+        ARMV7EM_PART_RUN ARMV7EM_BENT(NARROW, "54b")
         "55: lsl r10, r4, r11\n\t"
         "lsl lr, r5, r11\n\t" ARMV7EM_PART_RUN "add r4, r7, lr, lsl #1\n\t"
         ARMV7EM_STRAIGHT("54b")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texel_curve_rows.h - rows of narrow texels one below the other, whose coordinates are polynomials. */
+/* texel_curve_rows.h - rows of copied texels one below the other, whose coordinates are polynomials. */
 #ifndef SMEAR_KERNELS_TEXEL_CURVE_ROWS_H
 #define SMEAR_KERNELS_TEXEL_CURVE_ROWS_H
 
@@ -20,7 +20,7 @@ struct texel_curve_rows {
     int32_t stride;             /* bytes */
     struct curve u, v;
     uint32_t dz, ddu, ddv;      /* ddu is 2 dxx of u */
-    int32_t to_depth;           /* bytes from a pixel to its depth */
+    intptr_t to_pixels;         /* bytes from a depth to its pixel; where they are wide, of an address twice the depth's */
     const void *texels;
 };
 
@@ -46,8 +46,9 @@ static inline void texel_curve_rows_before(struct texel_curve_rows *r)
     r->depth = (uint16_t *)((uintptr_t)r->depth - (uintptr_t)r->stride);
 }
 
-/* Draws rows from left to before right, where there are such pixels, as texels_draw does. Afterwards the rows are anything. */
-static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int log2_width, int log2_height)
+/* Draws rows from left to before right, where there are such pixels, as texels_draw does. Afterwards the rows are anything. Texels are
+ * narrow or wide. */
+static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int log2_width, int log2_height, enum texel_kind kind)
 {
     for (int32_t row = 0; row < r->count; row++) {
         const int32_t left = r->side[row].left, n = r->side[row].right - left, bytes = row * r->stride + 2 * left;
@@ -59,9 +60,9 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
         texel_run_start(&run, log2_width, log2_height);
         run.z = r->z + r->dz_down * (uint32_t)row + r->dz * (uint32_t)left;
         run.depth = (uint16_t *)((uintptr_t)r->depth + (uintptr_t)bytes);
-        run.color = (void *)((uintptr_t)run.depth - (uintptr_t)r->to_depth);
+        run.color = (void *)((uintptr_t)run.depth * (texels_are_narrow(kind) ? 1u : 2u) + (uintptr_t)r->to_pixels);
         if (n > 0)
-            texels_draw_reference(&run, n, log2_width, log2_height, TEXELS_NARROW);
+            texels_draw_reference(&run, n, log2_width, log2_height, kind);
     }
 }
 
@@ -124,49 +125,56 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
         "subs r4, r4, r0\n\t" \
         "push {r0, r4, r5, r6}\n\t"
 
-/* On the stack lie the rows, whose members have come to the row before. */
-static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct texel_curve_rows *rows, int log2_width, int log2_height)
+/* On the stack lie the rows, whose members have come to the row before. PLACE makes a pixel's address of that of its depth. */
+#define ARMV6M_CURVE_ROWS(LOAD, STORE, SIZE, PLACE) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0}\n\t" \
+        "adds r0, #80\n\t" \
+        "ldm r0!, {r1, r2, r3}\n\t" \
+        "mov r8, r1\n\t" \
+        "mov r11, r2\n\t" \
+        "mov r12, r3\n" \
+        ARMV6M_NEXT_ROW \
+            ARMV6M_ROW_PLACE \
+        "adds r7, #12\n\t" \
+        ARMV6M_POLYNOMIAL \
+        "str r4, [sp, #12]\n\t" \
+        "mov r9, r3\n\t" \
+        ARMV6M_POLYNOMIAL \
+        "mov r10, r3\n\t" \
+        "ldr r6, [r7, #12]\n\t" \
+        "ldr r5, [r7, #16]\n\t" \
+        "pop {r0, r1, r2, r3}\n\t" \
+        "movs r7, #34\n\t" \
+        "muls r7, r0\n\t" \
+        PLACE \
+        "add pc, r7\n\t" \
+        "nop\n" \
+        "31:\n\t" \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", ARMV6M_BEND) \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "4", ARMV6M_BEND) \
+        "adds r0, #8<<" SIZE "\n\t" \
+        "adds r1, #16\n\t" \
+        "cmp r1, lr\n\t" \
+        "beq 9f\n\t" \
+        "b 31b\n" \
+        "9: b 40b\n" \
+        "42: add sp, #4" \
+        : "+r"(r0) \
+        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), [from_u] "i"(32 - log2_width) \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct texel_curve_rows *rows, int log2_width, int log2_height,
+                                                                          enum texel_kind kind)
 {
     rows->side = (const struct span_side *)((uintptr_t)rows->side - sizeof(struct span_side));
     texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r0}\n\t"
-        "adds r0, #80\n\t"
-        "ldm r0!, {r1, r2, r3}\n\t"
-        "mov r8, r1\n\t"
-        "mov r11, r2\n\t"
-        "mov r12, r3\n"
-        ARMV6M_NEXT_ROW
-            ARMV6M_ROW_PLACE
-        "adds r7, #12\n\t"
-        ARMV6M_POLYNOMIAL
-        "str r4, [sp, #12]\n\t"
-        "mov r9, r3\n\t"
-        ARMV6M_POLYNOMIAL
-        "mov r10, r3\n\t"
-        "ldr r6, [r7, #12]\n\t"
-        "ldr r5, [r7, #16]\n\t"
-        "pop {r0, r1, r2, r3}\n\t"
-        "movs r7, #34\n\t"
-        "muls r7, r0\n\t"
-        "subs r0, r1, r6\n\t"
-        "add pc, r7\n\t"
-        "nop\n"
-        "31:\n\t"
-        ARMV6M_FOUR("ldrh", "strh", "1", "0", ARMV6M_BEND)
-        ARMV6M_FOUR("ldrh", "strh", "1", "4", ARMV6M_BEND)
-        "adds r0, #16\n\t"
-        "adds r1, #16\n\t"
-        "cmp r1, lr\n\t"
-        "beq 9f\n\t"
-        "b 31b\n"
-        "9: b 40b\n"
-        "42: add sp, #4"
-        : "+r"(r0)
-        : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + 1), [from_u] "i"(32 - log2_width)
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    if (kind == TEXELS_NARROW)
+        ARMV6M_CURVE_ROWS("ldrh", "strh", "1", "adds r0, r1, r6\n\t");
+    else
+        ARMV6M_CURVE_ROWS("ldr", "str", "2", "adds r0, r1, r1\n\tadds r0, r0, r6\n\t");
 }
 #endif
 
@@ -182,41 +190,48 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct
         "mla " VALUE ", " DYY ", r12, " AT "\n\t" \
         "add " STEP ", " DX ", " DXX "\n\t"
 
-/* On the stack lie the rows, whose members have come to the row before. */
-static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struct texel_curve_rows *rows, int log2_width, int log2_height)
+/* On the stack lie the rows, whose members have come to the row before. PLACE makes of a depth's address what r7 points to. */
+#define ARMV7EM_CURVE_ROWS(KIND, PLACE) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0}\n" \
+        "40: ldr r0, [sp]\n" \
+        "41: ldm r0, {r1, r2, r3, r4, r5, r6, r7, r8}\n\t" \
+        "subs r2, r2, #1\n\t" \
+        "blt 42f\n\t" \
+        "ldrd r9, r10, [r1], #12\n\t" \
+        "adds r3, r3, #1\n\t" \
+        "add r4, r4, r7\n\t" \
+        "add r5, r5, r8\n\t" \
+        "stm r0, {r1, r2, r3, r4, r5}\n\t" \
+        "subs lr, r10, r9\n\t" \
+        "ble 41b\n\t" \
+        "add r7, r5, r9, lsl #1\n\t" \
+        "sub r12, r9, r6\n\t" \
+        "ldr r1, [r0, #80]\n\t" \
+        "mla r9, r1, r9, r4\n\t" \
+        "adds r0, #32\n\t" \
+        "ldm r0!, {r1, r2, r6, r8, r10, r11}\n\t" \
+        ARMV7EM_POLYNOMIAL("r1", "r2", "r6", "r8", "r10", "r11", "r10", "r2") \
+        "ldm r0!, {r1, r4, r5, r6, r8, r11}\n\t" \
+        ARMV7EM_POLYNOMIAL("r1", "r4", "r5", "r6", "r8", "r11", "r11", "r3") \
+        "ldm r0, {r1, r4, r5, r8, r12}\n\t" \
+        PLACE \
+        ARMV7EM_BENT(KIND, "40b") \
+        "42: add sp, #4" \
+        : "+r"(r0) \
+        : ARMV7EM_SIZES \
+        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
+static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struct texel_curve_rows *rows, int log2_width, int log2_height,
+                                                                           enum texel_kind kind)
 {
     texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r0}\n"
-        "40: ldr r0, [sp]\n"
-        "41: ldm r0, {r1, r2, r3, r4, r5, r6, r7, r8}\n\t"
-        "subs r2, r2, #1\n\t"
-        "blt 42f\n\t"
-        "ldrd r9, r10, [r1], #12\n\t"
-        "adds r3, r3, #1\n\t"
-        "add r4, r4, r7\n\t"
-        "add r5, r5, r8\n\t"
-        "stm r0, {r1, r2, r3, r4, r5}\n\t"
-        "subs lr, r10, r9\n\t"
-        "ble 41b\n\t"
-        "add r7, r5, r9, lsl #1\n\t"
-        "sub r12, r9, r6\n\t"
-        "ldr r1, [r0, #80]\n\t"
-        "mla r9, r1, r9, r4\n\t"
-        "adds r0, #32\n\t"
-        "ldm r0!, {r1, r2, r6, r8, r10, r11}\n\t"
-        ARMV7EM_POLYNOMIAL("r1", "r2", "r6", "r8", "r10", "r11", "r10", "r2")
-        "ldm r0!, {r1, r4, r5, r6, r8, r11}\n\t"
-        ARMV7EM_POLYNOMIAL("r1", "r4", "r5", "r6", "r8", "r11", "r11", "r3")
-        "ldm r0, {r1, r4, r5, r8, r12}\n\t"
-        "sub r7, r7, r8\n\t"
-        ARMV7EM_BENT("40b")
-        "42: add sp, #4"
-        : "+r"(r0)
-        : ARMV7EM_SIZES
-        : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    if (kind == TEXELS_NARROW)
+        ARMV7EM_CURVE_ROWS(NARROW, "add r7, r7, r8\n\trsb r8, r8, #0\n\t");
+    else
+        ARMV7EM_CURVE_ROWS(WIDE, "");
 }
 #endif
 

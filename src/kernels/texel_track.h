@@ -22,18 +22,6 @@ struct texel_track {
 #endif
 };
 
-/* A row's start: the planes' values at (x, row), and the place there. A plane is at, dx, dy; `plane` is q, u and v. */
-static inline void texel_track_start_reference(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
-{
-    int32_t value[3];
-    for (int i = 0; i < 3; i++)
-        value[i] = add_wrap(plane[3 * i], add_wrap(mul_wrap(plane[3 * i + 1], x), mul_wrap(plane[3 * i + 2], row)));
-    k->q = value[0];
-    k->u = value[1];
-    k->v = value[2];
-    k->place = place_divided(k->q, k->u, k->v, k->slope, k->parabolic);
-}
-
 /* Goes on by a whole block: finds the place at its end, and the run's coordinates. The changes of changes are 0 before where blocks
  * are not parabolic. log2 is 2 .. 6. */
 static inline void texel_track_next_reference(struct texel_track *k)
@@ -264,53 +252,6 @@ static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_
     else
         ARMV6M_TRACK("116", "120", "124", "", "", "", ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
 }
-
-#if TEXEL_TRACK_STARTS
-/* A plane's value, of at, dx and dy at r1, into the track. */
-#define ARMV6M_PLANE \
-        "ldm r1!, {r4, r5, r6}\n\t" \
-        "muls r5, r2\n\t" \
-        "muls r6, r3\n\t" \
-        "adds r4, r4, r5\n\t" \
-        "adds r4, r4, r6\n\t" \
-        "stm r0!, {r4}\n\t"
-
-/* 100 instructions, and 119 where blocks are bent: two thirds of the compiler's. r7 is u's plane until its quotient is known. */
-SMEAR_CALLED void texel_track_start_armv6m(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
-{
-    register struct texel_track *r0 __asm__("r0") = k;
-    register const int32_t *r1 __asm__("r1") = plane;
-    register int32_t r2 __asm__("r2") = x, r3 __asm__("r3") = row;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "adds r0, #52\n\t"
-        ARMV6M_PLANE
-        "mov r12, r4\n\t"
-        ARMV6M_PLANE
-        "movs r7, r4\n\t"
-        ARMV6M_PLANE
-        "mov lr, r4\n\t"
-        "subs r0, #64\n\t"
-        "mov r3, r12\n\t"
-        ARMV6M_RECIP("100")
-        "movs r3, r7\n\t"
-        ARMV6M_QUOTIENT
-        "movs r7, r3\n\t"
-        "mov r3, lr\n\t"
-        ARMV6M_QUOTIENT
-        "str r7, [r0, #64]\n\t"
-        "str r3, [r0, #68]\n\t"
-        "movs r3, #104\n\t"
-        "ldrb r3, [r0, r3]\n\t"
-        "cmp r3, #0\n\t"
-        "beq 5f\n\t"
-        ARMV6M_NEARNESS
-        "5: str r3, [r0, #72]"
-        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
-        :
-        : "r4", "r5", "r6", "r7", "r12", "lr", "cc", "memory");
-}
-#endif
 #endif
 
 static inline void texel_track_next(struct texel_track *k)
@@ -341,15 +282,6 @@ static inline void texel_track_part(struct texel_track *k, int32_t n)
 #define TRACK_BLOCK static inline
 #else
 #define TRACK_BLOCK TRACK_FUNCTION
-#endif
-
-/* Where assembly starts rows and divides, the choice between its function and another is not worth one. */
-#if TEXEL_TRACK_STARTS
-#define TRACK_GO static SMEAR_NOINLINE
-#define TRACK_NEXT SMEAR_INLINE
-#else
-#define TRACK_GO SMEAR_INLINE
-#define TRACK_NEXT TRACK_FUNCTION
 #endif
 
 /* Takes the length of whole blocks, 2^log2 pixels. */

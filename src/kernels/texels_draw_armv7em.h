@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texels_draw_armv7em.h - narrow texels along a row, as texels_draw has them, of which blocks and rows are made in assembly for
+/* texels_draw_armv7em.h - copied texels along a row, as texels_draw has them, of which blocks and rows are made in assembly for
  * Cortex-M4 and others that have its instructions for halves of words: depths are tested in pairs. Compilers use none of these, and as
  * many registers as there are for less. */
 #ifndef SMEAR_KERNELS_TEXELS_DRAW_ARMV7EM_H
@@ -14,8 +14,18 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
                         && offsetof(struct texel_run, z) == 32 && offsetof(struct texel_run, texels) == 44,
                     "the assembly knows struct texel_run");
 
-/* dz is in r1, du, dv, ddu and ddv in r2 to r5, z in r9, u in r10, v in r11; r7 points to colours, depths lie r8 bytes further on, r12
- * points to texels. In lr lie the bits that an index has of v, and in r0 and r6 whatever comes. */
+/* dz is in r1, du, dv, ddu and ddv in r2 to r5, z in r9, u in r10, v in r11; r12 points to texels. r7 points to narrow colours, depths lie
+ * r8 bytes further on; or, of KIND WIDE, to depths, and colours lie at r8 and twice that. In lr lie the bits that an index has of v, and
+ * in r0 and r6 whatever comes. */
+#define ARMV7EM_DEPTH_NARROW(OF) OF ", [r7, r8]\n\t"
+#define ARMV7EM_DEPTH_WIDE(OF) OF ", [r7]\n\t"
+#define ARMV7EM_LOAD_NARROW  "ldrh r0, [r12, r0, lsl #1]\n\t"
+#define ARMV7EM_LOAD_WIDE    "ldr r0, [r12, r0, lsl #2]\n\t"
+#define ARMV7EM_STORE_NARROW "strh r0, [r7]\n"
+#define ARMV7EM_STORE_WIDE   "str r0, [r8, r7, lsl #1]\n"
+#define ARMV7EM_PUT_NARROW   "strh r0, [r7], #2\n\t"
+#define ARMV7EM_PUT_WIDE     "str r0, [r8, r7, lsl #1]\n\tadd r7, r7, #2\n\t"
+
 #define ARMV7EM_BEND \
         "add r2, r2, r4\n\t" \
         "add r3, r3, r5\n\t"
@@ -25,66 +35,58 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "add r11, r11, r3\n\t" \
         BEND
 
-#define ARMV7EM_TEXEL \
+#define ARMV7EM_TEXEL(KIND) \
         "and r0, lr, r11, lsr %[index_v]\n\t" \
         "orr r0, r0, r10, lsr %[from_u]\n\t" \
-        "ldrh r0, [r12, r0, lsl #1]\n\t"
+        ARMV7EM_LOAD_##KIND
 
 #define ARMV7EM_MASK "movw lr, %[mask_v]\n\t"
 
 /* A pixel, which is stepped over in memory; lr keeps what it has. */
-#define ARMV7EM_PIXEL(BEND) \
-        "ldrh r0, [r7, r8]\n\t" \
+#define ARMV7EM_PIXEL(KIND, BEND) \
+        ARMV7EM_DEPTH_##KIND("ldrh r0") \
         "cmp r0, r9, lsr #16\n\t" \
         "bhs 9f\n\t" \
         "lsr r6, r9, #16\n\t" \
-        "strh r6, [r7, r8]\n\t" \
+        ARMV7EM_DEPTH_##KIND("strh r6") \
         "lsr r0, r11, %[from_v]\n\t" \
         "lsr r6, r10, %[from_u]\n\t" \
         "orr r0, r6, r0, lsl %[to_v]\n\t" \
-        "ldrh r0, [r12, r0, lsl #1]\n\t" \
-        "strh r0, [r7]\n" \
+        ARMV7EM_LOAD_##KIND ARMV7EM_STORE_##KIND \
         "9: adds r7, #2\n\t" \
         "add r9, r9, r1\n\t" \
         ARMV7EM_STEP(BEND)
 
 /* Two pixels, if both are seen; else SLOW, which goes elsewhere if r0 is 0. Halves of r0 are 0 where the old depth is not less, and
  * so is their product where one of them is. */
-#define ARMV7EM_PAIR(SLOW, BEND) \
+#define ARMV7EM_PAIR(KIND, SLOW, BEND) \
         "add r6, r9, r1\n\t" \
         "pkhtb r6, r6, r9, asr #16\n\t" \
-        "ldr r0, [r7, r8]\n\t" \
+        ARMV7EM_DEPTH_##KIND("ldr r0") \
         "uqsub16 r0, r6, r0\n\t" \
         "add r9, r9, r1, lsl #1\n\t" \
         "smulbt r0, r0, r0\n\t" \
         SLOW \
-        "str r6, [r7, r8]\n\t" \
-        ARMV7EM_TEXEL \
-        "strh r0, [r7], #2\n\t" \
-        ARMV7EM_STEP(BEND) \
-        ARMV7EM_TEXEL \
-        "strh r0, [r7], #2\n\t" \
-        ARMV7EM_STEP(BEND)
+        ARMV7EM_DEPTH_##KIND("str r6") \
+        ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND ARMV7EM_STEP(BEND) \
+        ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND ARMV7EM_STEP(BEND)
 
 /* Two pixels of which one at most is seen; their codes are in r6. */
-#define ARMV7EM_SLOW_PAIR(BEND, BOTH) \
-        "ldr r0, [r7, r8]\n\t" \
-        "uqsub16 r0, r6, r0\n\t" \
+#define ARMV7EM_SLOW_PAIR(KIND, BEND, BOTH) \
+        ARMV7EM_DEPTH_##KIND("ldr r0") "uqsub16 r0, r6, r0\n\t" \
         "cbz r0, 8f\n\t" \
         "lsls r0, r0, #16\n\t" \
         "beq 7f\n\t" \
-        "strh r6, [r7, r8]\n\t" \
-        ARMV7EM_TEXEL \
-        "strh r0, [r7]\n" \
+        ARMV7EM_DEPTH_##KIND("strh r6") \
+        ARMV7EM_TEXEL(KIND) ARMV7EM_STORE_##KIND \
         "8: adds r7, #4\n\t" \
         BOTH \
         "b 9f\n" \
         "7: adds r7, #2\n\t" \
         ARMV7EM_STEP(BEND) \
         "lsrs r6, r6, #16\n\t" \
-        "strh r6, [r7, r8]\n\t" \
-        ARMV7EM_TEXEL \
-        "strh r0, [r7], #2\n\t" \
+        ARMV7EM_DEPTH_##KIND("strh r6") \
+        ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND \
         ARMV7EM_STEP(BEND) \
         "9:\n\t"
 
@@ -103,54 +105,54 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
 /* Rounds of four pixels, at 23 or 33; at 24 or 34 the last two of one. MORE goes there where more are to come. Goes on at DONE. */
 #define ARMV7EM_STRAIGHT_QUADS(MORE, DONE) \
         "23:\n\t" \
-        ARMV7EM_PAIR("cbz r0, 26f\n\t", "") \
+        ARMV7EM_PAIR(NARROW, "cbz r0, 26f\n\t", "") \
         "24:\n\t" \
-        ARMV7EM_PAIR("cbz r0, 27f\n\t", "") \
+        ARMV7EM_PAIR(NARROW, "cbz r0, 27f\n\t", "") \
         "28: " MORE \
         "b " DONE "\n" \
         "26:\n\t" \
-        ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
+        ARMV7EM_SLOW_PAIR(NARROW, "", ARMV7EM_BOTH) \
         "b 24b\n" \
         "27:\n\t" \
-        ARMV7EM_SLOW_PAIR("", ARMV7EM_BOTH) \
+        ARMV7EM_SLOW_PAIR(NARROW, "", ARMV7EM_BOTH) \
         "b 28b\n"
 
-#define ARMV7EM_BENT_QUADS(MORE, DONE) \
+#define ARMV7EM_BENT_QUADS(KIND, MORE, DONE) \
         "33:\n\t" \
-        ARMV7EM_PAIR("cbnz r0, 9f\n\tb 36f\n9:\n\t", ARMV7EM_BEND) \
+        ARMV7EM_PAIR(KIND, "cbnz r0, 9f\n\tb 36f\n9:\n\t", ARMV7EM_BEND) \
         "34:\n\t" \
-        ARMV7EM_PAIR("cbz r0, 37f\n\t", ARMV7EM_BEND) \
+        ARMV7EM_PAIR(KIND, "cbz r0, 37f\n\t", ARMV7EM_BEND) \
         "38: " MORE \
         "b " DONE "\n" \
         "37:\n\t" \
-        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        ARMV7EM_SLOW_PAIR(KIND, ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
         "b 38b\n" \
         "36:\n\t" \
-        ARMV7EM_SLOW_PAIR(ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
+        ARMV7EM_SLOW_PAIR(KIND, ARMV7EM_BEND, ARMV7EM_BOTH_BENT) \
         "b 34b\n"
 
 /* The same of any number of pixels, lr > 0. Behind the last points r4; where changes change, the upper half of lr counts rounds. */
 #define ARMV7EM_STRAIGHT(DONE) \
         "lsrs r0, lr, #1\n\t" \
         "bcc 22f\n\t" \
-        ARMV7EM_PIXEL("") \
+        ARMV7EM_PIXEL(NARROW, "") \
         "22: lsrs r0, lr, #2\n\t" \
         ARMV7EM_MASK \
         "bcs 24f\n\t" \
         "beq " DONE "\n" \
         ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\tbne 23b\n\t", DONE)
 
-#define ARMV7EM_BENT(DONE) \
+#define ARMV7EM_BENT(KIND, DONE) \
         "lsrs r0, lr, #1\n\t" \
         "bcc 32f\n\t" \
-        ARMV7EM_PIXEL(ARMV7EM_BEND) \
+        ARMV7EM_PIXEL(KIND, ARMV7EM_BEND) \
         "32: lsrs r0, lr, #2\n\t" \
         ARMV7EM_MASK \
         "orr lr, lr, r0, lsl #16\n\t" \
         "bcs 34f\n\t" \
         "beq " DONE "\n\t" \
         "sub lr, lr, #65536\n" \
-        ARMV7EM_BENT_QUADS("subs lr, lr, #65536\n\tbpl 33b\n\t", DONE)
+        ARMV7EM_BENT_QUADS(KIND, "subs lr, lr, #65536\n\tbpl 33b\n\t", DONE)
 
 /* What the instructions have of the texture's sizes. */
 #define ARMV7EM_SIZES \

@@ -20,7 +20,7 @@ static inline const struct texture_setup *texture_of(const struct setup *s)
 }
 
 /* Goes on by n pixels, at most a block, where no places are divided. */
-TRACK_GO void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
+SMEAR_INLINE void track_go(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
     const struct place from = k->place;
     k->u = add_wrap(k->u, mul_wrap(t->uv[0].dx, n));
@@ -30,7 +30,7 @@ TRACK_GO void track_go(struct texel_track *k, const struct texture_setup *t, int
 }
 
 /* Finds the coordinates of the next n pixels. */
-TRACK_NEXT void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
+TRACK_FUNCTION void track_next(struct texel_track *k, const struct texture_setup *t, int32_t n)
 {
     if (t->mode == TEXTURE_DIVIDED)
         texel_track_part(k, n);
@@ -59,15 +59,9 @@ SMEAR_INLINE void track_prepare(struct texel_track *k, const struct texture_setu
     texcoord_run(&k->run, (struct texcoord){ 0, 0, 0, 0, 0, 0 });
 }
 
-SMEAR_STATIC_ASSERT(offsetof(struct texture_setup, uv) == offsetof(struct texture_setup, q) + 12, "texel_track_start takes nine words");
-
 /* At pixel (x, y). */
 TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setup *t, int32_t x, int32_t y)
 {
-    if (TEXEL_TRACK_STARTS && t->mode == TEXTURE_DIVIDED) {
-        texel_track_start(k, &t->q.at, x, y);
-        return;
-    }
     k->q = plane_at(&t->q, x, y);
     k->u = plane_at(&t->uv[0], x, y);
     k->v = plane_at(&t->uv[1], x, y);
@@ -436,7 +430,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
 /* ------------------------------------------------------------------ polynomials */
 
 /* Whole rows of copied texels. */
-SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height)
+SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_rows *r, int log2_width, int log2_height, enum texel_kind kind)
 {
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = &s->texture;
@@ -445,11 +439,13 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
         .depth = target->depth + r->at, .x0 = t->x0, .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
         .stride = 2 * target->window_rows.stride, .u = t->curve[0], .v = t->curve[1],
         .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
-        .to_depth = (int32_t)((uintptr_t)target->depth - (uintptr_t)target->direct), .texels = s->draw->sampler.texels
+        .to_pixels = kind == TEXELS_NARROW ? (intptr_t)((uintptr_t)target->direct - (uintptr_t)target->depth)
+                                           : (intptr_t)((uintptr_t)target->color - 2 * (uintptr_t)target->depth),
+        .texels = s->draw->sampler.texels
     };
     rows.ddu = 2 * (uint32_t)rows.u.dxx;
     rows.ddv = 2 * (uint32_t)rows.v.dxx;
-    texel_curve_rows_draw(&rows, log2_width, log2_height);
+    texel_curve_rows_draw(&rows, log2_width, log2_height, kind);
 }
 
 /* A row, in pieces of one light. p: its first run, where that is not all of it; else null. */
@@ -568,30 +564,30 @@ static bool rows_are_many(const struct span_rows *r)
 #define ANY_WIDTH  s->draw->sampler.log2_width
 #define ANY_HEIGHT s->draw->sampler.log2_height
 
-/* Loops of their own for pictures of 32 bits a texel; not for cores whose flash has no room for such. */
+/* Loops of their own for pictures of 32 bits a texel whose places are quotients; not for cores whose flash has no room for such. */
 enum { WIDE_SIZES = !SMEAR_ON_ARMV6M };
 
 ROWS(wide_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_WIDE)
-ROWS(wide_64, 6, 6, TEXELS_WIDE)
-ROWS(wide_128, 7, 7, TEXELS_WIDE)
-ROWS(wide_256, 8, 8, TEXELS_WIDE)
 LIT_ROWS(lit, TEXELS_LIT)
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
 /* Of whole rows there may be a kernel; others are few then. */
-#define NARROW_ROWS(NAME, LOG2_SIZE) \
-    BLOCK_ROWS(NAME, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW) \
+#define SIZE_ROWS(NAME, ANY, LOG2_SIZE, KIND) \
+    BLOCK_ROWS(NAME, LOG2_SIZE, LOG2_SIZE, KIND) \
     static void curves_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
         if (!TEXEL_CURVE_ROWS) \
-            draw_curves(s, r, NULL, LOG2_SIZE, LOG2_SIZE, TEXELS_NARROW); \
+            draw_curves(s, r, NULL, LOG2_SIZE, LOG2_SIZE, KIND); \
         else if (rows_are_whole(s, r)) \
-            draw_whole_curves(s, r, LOG2_SIZE, LOG2_SIZE); \
+            draw_whole_curves(s, r, LOG2_SIZE, LOG2_SIZE, KIND); \
         else \
-            curves_narrow_any(s, r); \
+            ANY(s, r); \
     }
-NARROW_ROWS(narrow_64, 6)
-NARROW_ROWS(narrow_128, 7)
-NARROW_ROWS(narrow_256, 8)
+SIZE_ROWS(narrow_64, curves_narrow_any, 6, TEXELS_NARROW)
+SIZE_ROWS(narrow_128, curves_narrow_any, 7, TEXELS_NARROW)
+SIZE_ROWS(narrow_256, curves_narrow_any, 8, TEXELS_NARROW)
+SIZE_ROWS(wide_64, curves_wide_any, 6, TEXELS_WIDE)
+SIZE_ROWS(wide_128, curves_wide_any, 7, TEXELS_WIDE)
+SIZE_ROWS(wide_256, curves_wide_any, 8, TEXELS_WIDE)
 LIT_ROWS(lit_narrow, TEXELS_LIT_NARROW)
 
 #define CHOOSE(KIND, T) ((T)->width != (T)->height ? KIND##_any : (T)->width == 64 ? KIND##_64 \
@@ -620,7 +616,7 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     }
     if (SMEAR_DIRECT && narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
-    if (!WIDE_SIZES)
-        return is_curved ? curves_wide_any : rows_wide_any;
+    if (!WIDE_SIZES && !is_curved)
+        return rows_wide_any;
     return is_curved ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
 }

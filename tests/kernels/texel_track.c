@@ -50,6 +50,18 @@ static void set_track(const struct kernel_call *c, struct texel_track *k)
     k->vx = k->dv >> 4;
 }
 
+/* A row's start: the planes' values at (x, row), and the place there. A plane is at, dx, dy; `plane` is q, u and v. */
+static inline void texel_track_start(struct texel_track *k, const int32_t *plane, int32_t x, int32_t row)
+{
+    int32_t value[3];
+    for (int i = 0; i < 3; i++)
+        value[i] = add_wrap(plane[3 * i], add_wrap(mul_wrap(plane[3 * i + 1], x), mul_wrap(plane[3 * i + 2], row)));
+    k->q = value[0];
+    k->u = value[1];
+    k->v = value[2];
+    k->place = place_divided(k->q, k->u, k->v, k->slope, k->parabolic);
+}
+
 /* Whole blocks and others, in the order of the bits of a word. */
 SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, const int32_t *, int32_t, int32_t),
                        void next(struct texel_track *), void part(struct texel_track *, int32_t))
@@ -82,14 +94,10 @@ SMEAR_INLINE void call(struct kernel_call *c, void start(struct texel_track *, c
     }
 }
 
-#if SMEAR_ASM_ARMV6M && !TEXEL_TRACK_STARTS
-#define texel_track_start_armv6m texel_track_start_reference
-#endif
-
 #define CALL(FORM) \
     static void FORM(struct kernel_call *c) \
     { \
-        call(c, texel_track_start_##FORM, texel_track_next_##FORM, texel_track_part_##FORM); \
+        call(c, texel_track_start, texel_track_next_##FORM, texel_track_part_##FORM); \
     }
 
 CALL(reference)

@@ -136,19 +136,23 @@ static void curves_prepare(struct kernel_call *c)
                                          (int32_t)(kernel_random() >> 12), (int32_t)kernel_random(), (int32_t)kernel_random() };
 }
 
-SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int))
+SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int, enum texel_kind), enum texel_kind kind)
 {
     struct texel_curve_rows rows = { sides, c->n / STRIDE, (int32_t)c->word[V], c->word[Z], c->plane[DEPTH], (int32_t)c->word[U],
                                      c->word[DU], STRIDE * 2, polynomials[0], polynomials[1], c->word[DZ], c->word[DDU],
-                                     c->word[DDV], (int32_t)((uint8_t *)c->plane[DEPTH] - (uint8_t *)c->plane[COLOR]), c->plane[TEXTURE] };
-    draw(&rows, LOG2_WIDTH, LOG2_HEIGHT);
+                                     c->word[DDV], (intptr_t)c->plane[COLOR] - (intptr_t)c->plane[DEPTH] * (kind == TEXELS_NARROW ? 1 : 2),
+                                     c->plane[TEXTURE] };
+    draw(&rows, LOG2_WIDTH, LOG2_HEIGHT, kind);
 }
 
-static void curves_reference(struct kernel_call *c) { curves_by(c, texel_curve_rows_reference); }
+#define CURVES(NAME, FORM) \
+    static void NAME(struct kernel_call *c) { curves_by(c, texel_curve_rows_##FORM, TEXELS_NARROW); } \
+    static void wide_##NAME(struct kernel_call *c) { curves_by(c, texel_curve_rows_##FORM, TEXELS_WIDE); }
+CURVES(curves_reference, reference)
 #if SMEAR_ASM_ARMV6M
-static void curves_armv6m(struct kernel_call *c) { curves_by(c, texel_curve_rows_armv6m); }
+CURVES(curves_armv6m, armv6m)
 #else
-static void curves_armv7em(struct kernel_call *c) { curves_by(c, texel_curve_rows_armv7em); }
+CURVES(curves_armv7em, armv7em)
 #endif
 #endif
 
@@ -167,6 +171,8 @@ const struct kernel kernels_texels_draw[] = {
 #if TEXEL_CURVE_ROWS
     { .name = "texel_curve_rows", .least = STRIDE, .most = 4 * STRIDE, .size = { 2, 2, 4 }, .prepare = curves_prepare,
       .form = { { "reference", curves_reference } ARMV6M(curves_armv6m) ARMV7EM(curves_armv7em) } },
+    { .name = "texel_curve_rows of wide texels", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2, 4 }, .prepare = curves_prepare,
+      .form = { { "reference", wide_curves_reference } ARMV6M(wide_curves_armv6m) ARMV7EM(wide_curves_armv7em) } },
 #endif
     { .name = NULL }
 };
