@@ -21,7 +21,7 @@ struct few_values {
  * light. And any. */
 enum few_kind { FEW_NARROW, FEW_WIDE, FEW_LINEAR, FEW_WHITE, FEW_ANY };
 
-struct few_rows {
+struct few_box {
     struct few_values at, down, right;      /* of the first row's first pixel; `at` goes on to the row behind the last one */
     uint32_t columns;                       /* the pixel behind them is outside */
     uint32_t depth, depth_bytes, depth_end; /* addresses of a row's first depth code, and from row to row */
@@ -40,8 +40,8 @@ struct few_texels {
 #define FEW_ROWS_LOOP SMEAR_ASM_ARMV7EM
 
 #if FEW_ROWS_LOOP
-SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_rows, columns) == 120
-                        && offsetof(struct few_rows, depth_end) == 132 && sizeof(struct few_texels) == 28,
+SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_box, columns) == 120
+                        && offsetof(struct few_box, depth_end) == 132 && sizeof(struct few_texels) == 28,
                     "the assembly knows them");
 
 /* The texel at r4 and r5, turned by half a turn, so that products with sign tell texels from the middle on: LOAD takes it from lr, r12. */
@@ -88,7 +88,7 @@ SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_rows,
 #define FEW_UNLIT(...)
 #define FEW_LIT(...) __VA_ARGS__
 
-/* At r0, struct few_rows; at r1, struct few_texels, which then lies at sp + 4. In rows: edge functions in r1 and r2, their steps in r6 and
+/* At r0, struct few_box; at r1, struct few_texels, which then lies at sp + 4. In rows: edge functions in r1 and r2, their steps in r6 and
  * r7; depth, u and v in r3 to r5, theirs in r8 to r10; the address of a depth in r0; in r11 the mask that tells what is outside or, of
  * pixels in light, light. */
 #define FEW_ROWS_ARMV7EM(PIXEL, LIT, MASK)                       \
@@ -149,9 +149,9 @@ SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_rows,
         : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
 /* Draws one row or more: 22 instructions for a pixel that is seen, of light 43; compilers take 30 and 70. */
-SMEAR_CALLED void few_rows_armv7em(struct few_rows *rows, const struct few_texels *texels, enum few_kind kind)
+SMEAR_CALLED void few_rows_armv7em(struct few_box *rows, const struct few_texels *texels, enum few_kind kind)
 {
-    register struct few_rows *r0 __asm__("r0") = rows;
+    register struct few_box *r0 __asm__("r0") = rows;
     register const struct few_texels *r1 __asm__("r1") = texels;
     if (kind == FEW_NARROW)
         FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW, FEW_UNLIT, "r11");
@@ -161,7 +161,7 @@ SMEAR_CALLED void few_rows_armv7em(struct few_rows *rows, const struct few_texel
         FEW_ROWS_ARMV7EM(FEW_PIXEL_LINEAR, FEW_LIT, "r12");
 }
 #else
-static inline void few_rows_armv7em(struct few_rows *rows, const struct few_texels *texels, enum few_kind kind)
+static inline void few_rows_armv7em(struct few_box *rows, const struct few_texels *texels, enum few_kind kind)
 {
     (void)rows, (void)texels, (void)kind;
 }

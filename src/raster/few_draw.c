@@ -47,7 +47,7 @@ struct few {
     const struct few_look *look;
     const struct smear_raster_target *target;
     const struct setup *setup;      /* or null */
-    struct few_rows box;
+    struct few_box box;
     int32_t columns, rows;
     int32_t at, fits;               /* the first pixel, and how many rows there are before the ring's first one */
     int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
@@ -401,7 +401,7 @@ static inline bool few_rows_loop(struct few *k)
     if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_LINEAR || (l->kind == FEW_LINEAR && k->light_kind != LIGHT_WHITE))
         return false;
     const struct smear_raster_target *const t = k->target;
-    struct few_rows *const r = &k->box;
+    struct few_box *const r = &k->box;
     r->columns = (uint32_t)k->columns;
     r->depth = (uint32_t)(uintptr_t)t->depth + (uint32_t)k->at * 2u;
     r->depth_bytes = (uint32_t)t->window_rows.stride * 2u;
