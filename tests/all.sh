@@ -295,13 +295,17 @@ boards() {
     on microbit symbols
     suite tiny $calls $make -s TARGET=microbit tiny-test
     suite model $calls sh tests/shell/target_model.sh build/smear tests/data/arm.gltf
-    # Version 2 of the SDK is tried where it is.
-    sdk=${PICO2_SDK_PATH:-}
-    [ -z "$sdk" ] || suite pico2 $calls sh tests/shell/target_pico2.sh "$sdk"
     pico_tools || return 0
     on pico demo game stack
     suite pico $calls sh tests/shell/target_pico.sh build/smear tests/data/arm.gltf
     suite pico-stranger $calls sh tests/shell/pico_stranger.sh tests/data/arm.gltf
+}
+
+# An RP2350 by a compiler alone; by version 2 of the SDK, too, where it is.
+pico2() {
+    arm || return 0
+    on pico2 symbols stack demo game
+    suite pico2 $calls sh tests/shell/target_pico2.sh ${PICO2_SDK_PATH:+"$PICO2_SDK_PATH"}
 }
 
 all_objects() {
@@ -362,7 +366,7 @@ case $level in
 check) groups="sanitized_briefly documents symbols format golden frames $suites" ;;
 test) groups="portable $tests" ;;
 all)
-    groups="one_file coverage boards generated switches web files linux_arm cortex_m3 linux raspi0 cortex_m7 cortex_m4 cortex_m33"
+    groups="one_file coverage boards pico2 generated switches web files linux_arm cortex_m3 linux raspi0 cortex_m7 cortex_m4 cortex_m33"
     groups="$groups $tests rv32imc lx106 screens all_objects proofs"
     ;;
 esac

@@ -7,12 +7,8 @@
 #include "platform/platform.h"
 #include "platform/common/arguments.h"
 #include "platform/pico/board.h"
-
-#include <hardware/clocks.h>
-#include <hardware/gpio.h>
-#include <hardware/uart.h>
-#include <pico/multicore.h>
-#include <pico/stdlib.h>
+#include "platform/pico/sdk.h"
+#include "platform/words.h"
 
 #include <string.h>
 
@@ -93,27 +89,18 @@ void board_start_core1(void (*entry)(void))
 
 static void paint_stacks(void)
 {
-    uint32_t here;
-    for (volatile uint32_t *at = (volatile uint32_t *)__StackLimit; at < &here - 16; at++)
+    const uint32_t *here = __builtin_frame_address(0);
+    for (volatile uint32_t *at = (volatile uint32_t *)__StackLimit; at < here - 64; at++)
         *at = STACK_PAINT;
     for (uint32_t i = 0; i < CORE1_STACK / 4; i++)
         core1_stack[i] = STACK_PAINT;
 }
 
-/* The text with "cores=1 " in front, or not. */
-static const char *take_cores(const char *text)
-{
-    static const char one[] = "cores=1 ";
-    if (memcmp(text, one, sizeof one - 1) != 0)
-        return text;
-    cores = 1;
-    return text + sizeof one - 1;
-}
-
 int main(void)
 {
-    static char text[COMMAND_LINE_BYTES], line[COMMAND_LINE_BYTES + 8] = "program ";
-    static char *argument[MAX_ARGUMENTS + 1];
+    static char line[COMMAND_LINE_BYTES + 8] = "program ";
+    static char *word[MAX_ARGUMENTS + 1];
+    char **argument = word;
     paint_stacks();
     memcpy(link_hot_start, link_hot_load, (size_t)((uintptr_t)link_hot_end - (uintptr_t)link_hot_start));
     set_sys_clock_khz(BOARD(CLOCK_KHZ), true);
@@ -121,9 +108,14 @@ int main(void)
     uart_init(uart0, BAUD);
     gpio_set_function(UART_TX, GPIO_FUNC_UART);
     for (int i = 0; i < COMMAND_LINE_BYTES - 1; i++)
-        text[i] = arguments.text[i];
-    strcpy(line + 8, take_cores(text));
-    const int status = demo_main(arguments_split(line, argument), argument);
+        line[8 + i] = arguments.text[i];
+    int count = arguments_split(line, word);
+    if (count > 1 && is_word(word[1], "cores=1")) {
+        cores = 1;
+        argument++;
+        count--;
+    }
+    const int status = demo_main(count, argument);
     platform_print(status == 0 ? "#exit 0\n" : "#exit 1\n");
     for (;;)
         __wfi();

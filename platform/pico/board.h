@@ -23,7 +23,7 @@ enum { NO_PIN = 255, CHIP_RP2040 = 2040, CHIP_RP2350 = 2350, BUS_PARALLEL = 8 };
 
 #define BOARD_PASTE(name, what) name##_##what
 #define BOARD_OF(name, what) BOARD_PASTE(name, what)
-#define BOARD(what) BOARD_OF(SMEAR_BOARD, what)
+#define BOARD(what) ((int)BOARD_OF(SMEAR_BOARD, what))
 
 #if defined PICO_RP2350 && PICO_RP2350
 _Static_assert(BOARD(CHIP) == CHIP_RP2350, "boards.h: this board has an RP2040; the SDK compiles for an RP2350 (PICO_PLATFORM)");

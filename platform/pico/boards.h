@@ -3,7 +3,7 @@
  * own is one more row.
  *
  *   name       BOARD=
- *   chip       RP2040, or RP2350 (which needs version 2 of the SDK)
+ *   chip       RP2040, or RP2350 (TARGET=pico2; by version 2 of the SDK TARGET=pico)
  *   glass      width, height as they are looked at; x, y of their first pixel in the controller's memory
  *   madctl     the controller's register 36h: rotation, mirroring, order of red and blue
  *   inverted   1 on glass that wants command 21h, as IPS panels do
@@ -36,7 +36,7 @@ BOARD(picosystem_te,  RP2040, 240, 240, 0, 0, 0x04, 1, 0,  6,  7, NO,  5,  9,  4
 BOARD(display_pack_2, RP2040, 320, 240, 0, 0, 0x70, 1, 0, 18, 19, NO, 17, 16, NO, 20, 66500, 133000, NO, NO, 13, 14, 12, 15, 0, 25, NO)
 /* Pimoroni Tufty 2040: 320x240, ST7789 behind eight wires. Run in the emulator. */
 BOARD(tufty,          RP2040, 320, 240, 0, 0, 0xb0, 1, 8, 12, 14, 13, 10, 11, NO,  2, 15000, 133000, 22,  6,  7,  9,  8, NO, 1, 25, NO)
-/* A Pico 2 with the usual breakout. Not run. */
+/* A Pico 2 with the usual breakout. Run in QEMU. */
 BOARD(pico2_breakout, RP2350, 240, 240, 0, 0, 0x00, 1, 0, 18, 19, NO, 17, 16, NO, 20, 75000, 150000, NO, NO, 13, 14, 12, 15, 0, 25, NO)
-/* Thumby Color: 128x128, GC9107. Not run. */
+/* Thumby Color: 128x128, GC9107. Run in QEMU. */
 BOARD(thumby_color,   RP2350, 128, 128, 0, 0, 0x00, 0, 0, 18, 19, NO, 17, 16,  4,  7, 75000, 150000,  1,  3,  0,  2, 21, 26, 0, 10, NO)

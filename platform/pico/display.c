@@ -4,16 +4,7 @@
  * One band is sent while the next is drawn. Both cores draw; core 1 waits in smear_work between frames. */
 #include "platform/display.h"
 #include "platform/pico/board.h"
-
-#include <hardware/clocks.h>
-#include <hardware/dma.h>
-#include <hardware/gpio.h>
-#include <hardware/irq.h>
-#include <hardware/pio.h>
-#include <hardware/spi.h>
-#include <hardware/structs/iobank0.h>
-#include <hardware/sync.h>
-#include <pico/stdlib.h>
+#include "platform/pico/sdk.h"
 
 /* Commands that all of these controllers share. */
 enum {
@@ -36,8 +27,6 @@ static struct {
 /* ------------------------------------------------------------------ bus */
 
 #define SPI (BOARD(BUS) == 1 ? spi1 : spi0)
-#define WIRES pio0
-#define MACHINE 0u
 
 static void open_spi(void)
 {
@@ -46,36 +35,11 @@ static void open_spi(void)
     gpio_set_function(BOARD(DATA), GPIO_FUNC_SPI);
 }
 
-/* Two instructions per byte: D0 to D7 with WR low, then WR high, by which the panel takes them. */
-static void open_parallel(void)
-{
-    static const uint16_t code[] = { 0x6008 /* out pins, 8  side 0 */, 0xb042 /* nop  side 1 */ };
-    static const struct pio_program program = { code, 2, 0 };
-    pio_add_program_at_offset(WIRES, &program, 0);
-    for (uint pin = BOARD(DATA); pin < BOARD(DATA) + 8; pin++)
-        pio_gpio_init(WIRES, pin);
-    pio_gpio_init(WIRES, BOARD(CLK));
-    pio_sm_set_consecutive_pindirs(WIRES, MACHINE, BOARD(DATA), 8, true);
-    pio_sm_set_consecutive_pindirs(WIRES, MACHINE, BOARD(CLK), 1, true);
-    pio_sm_config c = pio_get_default_sm_config();
-    sm_config_set_wrap(&c, 0, 1);
-    sm_config_set_out_pins(&c, BOARD(DATA), 8);
-    sm_config_set_sideset(&c, 1, false, false);
-    sm_config_set_sideset_pins(&c, BOARD(CLK));
-    sm_config_set_fifo_join(&c, PIO_FIFO_JOIN_TX);
-    sm_config_set_out_shift(&c, false, true, 8);
-    sm_config_set_clkdiv(&c, (float)(BOARD(CLOCK_KHZ)) / (2.0f * BOARD(BUS_KHZ)));
-    pio_sm_init(WIRES, MACHINE, 0, &c);
-    pio_sm_set_enabled(WIRES, MACHINE, true);
-}
-
 /* Until the last bit is on the wire: D/C must not change before. */
 static void drain(void)
 {
     if (IS_PARALLEL) {
-        WIRES->fdebug = 1u << (PIO_FDEBUG_TXSTALL_LSB + MACHINE);
-        while ((WIRES->fdebug & 1u << (PIO_FDEBUG_TXSTALL_LSB + MACHINE)) == 0)
-            tight_loop_contents();
+        wires_drain();
         return;
     }
     while (spi_is_busy(SPI))
@@ -89,7 +53,7 @@ static void write_bytes(const uint8_t *bytes, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (IS_PARALLEL)
-            pio_sm_put_blocking(WIRES, MACHINE, (uint32_t)bytes[i] << 24);
+            wires_put(bytes[i]);
         else
             spi_write_blocking(SPI, &bytes[i], 1);
     }
@@ -110,8 +74,8 @@ static void open_dma(void)
     bus.dma = (int)dma_claim_unused_channel(true);
     dma_channel_config c = dma_channel_get_default_config((uint)bus.dma);
     channel_config_set_transfer_data_size(&c, DMA_SIZE_8);
-    channel_config_set_dreq(&c, IS_PARALLEL ? pio_get_dreq(WIRES, MACHINE, true) : spi_get_dreq(SPI, true));
-    volatile void *to = IS_PARALLEL ? (volatile void *)&WIRES->txf[MACHINE] : (volatile void *)&spi_get_hw(SPI)->dr;
+    channel_config_set_dreq(&c, IS_PARALLEL ? wires_dreq() : spi_get_dreq(SPI, true));
+    volatile void *to = IS_PARALLEL ? wires_queue() : (volatile void *)&spi_get_hw(SPI)->dr;
     dma_channel_configure((uint)bus.dma, &c, to, NULL, 0, false);
     dma_channel_set_irq0_enabled((uint)bus.dma, true);
 }
@@ -263,7 +227,7 @@ bool display_open(smear_desc *desc)
     if (BOARD(TE) != NO_PIN)
         gpio_init(BOARD(TE));
     if (IS_PARALLEL)
-        open_parallel();
+        wires_open();
     else
         open_spi();
     gpio_put(BOARD(CS), 0);

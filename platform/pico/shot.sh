@@ -6,4 +6,4 @@
 set -u
 rm -f "$3"
 # shellcheck disable=SC2086
-exec sh platform/pico/run.sh --frames $((${4:+4} + 4)) --shot "$3" ${4:+--keys 4:$4} "$1" show "$SHOT_SCREEN" "$2"
+exec $RUN --frames $((${4:+4} + 4)) --shot "$3" ${4:+--keys 4:$4} "$1" show "$SHOT_SCREEN" "$2"

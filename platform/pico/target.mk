@@ -18,7 +18,7 @@ CFLAGS += -mcpu=cortex-m0plus -mthumb -ffreestanding -ffunction-sections -fdata-
 # Builds BUILD/demo.elf and demo.uf2, or those of a model.
 PROJECT := sh platform/pico/build.sh
 
-RUN       := sh platform/pico/run.sh
+export RUN := sh platform/pico/run.sh
 RUN_BENCH := sh platform/pico/cost.sh
 
 TARGET_TESTS :=
