@@ -17,9 +17,9 @@ struct few_values {
     int32_t plane[FEW_PLANES];
 };
 
-/* Opaque texels with turns: copied into pixels of 16 or of 32 bits; such of 32 bits in white linear light, into pixels of 32 bits; in white
- * light. And any. */
-enum few_kind { FEW_NARROW, FEW_WIDE, FEW_LINEAR, FEW_WHITE, FEW_ANY };
+/* Opaque texels with turns: copied into pixels of 16 or of 32 bits; such of 32 bits in white linear light, into pixels of 32 bits; of 16 in
+ * white encoded light, into pixels of 16; in white light. And any. */
+enum few_kind { FEW_NARROW, FEW_WIDE, FEW_LINEAR, FEW_NARROW_LIT, FEW_WHITE, FEW_ANY };
 
 struct few_box {
     struct few_values at, down, right;      /* of the first row's first pixel; `at` goes on to the row behind the last one */
@@ -84,81 +84,105 @@ SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_box, 
     "ldr r8, [r6, #88]\n\t"                                      \
     "ldrd r6, r7, [r6, #80]\n"
 
-/* What is done for light alone. */
-#define FEW_UNLIT(...)
-#define FEW_LIT(...) __VA_ARGS__
+/* Red and blue lie in the halves of lr, green in r12: texel_fetch, shaded_pixel and rgb565_nearest, whose 1014 may be 1024. */
+#define FEW_PIXEL_NARROW_LIT                                  \
+    FEW_TEXEL("ldrh r12, [lr, r12, lsl #1]\n\t")              \
+    "ubfx r6, r11, #23, #8\n\t"                               \
+    "lsr lr, r12, #11\n\tbfi lr, r12, #16, #5\n\t"            \
+    "movw r7, #2108\n\tmul lr, lr, r7\n\t"                    \
+    "add lr, lr, #0x5c005c\n\tuxtb16 lr, lr, ror #8\n\t"      \
+    "mul lr, lr, r6\n\tadd lr, lr, #0x800080\n\t"             \
+    "uxtab16 lr, lr, lr, ror #8\n\tuxtb16 lr, lr, ror #8\n\t" \
+    "mov r7, #249\n\tmul lr, lr, r7\n\t"                      \
+    "add lr, lr, #0x4000400\n\t"                              \
+    "ubfx r12, r12, #5, #6\n\t"                               \
+    "movw r7, #259\n\tmul r12, r12, r7\n\t"                   \
+    "add r12, r12, #33\n\tlsr r12, r12, #6\n\t"               \
+    "mul r12, r12, r6\n\tadd r12, r12, #128\n\t"              \
+    "add r12, r12, r12, lsr #8\n\tlsr r12, r12, #8\n\t"       \
+    "mov r7, #253\n\tmul r12, r12, r7\n\t"                    \
+    "addw r12, r12, #505\n\tlsr r12, r12, #10\n\t"            \
+    "bfi lr, r12, #5, #6\n\t"                                 \
+    "lsr r12, lr, #27\n\tbfi lr, r12, #0, #5\n\t"             \
+    "ldr r12, [sp, #16]\n\t"                                  \
+    "strh lr, [r12, r0]\n\t"                                  \
+    "ldrd r6, r7, [sp, #36]\n"
+
+/* What is done for light alone, or without it. */
+#define FEW_LEFT_OUT(...)
+#define FEW_DONE(...) __VA_ARGS__
 
 /* At r0, struct few_box; at r1, struct few_texels, which then lies at sp + 4. In rows: edge functions in r1 and r2, their steps in r6 and
  * r7; depth, u and v in r3 to r5, theirs in r8 to r10; the address of a depth in r0; in r11 the mask that tells what is outside or, of
  * pixels in light, light. */
-#define FEW_ROWS_ARMV7EM(PIXEL, LIT, MASK)                       \
-    __asm__ volatile(                                            \
-        ".syntax unified\n\t"                                    \
-        "ldm r1, {r1, r2, r3, r4, r5, r6, r7}\n\t"               \
-        LIT("ldr r8, [r0, #100]\n\t")                            \
-        "push {r0, r1, r2, r3, r4, r5, r6, r7, r8, r9}\n\t"      \
-        "mov r11, r5\n"                                          \
-        "1: ldm r0, {r1, r2, r3, r4, r5}\n\t"                    \
-        "add r12, r0, #40\n\tldm r12, {r6, r7, r8, r9, r10}\n\t" \
-        "adds r6, r6, r1\n\tadc r7, r7, r2\n\t"                  \
-        "add r8, r8, r3\n\tadd r9, r9, r4\n\t"                   \
-        "add r10, r10, r5\n\t"                                   \
-        "stm r0, {r6, r7, r8, r9, r10}\n\t"                      \
-        "add r12, r0, #80\n\tldm r12, {r6, r7, r8, r9, r10}\n\t" \
-        "ldrd r12, lr, [r0, #120]\n\t"                           \
-        LIT("ldr r11, [sp, #20]\n\t")                            \
-        "orr r0, r2, r1, lsl #10\n\ttst r0, r11\n\t"             \
-        "beq 3f\n"                                               \
-        "2: subs r12, #1\n\tbeq 6f\n\t"                          \
-        "adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                  \
-        "orr r0, r2, r1, lsl #10\n\ttst r0, r11\n\t"             \
-        "bne 2b\n"                                               \
-        "3: ldr r0, [sp]\n\t"                                    \
-        LIT("ldr r11, [r0, #20]\n\t")                            \
-        "ldr r0, [r0, #120]\n\tsub r0, r0, r12\n\t"              \
-        "mla r3, r8, r0, r3\n\tmla r4, r9, r0, r4\n\t"           \
-        "mla r5, r10, r0, r5\n\t"                                \
-        LIT("ldr r12, [sp, #32]\n\t"                             \
-            "mla r11, r12, r0, r11\n\t")                         \
-        "add r0, lr, r0, lsl #1\n"                               \
-        "4: ldrh r12, [r0], #2\n\t"                              \
-        "cmp r12, r3, lsr #16\n\tbhs 5f\n\t"                     \
-        "lsr r12, r3, #16\n\tstrh r12, [r0, #-2]\n\t"            \
-        PIXEL                                                    \
-        "5: adds r1, r1, r6\n\tadc r2, r2, r7\n\t"               \
-        "add r3, r3, r8\n\tadd r4, r4, r9\n\t"                   \
-        "add r5, r5, r10\n\t"                                    \
-        LIT("ldr r12, [sp, #32]\n\t"                             \
-            "add r11, r11, r12\n\t"                              \
-            "ldr r12, [sp, #20]\n\t")                            \
-        "orr lr, r2, r1, lsl #10\n\t"                            \
-        "tst lr, " MASK "\n\t"                                   \
-        "beq 4b\n"                                               \
-        "6: ldr r0, [sp]\n\t"                                    \
-        LIT("ldr r1, [r0, #20]\n\t"                              \
-            "ldr r2, [r0, #60]\n\t"                              \
-            "add r1, r1, r2\n\t"                                 \
-            "str r1, [r0, #20]\n\t")                             \
-        "ldrd r1, r2, [r0, #124]\n\t"                            \
-        "ldr r3, [r0, #132]\n\t"                                 \
-        "add r1, r1, r2\n\tstr r1, [r0, #124]\n\t"               \
-        "cmp r1, r3\n\tbne 1b\n\t"                               \
-        "add sp, #40"                                            \
-        : "+r"(r0), "+r"(r1)                                     \
-        :                                                        \
+#define FEW_ROWS_ARMV7EM(PIXEL, LIT, UNLIT, MASK, ROW_MASK)                      \
+    __asm__ volatile(                                                            \
+        ".syntax unified\n\t"                                                    \
+        "ldm r1, {r1, r2, r3, r4, r5, r6, r7}\n\t"                               \
+        LIT("ldr r8, [r0, #100]\n\tldrd r9, r10, [r0, #80]\n\t")                 \
+        "push {r0, r1, r2, r3, r4, r5, r6, r7, r8, r9" LIT(", r10, r11") "}\n\t" \
+        "mov r11, r5\n"                                                          \
+        "1: ldm r0, {r1, r2, r3, r4, r5" LIT(", r11") "}\n\t"                    \
+        "add r12, r0, #40\n\t"                                                   \
+        "ldm r12, {r6, r7, r8, r9, r10" LIT(", lr") "}\n\t"                      \
+        "adds r6, r6, r1\n\tadc r7, r7, r2\n\t"                                  \
+        "add r8, r8, r3\n\tadd r9, r9, r4\n\t"                                   \
+        "add r10, r10, r5\n\t"                                                   \
+        LIT("add lr, lr, r11\n\t")                                               \
+        "stm r0, {r6, r7, r8, r9, r10" LIT(", lr") "}\n\t"                       \
+        "add r12, r0, #80\n\tldm r12, {r6, r7, r8, r9, r10}\n\t"                 \
+        UNLIT("ldrd r12, lr, [r0, #120]\n\t")                                    \
+        LIT("ldr r12, [r0, #120]\n\tldr lr, [sp, #20]\n\t")                      \
+        "orr r0, r2, r1, lsl #10\n\ttst r0, " ROW_MASK "\n\t"                    \
+        "beq 3f\n"                                                               \
+        "2: subs r12, #1\n\tbeq 6f\n\t"                                          \
+        "adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                                  \
+        "orr r0, r2, r1, lsl #10\n\ttst r0, " ROW_MASK "\n\t"                    \
+        "bne 2b\n"                                                               \
+        "3: ldr r0, [sp]\n\t"                                                    \
+        LIT("ldr lr, [r0, #124]\n\t")                                            \
+        "ldr r0, [r0, #120]\n\tsub r0, r0, r12\n\t"                              \
+        "mla r3, r8, r0, r3\n\tmla r4, r9, r0, r4\n\t"                           \
+        "mla r5, r10, r0, r5\n\t"                                                \
+        LIT("ldr r12, [sp, #32]\n\t"                                             \
+            "mla r11, r12, r0, r11\n\t")                                         \
+        "add r0, lr, r0, lsl #1\n"                                               \
+        "4: ldrh r12, [r0], #2\n\t"                                              \
+        "cmp r12, r3, lsr #16\n\tbhs 5f\n\t"                                     \
+        "lsr r12, r3, #16\n\tstrh r12, [r0, #-2]\n\t"                            \
+        PIXEL                                                                    \
+        "5: adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                               \
+        "add r3, r3, r8\n\tadd r4, r4, r9\n\t"                                   \
+        "add r5, r5, r10\n\t"                                                    \
+        LIT("ldr r12, [sp, #32]\n\t"                                             \
+            "add r11, r11, r12\n\t"                                              \
+            "ldr r12, [sp, #20]\n\t")                                            \
+        "orr lr, r2, r1, lsl #10\n\t"                                            \
+        "tst lr, " MASK "\n\t"                                                   \
+        "beq 4b\n"                                                               \
+        "6: ldr r0, [sp]\n\t"                                                    \
+        "ldrd r1, r2, [r0, #124]\n\t"                                            \
+        "ldr r3, [r0, #132]\n\t"                                                 \
+        "add r1, r1, r2\n\tstr r1, [r0, #124]\n\t"                               \
+        "cmp r1, r3\n\tbne 1b\n\t"                                               \
+        UNLIT("add sp, #40") LIT("add sp, #48")                                  \
+        : "+r"(r0), "+r"(r1)                                                     \
+        :                                                                        \
         : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Draws one row or more: 22 instructions for a pixel that is seen, of light 43; compilers take 30 and 70. */
+/* Draws one row or more: 22 instructions for a pixel that is seen, of light 43, encoded 57; compilers take 30, 70 and 97. */
 SMEAR_CALLED void few_rows_armv7em(struct few_box *rows, const struct few_texels *texels, enum few_kind kind)
 {
     register struct few_box *r0 __asm__("r0") = rows;
     register const struct few_texels *r1 __asm__("r1") = texels;
     if (kind == FEW_NARROW)
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW, FEW_UNLIT, "r11");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW, FEW_LEFT_OUT, FEW_DONE, "r11", "r11");
     else if (kind == FEW_WIDE)
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_WIDE, FEW_UNLIT, "r11");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_WIDE, FEW_LEFT_OUT, FEW_DONE, "r11", "r11");
+    else if (kind == FEW_NARROW_LIT)
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW_LIT, FEW_DONE, FEW_LEFT_OUT, "r12", "lr");
     else
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_LINEAR, FEW_LIT, "r12");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_LINEAR, FEW_DONE, FEW_LEFT_OUT, "r12", "lr");
 }
 #else
 static inline void few_rows_armv7em(struct few_box *rows, const struct few_texels *texels, enum few_kind kind)

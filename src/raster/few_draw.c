@@ -388,7 +388,7 @@ static SMEAR_NOINLINE void few_any(const struct few *k) { few_rows(k, FEW_ANY, k
 static inline void few_texels_take(struct few_look *l, const struct smear_raster_target *t)
 {
     const uint32_t depth = (uint32_t)(uintptr_t)t->depth, middle = l->height / 2 * l->width + l->width / 2;
-    const bool narrow = l->kind == FEW_NARROW;
+    const bool narrow = l->kind == FEW_NARROW || l->kind == FEW_NARROW_LIT;
     l->rows = (struct few_texels){ l->width, l->height, (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u),
                                    narrow ? (uint32_t)(uintptr_t)t->direct - depth - 2u : (uint32_t)(uintptr_t)t->color - 2u * depth - 4u,
                                    FEW_OUTSIDE, smear_srgb_decode, smear_srgb_encode };
@@ -398,7 +398,7 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
 static inline bool few_rows_loop(struct few *k)
 {
     const struct few_look *const l = k->look;
-    if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_LINEAR || (l->kind == FEW_LINEAR && k->light_kind != LIGHT_WHITE))
+    if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_NARROW_LIT || (l->kind >= FEW_LINEAR && k->light_kind != LIGHT_WHITE))
         return false;
     const struct smear_raster_target *const t = k->target;
     struct few_box *const r = &k->box;
@@ -428,7 +428,7 @@ static inline void few_rows_any(struct few *k)
         few_wide(k);
     else if (FEW_COPIES && kind == FEW_WIDE)
         few_wide_bent(k);
-    else if (FEW_COPIES && kind == FEW_WHITE && k->light_kind == LIGHT_WHITE)
+    else if (FEW_COPIES && (kind == FEW_WHITE || kind == FEW_NARROW_LIT) && k->light_kind == LIGHT_WHITE)
         few_white(k);
     else if (FEW_COPIES && kind == FEW_LINEAR && k->light_kind == LIGHT_WHITE)
         few_linear(k);
@@ -463,7 +463,8 @@ bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, 
     if (!draw_is_opaque(draw) || target_has_velocity(t) || frame_has_fog(frame))
         return true;
     if (segment->shade != SHADE_NONE)
-        l->kind = frame_is_linear(frame) && !target_is_direct(t) && m->format == SMEAR_TEXEL_8888 ? FEW_LINEAR : FEW_WHITE;
+        l->kind = frame_is_linear(frame) && !target_is_direct(t) && m->format == SMEAR_TEXEL_8888 ? FEW_LINEAR
+                : !frame_is_linear(frame) && target_is_direct(t) && m->format == SMEAR_TEXEL_565 ? FEW_NARROW_LIT : FEW_WHITE;
     else if (m->format == (target_is_direct(t) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
         l->kind = target_is_direct(t) ? FEW_NARROW : FEW_WIDE;
     if (FEW_ROWS_LOOP)
