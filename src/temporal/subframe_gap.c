@@ -29,8 +29,8 @@ struct gap {
     uint32_t weight[GAP_PAIRS_MAX + 1];         /* of all taps at all instants, by pairs that count */
     union gap_mean mean[GAP_PAIRS_MAX + 1];     /* made where they are needed: */
     uint32_t made;                              /* a bit for each that is */
-    uint32_t full, down;                        /* what instants that show what moves add up to beside green; bits that light lost */
-    uint32_t recip;                             /* floor(2^16 / instants) */
+    uint32_t full, down, up;                    /* what instants that show what moves add up to beside green; bits that light lost, won */
+    uint32_t recip;                             /* floor((2^32 - 1) / instants) */
 };
 
 /* ------------------------------------------------------------------ gap */
@@ -60,15 +60,18 @@ static SMEAR_NOINLINE void gap_make(struct gap *gap, const struct subframes *f, 
         if (gap->unit == 1 || whole * f->instants <= most)
             break;
     }
-    if (whole * f->instants > most)
-        whole = gap->unit;
+    int32_t over = long_side;
+    if (whole * f->instants > most) {       /* fewer taps, farther apart than a pixel */
+        whole = (max_u32(most / f->instants, 1) - 1) | 1u;
+        over = 16 * (int32_t)whole;
+    }
     const uint32_t side = (whole - gap->unit) >> 1;
     gap->pairs = (int32_t)((side + gap->unit - 1) / gap->unit);
     SMEAR_ASSERT(gap->pairs <= GAP_PAIRS_MAX);
     gap->last = side - (uint32_t)(gap->pairs - 1) * gap->unit;
     for (int32_t i = 0; i < gap->pairs; i++) {
-        gap->x[i] = (int8_t)nearest_pixel(x, long_side, i + 1);
-        gap->y[i] = (int8_t)nearest_pixel(y, long_side, i + 1);
+        gap->x[i] = (int8_t)nearest_pixel(x, over, i + 1);
+        gap->y[i] = (int8_t)nearest_pixel(y, over, i + 1);
         gap->offset[i] = gap->y[i] * f->t->pitch + gap->x[i];
     }
     if (gap->pairs == 0)
@@ -145,27 +148,22 @@ static inline void part_make(struct gap_part *part, struct gap *gap, const struc
     part->taps.mean = &mean->packed;
 }
 
-/* Returns a modulo the instants, for a < 2^16. */
-static inline uint32_t rest_of(const struct subframes *f, const struct gap *gap, uint32_t a)
+/* Whether a sum is that of one code at all instants: of light nearly, of which some bits were rounded away by thresholds that leave up
+ * to 2.25 units of the sum (of 255 instants; light_sums.h). */
+static inline bool is_of_one(const struct subframes *f, const struct gap *gap, uint32_t sum)
 {
-    const uint32_t rest = a - (a * gap->recip >> 16) * f->instants;     /* the quotient lacks one at most */
-    return rest >= f->instants ? rest - f->instants : rest;
+    const bool linear = frame_is_linear(f->t->frame);
+    const uint32_t all = sum << gap->down >> gap->up, mean = mulh_u32(all + f->instants / 2, gap->recip);
+    const uint32_t one = (sums_light(f) ? light_of_code(code_of_light(mean, linear), linear) : mean) * f->instants;
+    return max_u32(one, all) - min_u32(one, all) <= (gap->down != 0 ? 9u << gap->down >> 2 : 0);
 }
 
-/* Whether a sum is a whole multiple of the instants; nearly, of light of which some bits were rounded away: by thresholds that leave
- * up to 2.25 units of the sum (of 255 instants; light_sums.h). */
-static inline bool is_multiple(const struct subframes *f, const struct gap *gap, uint32_t sum)
-{
-    const uint32_t rest = rest_of(f, gap, rest_of(f, gap, sum) << gap->down);
-    return min_u32(rest, f->instants - rest) <= (gap->down != 0 ? 9u << gap->down >> 2 : 0);
-}
-
-/* Whether a pixel shows the same at all instants, as its sums tell: they are multiples of what one adds. */
+/* Whether a pixel shows the same at all instants, as its sums tell. */
 static inline bool is_steady(const struct subframes *f, const struct gap *gap, struct packed_sum sum)
 {
     const uint32_t shown = sum.gn >> 16;
-    return (shown == 0 || shown == gap->full) && is_multiple(f, gap, sum.gn & 0xffffu) && is_multiple(f, gap, sum.rb & 0xffffu)
-        && is_multiple(f, gap, sum.rb >> 16);
+    return (shown == 0 || shown == gap->full) && is_of_one(f, gap, sum.gn & 0xffffu) && is_of_one(f, gap, sum.rb & 0xffffu)
+        && is_of_one(f, gap, sum.rb >> 16);
 }
 
 /* Returns the pairs of taps up to an edge that stands still between them and a pixel, as one along the motion does. */
@@ -266,8 +264,9 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     struct gap gap;
     gap_make(&gap, f, &last);
     gap.full = sums_light(f) ? smear_light_full(f->instants) : f->instants;
-    gap.recip = 65536u / f->instants;
+    gap.recip = UINT32_MAX / f->instants;
     gap.down = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).down : 0;
+    gap.up = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).up : 0;
     for (int32_t y = s->y0; y < s->y1; y += high) {
         struct smear_step step = step_at(f, plan, &divided, t->x0, y);
         for (int32_t x = t->x0, end; x < t->x1; x = end) {

@@ -149,6 +149,8 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     const int tiles = tiles_in(t);
+    /* At the ends of a run half a gap stays open: an eighth of the run, at most, may be one. */
+    const int32_t widest = clamp_i32(2 * (t->x1 - t->x0), STEP_MAX / 2, STEP_MAX);
     int32_t least = first, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
     bool alone = chooser->target < 64;
@@ -166,7 +168,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
     for (instants = first; instants + 2 <= INSTANTS_MAX; instants += 2)
-        if (instants >= least && error_of(c, unseen, instants, instants > reach / STEP_MAX) <= most)
+        if (instants >= least && error_of(c, unseen, instants, instants > reach / widest) <= most)
             break;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
