@@ -129,14 +129,17 @@ static uint32_t allowed(const struct smear_chooser *chooser, uint32_t share, uin
 /* a / b: most are 0, and need no division where that is a call. */
 static inline uint32_t over(uint32_t a, uint32_t b) { return a < b ? 0 : a / b; }
 
-/* Returns what `instants` leave of the squared error. */
-static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, bool may_close)
+/* Returns what `instants` leave of the squared error. At the ends of a run, `width` pixels, half a gap stays open: that counts where a
+ * gap is wider than an eighth of the run. */
+static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, int32_t reach, int32_t width)
 {
+    const bool may_close = instants > reach / STEP_MAX;
+    const uint32_t open = reach > 2 * width * instants ? (uint32_t)(8 * reach / (width * instants)) : 0;      /* q8 of the run */
     const uint32_t square = (uint32_t)(instants * instants);
     uint32_t sum = over(unseen, square);
     for (int k = 0; k < CLOSING_CLASSES; k++) {
         const bool closes = may_close && (instants + 1) >> 1 <= k;
-        sum += closes ? over(c->closed[k], square) + c->floor[k] : over(c->plain[k], square);
+        sum += closes ? over(c->closed[k], square) + over((c->plain[k] >> 8) * open, square) + c->floor[k] : over(c->plain[k], square);
     }
     return sum;
 }
@@ -149,8 +152,6 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     const int tiles = tiles_in(t);
-    /* At the ends of a run half a gap stays open: an eighth of the run, at most, may be one. */
-    const int32_t widest = clamp_i32(2 * (t->x1 - t->x0), STEP_MAX / 2, STEP_MAX);
     int32_t least = first, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
     bool alone = chooser->target < 64;
@@ -168,7 +169,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
     for (instants = first; instants + 2 <= INSTANTS_MAX; instants += 2)
-        if (instants >= least && error_of(c, unseen, instants, instants > reach / widest) <= most)
+        if (instants >= least && error_of(c, unseen, instants, reach, t->x1 - t->x0) <= most)
             break;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
