@@ -122,7 +122,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     if (!frame_has_layers(c) && assembly_is_beside(a, &c->assembler.viewport))
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, SMEAR_VERTEX_COLORS_MOST && a->mesh->normal != NULL,
-                       frame_is_linear(&c->rows.raster), &c->sun);
+                       frame_transfer(&c->rows.raster), &c->sun);
     assembly_remember_light(a);
     assembly_find_flat(a);
     if (moves && assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)

@@ -123,7 +123,7 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
     if (texture != NULL)
         smear_sampler_make(&r->sampler, texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
-                           frame_is_linear(&c->rows.raster));
+                           frame_transfer(&c->rows.raster));
     c->rows.blends = c->rows.blends || draw_is_blended(r);
     /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
     c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);

@@ -70,7 +70,7 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     const bool camera_moves = c->shot.camera_moves
                            && !(smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[1])
                                 && (!spans || smear_camera_is_same(&c->shot.camera[0], &c->shot.camera[2])));
-    raster->linear = c->frame.light_space == SMEAR_LIGHT_LINEAR;
+    raster->transfer = c->frame.light_space == SMEAR_LIGHT_LINEAR ? TRANSFER_LINEAR : TRANSFER_CODES;
     c->shot.camera_moves = camera_moves;
     if (SMEAR_WITH_SUBFRAMES)
         smear_temporal_begin(&c->temporal, &c->frame, rows, &c->shot);

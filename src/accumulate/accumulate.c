@@ -52,15 +52,15 @@ static void sums_clear(struct smear_sums *s, const struct smear_rows *rows, int 
 static void sums_add_row(struct smear_sums *s, const struct smear_rows *rows, int row)
 {
     const struct smear_window *w = &rows->window;
-    const bool linear = frame_is_linear(&rows->raster);
+    const smear_transfer transfer = frame_transfer(&rows->raster);
     for (int32_t y = row_top(rows, row); y < row_bottom(rows, row); y++) {
         const uint32_t *in = w->color + window_ring_row(w, y) * w->width;
         smear_sum *sum = sums_at(s, rows, y);
         for (int32_t x = 0; x < w->width; x++, sum += 3) {
             uint32_t p = in[x];
-            sum[0] = (smear_sum)(sum[0] + (linear ? smear_srgb_decode[pixel_red(p)] : pixel_red(p)));
-            sum[1] = (smear_sum)(sum[1] + (linear ? smear_srgb_decode[pixel_green(p)] : pixel_green(p)));
-            sum[2] = (smear_sum)(sum[2] + (linear ? smear_srgb_decode[pixel_blue(p)] : pixel_blue(p)));
+            sum[0] = (smear_sum)(sum[0] + value_of_code(pixel_red(p), transfer));
+            sum[1] = (smear_sum)(sum[1] + value_of_code(pixel_green(p), transfer));
+            sum[2] = (smear_sum)(sum[2] + value_of_code(pixel_blue(p), transfer));
         }
     }
 }
@@ -75,16 +75,12 @@ static uint32_t mean_of(uint32_t sum, uint32_t n)
 static void sums_average_row(const struct smear_sums *s, const struct smear_rows *rows, int row, uint32_t n)
 {
     const struct smear_window *w = &rows->window;
-    const bool linear = frame_is_linear(&rows->raster);
+    const smear_transfer transfer = frame_transfer(&rows->raster);
     for (int32_t y = row_top(rows, row); y < row_bottom(rows, row); y++) {
         uint32_t *out = w->color + window_ring_row(w, y) * w->width;
         const smear_sum *sum = sums_at(s, rows, y);
-        for (int32_t x = 0; x < w->width; x++, sum += 3) {
-            uint32_t r = mean_of(sum[0], n), g = mean_of(sum[1], n), b = mean_of(sum[2], n);
-            out[x] = linear ? pixel_make(0, smear_srgb_encode[r >> 4], smear_srgb_encode[g >> 4],
-                                         smear_srgb_encode[b >> 4])
-                            : pixel_make(0, r, g, b);
-        }
+        for (int32_t x = 0; x < w->width; x++, sum += 3)
+            out[x] = pixel_of_values(mean_of(sum[0], n), mean_of(sum[1], n), mean_of(sum[2], n), transfer);
     }
 }
 

@@ -10,6 +10,29 @@
 #include "base/fixed.h"
 #include "base/tables.h"
 
+/* What a frame multiplies, interpolates and averages: codes as they are, or the linear light that they stand for, of which 65535 is
+ * one. Who handles colours hands it on to what is below, which asks. */
+enum { TRANSFER_CODES, TRANSFER_LINEAR };
+typedef uint8_t smear_transfer;
+
+static inline bool transfer_is_linear(smear_transfer t) { return SMEAR_WITH_LINEAR && t == TRANSFER_LINEAR; }
+
+static inline uint32_t value_of_code(uint32_t code, smear_transfer t)
+{
+    return transfer_is_linear(t) ? smear_srgb_decode[code] : code;
+}
+
+static inline uint32_t code_of_value(uint32_t value, smear_transfer t)
+{
+    return transfer_is_linear(t) ? smear_srgb_encode[value >> 4] : value;
+}
+
+/* The code of a sum of values, which may be more than one. */
+static inline uint32_t code_of_sum(uint32_t value, smear_transfer t)
+{
+    return code_of_value(min_u32(value, value_of_code(255u, t)), t);
+}
+
 static inline uint32_t pixel_red(uint32_t p) { return p >> 16 & 255u; }
 static inline uint32_t pixel_green(uint32_t p) { return p >> 8 & 255u; }
 static inline uint32_t pixel_blue(uint32_t p) { return p & 255u; }
@@ -30,10 +53,49 @@ static inline uint32_t code_times(uint32_t a, uint32_t b)
     return (t + (t >> 8)) >> 8;
 }
 
+/* Makes a pixel of values. */
+static inline uint32_t pixel_of_values(uint32_t r, uint32_t g, uint32_t b, smear_transfer t)
+{
+    return pixel_make(0, code_of_value(r, t), code_of_value(g, t), code_of_value(b, t));
+}
+
+/* A channel is what is interpolated between vertices: q16 codes, or linear light << 8. */
+static inline uint32_t channel_of_code(uint32_t code, smear_transfer t)
+{
+    return transfer_is_linear(t) ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16;
+}
+
+/* That of a vertex's 16 bits: codes are rounded by 1/2; linear light is looked up by its floor. Both keep a margin from 0 and 256 that
+ * rounding errors of a plane do not cross. */
+static inline int32_t channel_of_vertex(uint32_t value, smear_transfer t)
+{
+    const int32_t a = (int32_t)(value << 8);
+    return transfer_is_linear(t) ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+}
+
+/* What rounds it to a code. */
+static inline uint32_t channel_round(smear_transfer t) { return transfer_is_linear(t) ? 0 : 0x8000u; }
+
+static inline uint32_t code_of_channel(uint32_t channel, smear_transfer t)
+{
+    return transfer_is_linear(t) ? smear_srgb_encode[channel >> 12] : channel >> 16;
+}
+
+static inline uint32_t pixel_of_channels(uint32_t r, uint32_t g, uint32_t b, smear_transfer t)
+{
+    return pixel_make(0, code_of_channel(r, t), code_of_channel(g, t), code_of_channel(b, t));
+}
+
 /* Multiplies a code's light by linear light (65535 is one); returns the code of the product. */
 static inline uint32_t code_times_linear(uint32_t code, uint32_t light)
 {
     return smear_srgb_encode[(smear_srgb_decode[code] * (light + (light >> 15))) >> 20];
+}
+
+/* The same by what is interpolated, of which so many bits may be there as may. */
+static inline uint32_t code_times_channel(uint32_t code, uint32_t channel, smear_transfer t)
+{
+    return transfer_is_linear(t) ? code_times_linear(code, channel >> 8 & 0xffffu) : code_times(code, channel >> 16 & 255u);
 }
 
 /* Returns smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
@@ -56,32 +118,34 @@ static inline uint32_t pixel_mix(uint32_t dst, uint32_t src, uint32_t a)
     return rb | g << 8;
 }
 
-/* Blends src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
-static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, bool linear)
+/* Mixes code b into code a by `part` of 256. */
+static inline uint32_t code_mix(uint32_t a, uint32_t b, uint32_t part, smear_transfer t)
 {
-    uint32_t a = alpha + (alpha >> 7), b = 256u - a;
-    if (!linear)
+    const uint32_t sum = value_of_code(a, t) * (256u - part) + value_of_code(b, t) * part;
+    return transfer_is_linear(t) ? smear_srgb_encode[sum >> 12] : (sum + 128u) >> 8;
+}
+
+/* Blends src over dst by alpha 0 .. 255: alpha 0 keeps dst exactly, 255 gives src exactly. */
+static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, smear_transfer t)
+{
+    const uint32_t a = alpha + (alpha >> 7);
+    if (!transfer_is_linear(t))
         return pixel_mix(dst, src, a);
     if (a == 256u)
         return src & 0xffffffu;
     if (a == 0)
         return dst;
-    uint32_t out[3];
-    for (int i = 0; i < 3; i++) {
-        int shift = 16 - 8 * i;
-        out[i] = smear_srgb_encode[(smear_srgb_decode[src >> shift & 255u] * a
-                                    + smear_srgb_decode[dst >> shift & 255u] * b) >> 12];
-    }
-    return pixel_make(0, out[0], out[1], out[2]);
+    return pixel_make(0, code_mix(pixel_red(dst), pixel_red(src), a, t), code_mix(pixel_green(dst), pixel_green(src), a, t),
+                      code_mix(pixel_blue(dst), pixel_blue(src), a, t));
 }
 
 /* Mixes `over` into a pixel by a part of 65536 and keeps the pixel's alpha. Dark pixels in linear light show less than a
  * 256th of it. */
-static inline uint32_t pixel_mix_part(uint32_t pixel, uint32_t over, int32_t part, bool linear)
+static inline uint32_t pixel_mix_part(uint32_t pixel, uint32_t over, int32_t part, smear_transfer t)
 {
     const uint32_t a = (uint32_t)part, b = 65536u - a;
     uint32_t out = pixel >> 24;
-    if (!linear)
+    if (!transfer_is_linear(t))
         return out << 24 | pixel_mix(pixel, over, (a + 128u) >> 8);
     for (int shift = 16; shift >= 0; shift -= 8)
         out = out << 8 | smear_srgb_encode[(smear_srgb_decode[over >> shift & 255u] * a

@@ -193,7 +193,7 @@ static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32
     for (int32_t x = covered, next; x < end; x = next) {
         const uint32_t *pixels = in + (x - x0);
         next = min_i32((x & ~7) + OVERLAY_PART, end);
-        if (smear_overlay_draw(rows->overlay, part, pixels, x, next, y, frame_is_linear(&rows->raster)))
+        if (smear_overlay_draw(rows->overlay, part, pixels, x, next, y, frame_transfer(&rows->raster)))
             pixels = part;
         convert(r, pixels, x, next, y);
     }

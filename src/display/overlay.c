@@ -11,7 +11,7 @@ struct part {
     uint32_t *out;
     const uint32_t *in;
     int32_t x0, x1;
-    bool linear;
+    smear_transfer transfer;
     bool touched;               /* pixels of `in` have been copied */
 };
 
@@ -90,7 +90,7 @@ static inline void cover(const struct part *p, int32_t x0, int32_t x1, uint32_t 
     if (alpha == 255u)
         pixels_fill(out, argb & 0xffffffu, n);
     for (int32_t i = 0; alpha < 255u && i < n; i++)
-        out[i] = pixel_blend(out[i], argb, alpha, SMEAR_WITH_LINEAR && p->linear);
+        out[i] = pixel_blend(out[i], argb, alpha, p->transfer);
 }
 
 /* Copies the part, once, where columns [x0, x1) lie in it. */
@@ -197,9 +197,9 @@ struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y)
 }
 
 bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
-                        bool linear)
+                        smear_transfer transfer)
 {
-    struct part p = { out, in, x0, x1, linear, out == in };
+    struct part p = { out, in, x0, x1, transfer, out == in };
     for (int32_t i = 0; i < overlay->count; i++) {
         const smear_overlay_item *item = &overlay->item[i];
         const smear_image *m = item->image;

@@ -41,7 +41,7 @@ struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y);
 /* Where an item touches pixels [x0, x1) of row y, at most OVERLAY_PART: copies them from `in` to `out`, unless they are
  * there, draws all items over them, and returns true. */
 bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
-                        bool linear);
+                        smear_transfer transfer);
 
 enum {
     SMEAR_NO_POINT = UINT16_MAX,

@@ -9,8 +9,7 @@
 #include "smear.h"
 
 #include "base/base.h"
-#include "base/fixed.h"
-#include "base/tables.h"
+#include "base/pixel.h"
 #include "geometry/reproject.h"
 #include "raster/window.h"
 
@@ -26,7 +25,7 @@ static inline uint32_t noise_of(uint32_t inner)
 }
 
 struct smear_blur_settings {
-    bool linear;                /* average linear light, else codes */
+    smear_transfer transfer;    /* of what is averaged */
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
     bool dense;                 /* unweighted means take a tap per pixel of the travel, not one per two */
@@ -111,7 +110,7 @@ void smear_neighbormax_row(const struct smear_window *w, int32_t row, int32_t kn
 /* Fills tile `column` of tile row `row` from the window of the whole frame: with the mean colour (of linear light, or
  * of codes) and with the depth and velocity of the nearest pixel. */
 void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row,
-                       int32_t column, bool linear);
+                       int32_t column, smear_transfer transfer);
 
 /* Writes the tile of the whole frame to `out`, rows full->tile apart: `blurred` is the
  * tile of half the size, rows half->tile apart. */

@@ -58,7 +58,7 @@ static void half_job(void *argument, int column, int worker)
 {
     const struct filter_job *r = (const struct filter_job *)argument;
     (void)worker;
-    smear_half_reduce(r->filtered->half, &r->row.rows->window, r->row.row, column, r->filtered->blur.linear);
+    smear_half_reduce(r->filtered->half, &r->row.rows->window, r->row.row, column, r->filtered->blur.transfer);
 }
 
 static void reduce_job(void *argument, int column, int worker)
@@ -314,7 +314,7 @@ static void begin_filter(struct smear_filtered *f, const struct smear_rows *rows
     f->method = frame->method;
     f->kind = frame->filter.kind;
     f->blur = (struct smear_blur_settings){
-        .linear = frame_is_linear(&rows->raster),
+        .transfer = frame_transfer(&rows->raster),
         .orthographic = SMEAR_WITH_VIEWS && camera->half_height > 0,
         .samples = frame->samples, .dense = frame->method == SMEAR_HALF,
         .flags = frame->filter.flags, .weights = frame->filter.weights

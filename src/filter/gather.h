@@ -27,17 +27,12 @@ struct weighed_sum {
 };
 
 /* Adds a pixel as codes, or as linear light of 16 - light_down bits. */
-SMEAR_INLINE void weighed_add(struct weighed_sum *s, uint32_t pixel, uint32_t weight, bool linear, int light_down)
+SMEAR_INLINE void weighed_add(struct weighed_sum *s, uint32_t pixel, uint32_t weight, smear_transfer transfer, int light_down)
 {
-    if (linear) {
-        s->r += ((uint32_t)smear_srgb_decode[pixel_red(pixel)] >> light_down) * weight;
-        s->g += ((uint32_t)smear_srgb_decode[pixel_green(pixel)] >> light_down) * weight;
-        s->b += ((uint32_t)smear_srgb_decode[pixel_blue(pixel)] >> light_down) * weight;
-    } else {
-        s->r += pixel_red(pixel) * weight;
-        s->g += pixel_green(pixel) * weight;
-        s->b += pixel_blue(pixel) * weight;
-    }
+    const int down = transfer_is_linear(transfer) ? light_down : 0;
+    s->r += (value_of_code(pixel_red(pixel), transfer) >> down) * weight;
+    s->g += (value_of_code(pixel_green(pixel), transfer) >> down) * weight;
+    s->b += (value_of_code(pixel_blue(pixel), transfer) >> down) * weight;
     s->weight += weight;
 }
 
@@ -52,7 +47,7 @@ struct even_sum {
 
 SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, const struct smear_blur_settings *settings)
 {
-    if (settings->linear) {
+    if (transfer_is_linear(settings->transfer)) {
         s->r += smear_srgb_decode[pixel_red(pixel)];
         s->g += smear_srgb_decode[pixel_green(pixel)];
         s->b += smear_srgb_decode[pixel_blue(pixel)];
@@ -63,17 +58,18 @@ SMEAR_INLINE void even_add(struct even_sum *s, uint32_t pixel, const struct smea
 }
 
 /* Returns the mean of n pixels, n at most 256; `over` is 2^24 / n, rounded up: sums stay below 2^24 n, and equal pixels
- * keep their value. */
-SMEAR_INLINE uint32_t even_mean(const struct even_sum *s, uint32_t over, const struct smear_blur_settings *settings)
+ * keep their value. `fine`: the means of codes that differ are nearest, too. */
+SMEAR_INLINE uint32_t even_mean(const struct even_sum *s, uint32_t over, bool fine,
+                                const struct smear_blur_settings *settings)
 {
-    if (settings->linear)
-        return pixel_make(0, smear_srgb_encode[mulh_u32(s->r << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->g << 8, over) >> 4],
-                          smear_srgb_encode[mulh_u32(s->b << 8, over) >> 4]);
+    if (transfer_is_linear(settings->transfer))
+        return pixel_of_values(mulh_u32(s->r << 8, over), mulh_u32(s->g << 8, over), mulh_u32(s->b << 8, over), TRANSFER_LINEAR);
+    const uint32_t red = s->red_blue >> 16, green = (s->all - s->red_blue) >> 8 & 0xffffu, blue = s->red_blue & 0xffffu;
+    if (fine)
+        return pixel_make(0, (mulh_u32(red << 16, over) + 128u) >> 8, (mulh_u32(green << 16, over) + 128u) >> 8,
+                          (mulh_u32(blue << 16, over) + 128u) >> 8);
     over >>= 8;
-    const uint32_t green = (s->all - s->red_blue) >> 8 & 0xffffu;
-    return pixel_make(0, ((s->red_blue >> 16) * over + 0x8000u) >> 16, (green * over + 0x8000u) >> 16,
-                      ((s->red_blue & 0xffffu) * over + 0x8000u) >> 16);
+    return pixel_make(0, (red * over + 0x8000u) >> 16, (green * over + 0x8000u) >> 16, (blue * over + 0x8000u) >> 16);
 }
 
 #endif

@@ -5,15 +5,15 @@
 #include "base/pixel.h"
 
 /* Returns the mean of four pixels; that of equal ones is exact. */
-static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool linear)
+static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, smear_transfer transfer)
 {
     const uint32_t pixel[4] = { a, b, c, d };
     uint32_t out = 0;
     for (int shift = 0; shift < 24; shift += 8) {
         uint32_t sum = 0;
         for (int i = 0; i < 4; i++)
-            sum += linear ? smear_srgb_decode[pixel[i] >> shift & 255u] : pixel[i] >> shift & 255u;
-        out |= (linear ? smear_srgb_encode[sum >> 6] : (sum + 2u) >> 2) << shift;
+            sum += value_of_code(pixel[i] >> shift & 255u, transfer);
+        out |= code_of_value((sum + (transfer_is_linear(transfer) ? 0 : 2u)) >> 2, transfer) << shift;
     }
     return out;
 }
@@ -25,7 +25,7 @@ static inline int32_t half_of(int32_t v)
 }
 
 void smear_half_reduce(const struct smear_window *half, const struct smear_window *full, int32_t row,
-                       int32_t column, bool linear)
+                       int32_t column, smear_transfer transfer)
 {
     int32_t x0 = column << half->tile_shift, x1 = min_i32(x0 + half->tile, half->width);
     int32_t y0 = row << half->tile_shift, y1 = min_i32(y0 + half->tile, half->height);
@@ -43,7 +43,7 @@ void smear_half_reduce(const struct smear_window *half, const struct smear_windo
                     nearest = at[i];
             struct smear_pixel_velocity v = window_velocity(full, (uint32_t)nearest);
             half->color[to + x] = mean_of(full->color[at[0]], full->color[at[1]], full->color[at[2]],
-                                          full->color[at[3]], linear);
+                                          full->color[at[3]], transfer);
             half->depth[to + x] = full->depth[nearest];
             /* Rounding up may leave the reach by a part of a step. */
             window_velocity_store(half, to + x, clamp_i32(half_of(v.x), -limit, limit),

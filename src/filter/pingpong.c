@@ -109,7 +109,7 @@ static int32_t gather(const struct passing *p, const struct place *at, uint32_t 
         }
     }
     if (count != 0)
-        *out = even_mean(&s, share_of(count), p->settings);
+        *out = even_mean(&s, share_of(count), false, p->settings);
     return n;
 }
 
@@ -138,7 +138,7 @@ static uint32_t gather_spread(const struct passing *p, const struct place *here,
         bool goes = w->depth[tap] <= limit && own_square >= square;
         even_add(&s, p->in[comes || goes ? tap : here->at], p->settings);
     }
-    return even_mean(&s, share_of(p->pass->taps), p->settings);
+    return even_mean(&s, share_of(p->pass->taps), false, p->settings);
 }
 
 /* ------------------------------------------------------------------ a tile */

@@ -46,7 +46,8 @@ struct own_depth {
 struct gathering {
     const struct smear_window *w;
     const struct smear_row_table *rows;
-    bool linear, box, fence, guertin, orthographic;
+    smear_transfer transfer;
+    bool box, fence, guertin, orthographic;
     int32_t wanted;             /* pairs */
     uint32_t far_units;         /* orthographic: depth units from the eye to the far plane */
     const uint32_t *color;      /* the window's planes from the tile's first column on */
@@ -183,11 +184,11 @@ static SMEAR_NOINLINE void own_depth_make(struct gathering *g, uint16_t code)
 
 /* Returns the mean. Weights are q12: the taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
  * its distance), so sums of 16-bit values fit 32 bits. */
-static uint32_t mean_of(const struct weighed_sum *s, bool linear)
+static uint32_t mean_of(const struct weighed_sum *s, smear_transfer transfer)
 {
     int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm(s->weight << zeros);            /* 2^(61 - zeros) / weight */
-    if (linear) {
+    if (transfer_is_linear(transfer)) {
         /* Sums use 16 bits more than the weight: their quotients come out in q13. */
         int up = zeros - 16;
         uint32_t red = mulh_u32(s->r << up, r) >> 17, green = mulh_u32(s->g << up, r) >> 17;
@@ -291,7 +292,7 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
         if (f->fence && code < f->own_code)
             weight = weight * (256u - behind_share(g, code)) >> 8;
     }
-    weighed_add(sum, g->color[at], weight, g->linear, 0);
+    weighed_add(sum, g->color[at], weight, g->transfer, 0);
 }
 
 /* Filters the pixel in column x of the tile and row y of the table. */
@@ -324,8 +325,8 @@ static uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, 
     if (sum.weight == 0)
         return pixel;
     /* The centre last: 1.2 / (2 B pairs). */
-    weighed_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->linear, 0);
-    return mean_of(&sum, g->linear);
+    weighed_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->transfer, 0);
+    return mean_of(&sum, g->transfer);
 }
 
 /* ------------------------------------------------------------------ the tile */
@@ -358,7 +359,7 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, con
 {
     const int32_t x0 = column << w->tile_shift, y0 = row << w->tile_shift, n = min_i32(w->tile, w->width - x0);
     struct gathering g = {
-        .w = w, .rows = rows, .linear = settings->linear,
+        .w = w, .rows = rows, .transfer = settings->transfer,
         .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
         .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
         .wanted = clamp_i32(settings->samples / 2, 1, 64), .far_units = blur_far_units(settings),

@@ -19,10 +19,9 @@ struct wide_sum {
 
 static void wide_add(struct wide_sum *s, uint32_t pixel, uint32_t weight, const struct smear_blur_settings *settings)
 {
-    uint32_t r = pixel_red(pixel), g = pixel_green(pixel), b = pixel_blue(pixel);
-    s->r += (uint64_t)(settings->linear ? smear_srgb_decode[r] : r) * weight;
-    s->g += (uint64_t)(settings->linear ? smear_srgb_decode[g] : g) * weight;
-    s->b += (uint64_t)(settings->linear ? smear_srgb_decode[b] : b) * weight;
+    s->r += (uint64_t)value_of_code(pixel_red(pixel), settings->transfer) * weight;
+    s->g += (uint64_t)value_of_code(pixel_green(pixel), settings->transfer) * weight;
+    s->b += (uint64_t)value_of_code(pixel_blue(pixel), settings->transfer) * weight;
     s->weight += weight;
 }
 
@@ -36,12 +35,9 @@ static uint32_t quotient(uint64_t a, uint32_t weight)
 
 static uint32_t wide_mean(const struct wide_sum *s, const struct smear_blur_settings *settings)
 {
-    uint32_t r = quotient(s->r, s->weight), g = quotient(s->g, s->weight), b = quotient(s->b, s->weight);
-    if (settings->linear)
-        return pixel_make(0, smear_srgb_encode[min_u32(r, 65535u) >> 4],
-                          smear_srgb_encode[min_u32(g, 65535u) >> 4],
-                          smear_srgb_encode[min_u32(b, 65535u) >> 4]);
-    return pixel_make(0, min_u32(r, 255u), min_u32(g, 255u), min_u32(b, 255u));
+    const smear_transfer t = settings->transfer;
+    return pixel_make(0, code_of_sum(quotient(s->r, s->weight), t), code_of_sum(quotient(s->g, s->weight), t),
+                      code_of_sum(quotient(s->b, s->weight), t));
 }
 
 /* ------------------------------------------------------------------ vectors */
@@ -299,11 +295,7 @@ static uint32_t mean_along(const struct smear_window *w, const uint32_t *row_off
             tap = at;
         even_add(&sum, w->color[tap], settings);
     }
-    if (!held || settings->linear)
-        return even_mean(&sum, over, settings);
-    const uint32_t red = sum.red_blue >> 16, green = (sum.all - sum.red_blue) >> 8 & 0xffffu, blue = sum.red_blue & 0xffffu;
-    return pixel_make(0, (mulh_u32(red << 16, over) + 128u) >> 8, (mulh_u32(green << 16, over) + 128u) >> 8,
-                      (mulh_u32(blue << 16, over) + 128u) >> 8);
+    return even_mean(&sum, over, held, settings);
 }
 
 uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,

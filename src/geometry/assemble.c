@@ -180,7 +180,7 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
         const struct covered *p = &t->covered[i];
         const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
         if (segment_colored(s))
-            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.transfer);
         bins_add(g, &g->opaque_last[bins_row(g, p->y)], (uint32_t)p->x, (uint32_t)p->y, tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }
 }
@@ -455,7 +455,7 @@ static inline void add_seen_points(const struct batch *b, const struct seen *t)
         const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
         const int32_t row = pair_y(four->low[k]) + y;
         if (colored)
-            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, shading_is_linear(&b->d->shading));
+            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.transfer);
         bins_add(g, &g->opaque_last[bins_row(g, row)], (uint32_t)(pair_x(four->low[k]) + x), (uint32_t)row,
                  tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }

@@ -293,7 +293,7 @@ static void list_triangle(struct path_batch *b, struct smear_path_bounds *bounds
     for (int i = 0; i < 3; i++)
         record[i] = bins_vertex(g, b->segment, vertex[i]);
     uint32_t color = smear_face_color(b->d, b->segment, face);
-    if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.linear))
+    if (smear_vertex_flat_color(&color, b->segment, record, b->d->shading.transfer))
         bounds->flags |= PATH_FLAT;
     /* No vertex moves, not even by a step (q8 px); before lines, which would blur it, what stays where it is moves, too. */
     const bool stands = !b->a->lines && bounds->travel + bounds->curvature == 0;

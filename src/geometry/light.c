@@ -129,11 +129,11 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 }
 
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *m, bool has_normals, bool linear, const struct smear_sun *sun)
+                        const smear_material *m, bool has_normals, smear_transfer transfer, const struct smear_sun *sun)
 {
     s->last = NULL;
     s->sun = sun;
-    s->linear = linear;
+    s->transfer = transfer;
     s->lit = !m->unlit;
     for (int i = 0; i < 3; i++)
         s->base[i] = m->color[3] == 0 ? 65535u : smear_srgb_decode[m->color[i]];
@@ -295,14 +295,6 @@ static inline uint32_t light_of(const struct smear_shading *s, int channel, uint
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine)
 {
-    if (!s->lit && !shading_is_linear(s) && s->white && (color == NULL || face_color == NULL)) {
-        /* Codes in, codes out. */
-        const uint8_t *c = color != NULL ? color : face_color;
-        for (int i = 0; i < 3; i++)
-            out->channel[i] = c != NULL ? (uint16_t)(c[i] * 256u) : (uint16_t)0xff00u;
-        out->channel[3] = c != NULL ? (uint16_t)(c[3] * 257u) : 65535u;
-        return;
-    }
     uint32_t light = s->lit ? light_of(s, 0, cosine) : 65536u;
     for (int i = 0; i < 3; i++) {
         uint32_t c = s->base[i];
@@ -323,14 +315,13 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
     out->channel[3] = (uint16_t)alpha;
 }
 
-uint32_t smear_color_pack(const struct smear_color *color, bool linear)
+uint32_t smear_color_pack(const struct smear_color *color, smear_transfer transfer)
 {
     const uint16_t *c = color->channel;
-    const uint32_t alpha = (uint32_t)(c[3] >> 8) << 24;
-    if (!SMEAR_WITH_LINEAR || !linear)
-        return alpha | (uint32_t)(c[0] >> 8) << 16 | (c[1] & 0xff00u) | c[2] >> 8;
-    return alpha | (uint32_t)smear_srgb_encode[c[0] >> 4] << 16 | (uint32_t)smear_srgb_encode[c[1] >> 4] << 8
-         | smear_srgb_encode[c[2] >> 4];
+    uint32_t packed = c[3] >> 8;
+    for (int i = 0; i < 3; i++)
+        packed = packed << 8 | code_of_channel((uint32_t)c[i] << 8, transfer);
+    return packed;
 }
 
 uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine)
@@ -338,7 +329,7 @@ uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4],
     if (!s->lit || shading_is_linear(s) || !s->white || !s->sun->white) {
         struct smear_color shaded;
         smear_shade(&shaded, s, NULL, color, cosine);
-        return smear_color_pack(&shaded, shading_is_linear(s));
+        return smear_color_pack(&shaded, s->transfer);
     }
     const uint32_t light = light_of(s, 0, cosine);
     uint32_t packed = times_lin(65535u, color[3] * 257u) >> 8;

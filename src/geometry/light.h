@@ -5,7 +5,7 @@
 
 #include "smear.h"
 
-#include "base/fixed.h"
+#include "base/pixel.h"
 
 /* smear_light as it is used. */
 struct smear_sun {
@@ -33,13 +33,13 @@ struct smear_shading {
     int32_t direction[3];           /* q23 / 127: I = sum n_j direction_j for int8 normals, where even */
     bool even;                      /* rotation and uniform scale only: normals keep their length */
     bool lit;
-    bool linear;                    /* working values: linear light, else sRGB codes */
+    smear_transfer transfer;
     bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
     struct smear_lit *last;         /* or null */
 };
 
-static inline bool shading_is_linear(const struct smear_shading *s) { return SMEAR_WITH_LINEAR && s->linear; }
+static inline bool shading_is_linear(const struct smear_shading *s) { return transfer_is_linear(s->transfer); }
 
 /* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256),
  * alpha 65535 is one. */
@@ -49,7 +49,7 @@ struct smear_color {
 
 /* Makes a draw's shading; with has_normals, smear_light_normal() may be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
-                        const smear_material *material, bool has_normals, bool linear, const struct smear_sun *sun);
+                        const smear_material *material, bool has_normals, smear_transfer transfer, const struct smear_sun *sun);
 
 /* Returns max(0, n.l), 0 .. 65536, for an object-space normal of length 127. */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);
@@ -66,6 +66,6 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
 uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine);
 
 /* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */
-uint32_t smear_color_pack(const struct smear_color *color, bool linear);
+uint32_t smear_color_pack(const struct smear_color *color, smear_transfer transfer);
 
 #endif

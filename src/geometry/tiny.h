@@ -57,9 +57,9 @@ static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w
 
 /* Makes a pixel of channels that tiny_mix gives. Linear light is looked up by its floor, codes are rounded:
  * they are the upper byte, so they are at most 0xff00 and stay below 2^30. */
-static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, bool linear)
+static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, smear_transfer transfer)
 {
-    if (linear)
+    if (transfer_is_linear(transfer))
         return pixel_make(0, smear_srgb_encode[red >> 18], smear_srgb_encode[green >> 18],
                           smear_srgb_encode[blue >> 18]);
     const uint32_t half = 1u << 21;
@@ -68,12 +68,12 @@ static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, b
 
 /* Makes a pixel of the colour words of three vertices (struct smear_segment) at weights w1 and w2. */
 static inline uint32_t tiny_color(const uint32_t *c0, const uint32_t *c1, const uint32_t *c2,
-                                  uint32_t w1, uint32_t w2, bool linear)
+                                  uint32_t w1, uint32_t w2, smear_transfer transfer)
 {
     int32_t a = (int32_t)(w1 >> 2), b = (int32_t)(w2 >> 2);
     return tiny_pixel(tiny_mix(c0[0] & 0xffffu, c1[0] & 0xffffu, c2[0] & 0xffffu, a, b),
                       tiny_mix(c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, a, b),
-                      tiny_mix(c0[1] & 0xffffu, c1[1] & 0xffffu, c2[1] & 0xffffu, a, b), linear);
+                      tiny_mix(c0[1] & 0xffffu, c1[1] & 0xffffu, c2[1] & 0xffffu, a, b), transfer);
 }
 
 #endif

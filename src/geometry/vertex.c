@@ -260,7 +260,7 @@ static inline uint32_t shaded_face(const struct smear_assembly *d, const struct 
         return smear_shade_face(&d->shading, face->color, face->cosine);
     struct smear_color color;
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
-    return smear_color_pack(&color, shading_is_linear(&d->shading));
+    return smear_color_pack(&color, d->shading.transfer);
 }
 
 uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
@@ -282,16 +282,14 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
 }
 
 /* Returns the code of channel c (r g b) of a vertex as pixels get it (see channel_value in setup.h). */
-static uint32_t channel_code(const struct smear_segment *s, const int32_t *record, int c, bool linear)
+static uint32_t channel_code(const struct smear_segment *s, const int32_t *record, int c, smear_transfer transfer)
 {
     uint32_t word = (uint32_t)record[s->color + (c >> 1)];
-    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return linear ? smear_srgb_encode[clamp_i32(a, 0x400, 0xffe000) >> 12]
-                  : (uint32_t)min_i32(a + 0x8000, 0xff8000) >> 16;
+    return code_of_channel((uint32_t)channel_of_vertex(c & 1 ? word >> 16 : word & 0xffffu, transfer), transfer);
 }
 
 bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                             bool linear)
+                             smear_transfer transfer)
 {
     if (s->shade != SHADE_GOURAUD || s->uv != 0)
         return false;
@@ -299,7 +297,7 @@ bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, con
     for (int c = 0; c < 3; c++) {
         uint32_t least = 255, most = 0;
         for (int i = 0; i < 3; i++) {
-            uint32_t code = channel_code(s, record[i], c, linear);
+            uint32_t code = channel_code(s, record[i], c, transfer);
             least = min_u32(least, code);
             most = max_u32(most, code);
         }

@@ -302,7 +302,7 @@ void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s,
 
 /* Finds the colour of three stored vertices. Returns false unless they have one, or nearly, and no texture. */
 bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                             bool linear);
+                             smear_transfer transfer);
 
 /* ------------------------------------------------------------------ faces */
 

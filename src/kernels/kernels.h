@@ -26,7 +26,7 @@
 #ifndef SMEAR_KERNELS_H
 #define SMEAR_KERNELS_H
 
-#include "base/base.h"
+#include "base/pixel.h"
 
 /* Where a triangle's row begins and ends. */
 struct span_side {
@@ -84,7 +84,8 @@ struct tiny_box {
     int32_t right1, right2, sum;                  /* one column further right */
     uint32_t round;                               /* for assembly: of red and blue, rgb565_nearest */
     void *pixels;
-    bool shaded, linear, narrow;
+    bool shaded, narrow;
+    smear_transfer transfer;
 };
 
 #endif

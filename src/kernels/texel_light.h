@@ -73,6 +73,13 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->from_u = 32u - (uint32_t)log2_width;
 }
 
+/* Returns a channel (pixel.h) as red, green and blue are. */
+static inline uint32_t texel_light_of(const struct texel_light *l, uint32_t channel)
+{
+    const uint32_t light = channel >> 8 & 0xffffu;
+    return SMEAR_WITH_LINEAR && l->linear ? light + (light >> 15) : light >> 8;
+}
+
 /* Goes on with another part of fog: remembers no pixel. Codes show a 256th of fog, light less (pixel_mix_part). */
 static inline void texel_light_fog(struct texel_light *l, int32_t part)
 {

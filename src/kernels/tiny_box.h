@@ -96,8 +96,8 @@ static inline void tiny_box_reference(struct tiny_box *b)
             const int32_t e1 = b->e1 + b->right1 * x + b->down1 * y, e2 = b->e2 + b->right2 * x + b->down2 * y;
             const int32_t at = y * b->stride + x;
             if (((b->sum - e1 - e2) | e1 | e2) >= 0)
-                tiny_box_pixel(b, b->depth + at, pixel_after(b->pixels, at, b->narrow), e1, e2, b->shaded, b->linear, b->narrow,
-                               b->code_shift == 0);
+                tiny_box_pixel(b, b->depth + at, pixel_after(b->pixels, at, b->narrow), e1, e2, b->shaded,
+                               transfer_is_linear(b->transfer), b->narrow, b->code_shift == 0);
         }
 }
 
@@ -136,9 +136,9 @@ static inline void tiny_box_unrolled(struct tiny_box *b)
         tiny_box_rows(b, false, false, true, false);
     else if (!b->shaded)
         tiny_box_rows(b, false, false, false, false);
-    else if (!b->linear && b->narrow)
+    else if (!transfer_is_linear(b->transfer) && b->narrow)
         tiny_box_rows(b, true, false, true, false);
-    else if (!b->linear)
+    else if (!transfer_is_linear(b->transfer))
         tiny_box_rows(b, true, false, false, false);
     else
         tiny_box_rows(b, true, true, b->narrow, false);
@@ -459,7 +459,7 @@ static SMEAR_RARE void tiny_box_across(struct tiny_box *b) { tiny_box_reference(
 static inline void tiny_box(struct tiny_box *b, bool narrow)
 {
     if (TINY_ONE_LOOP) {
-        tiny_box_rows(b, SMEAR_WITH_GOURAUD && b->shaded, SMEAR_WITH_LINEAR && b->linear, narrow, SMEAR_SMALL_CODE || b->code_shift == 0);
+        tiny_box_rows(b, SMEAR_WITH_GOURAUD && b->shaded, transfer_is_linear(b->transfer), narrow, SMEAR_SMALL_CODE || b->code_shift == 0);
         return;
     }
     if (b->code_shift == 0) {
@@ -467,12 +467,12 @@ static inline void tiny_box(struct tiny_box *b, bool narrow)
         return;
     }
 #if TINY_ASM_ARMV6M
-    if (!b->shaded || !b->linear) {
+    if (!b->shaded || !transfer_is_linear(b->transfer)) {
         tiny_box_armv6m(b);
         return;
     }
 #elif SMEAR_ASM_ARMV7EM
-    if (!b->shaded || !b->linear) {
+    if (!b->shaded || !transfer_is_linear(b->transfer)) {
         tiny_box_armv7em(b);
         return;
     }

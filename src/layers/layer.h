@@ -70,7 +70,7 @@ struct smear_layer_area {
     int32_t left, right, height;            /* columns and rows of the frame to be finished */
     int32_t tile_shift, samples;
     void *work;                 /* smear_streak_work() */
-    bool linear;
+    smear_transfer transfer;
 };
 
 /* What reaches a tile of the tile row being finished, in smear_window.moving. */

@@ -56,29 +56,27 @@ void smear_gather_cells(const struct smear_layer_area *a)
 enum { WHOLE = 4096 };          /* weight of the whole exposure */
 
 /* Adds a pixel as codes, or as linear light of 12 bits. */
-static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, bool linear)
+static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, smear_transfer transfer)
 {
-    weighed_add(s, p, weight, linear, 4);
+    weighed_add(s, p, weight, transfer, 4);
 }
 
-static uint32_t sum_mean(const struct weighed_sum *s, bool linear)
+static uint32_t sum_mean(const struct weighed_sum *s, smear_transfer transfer)
 {
-    int zeros = count_leading_zeros(s->weight);
+    const int zeros = count_leading_zeros(s->weight), up = transfer_is_linear(transfer) ? 4 : 0;
     uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
     uint32_t half = s->weight >> 1, c[3] = { s->r + half, s->g + half, s->b + half };
-    for (int i = 0; i < 3; i++) {
-        uint32_t value = mulh_u32(c[i], r) >> (29 - zeros);
-        c[i] = linear ? smear_srgb_encode[min_u32(value, 4095u)] : min_u32(value, 255u);
-    }
+    for (int i = 0; i < 3; i++)
+        c[i] = code_of_sum(mulh_u32(c[i], r) >> (29 - zeros) << up, transfer);
     return pixel_make(0, c[0], c[1], c[2]);
 }
 
 /* Returns the mean with the background for what is missing of the whole exposure; what is too much is shared. */
-static uint32_t sum_pixel(struct weighed_sum *s, uint32_t background, bool linear)
+static uint32_t sum_pixel(struct weighed_sum *s, uint32_t background, smear_transfer transfer)
 {
     if (s->weight < WHOLE)
-        sum_add(s, background, WHOLE - s->weight, linear);
-    return sum_mean(s, linear);
+        sum_add(s, background, WHOLE - s->weight, transfer);
+    return sum_mean(s, transfer);
 }
 
 /* Taps along a direction, and the weight of those that meet the newest velocity. */
@@ -201,10 +199,10 @@ static void gather(struct gathering *g, struct seen *seen, int32_t here, bool ow
         if (word != t->word)
             taps_meet(t, velocity_at(l, at), word);
         if (t->tap[k].distance <= t->carries)
-            sum_add(sum_of(seen, g->depth[at]), g->color[at], t->weight, g->a->linear);
+            sum_add(sum_of(seen, g->depth[at]), g->color[at], t->weight, g->a->transfer);
         else if (own) {
             int32_t of = g->depth[at] > g->depth[here] ? here : at;
-            sum_add(sum_of(seen, g->depth[of]), g->color[of], even, g->a->linear);
+            sum_add(sum_of(seen, g->depth[of]), g->color[of], even, g->a->transfer);
         }
     }
 }
@@ -233,50 +231,44 @@ static int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32
     }
     const uint32_t weight = seen->sum.weight + seen->behind.weight;
     if (stays && weight < WHOLE)
-        sum_add(sum_of(seen, g->depth[here]), g->color[here], WHOLE - weight, g->a->linear);
+        sum_add(sum_of(seen, g->depth[here]), g->color[here], WHOLE - weight, g->a->transfer);
     return drawn ? here : of;
 }
 
 /* ------------------------------------------------------------------ between other groups */
 
 /* Returns a + (b - a) part / WHOLE, in codes or their light. */
-static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, smear_transfer transfer)
 {
-    const uint32_t rest = WHOLE - part;
-    if (linear)
-        return smear_srgb_encode[((smear_srgb_decode[a] >> 4) * rest + (smear_srgb_decode[b] >> 4) * part
-                                  + WHOLE / 2)
-                                 >> 12];
-    return (a * rest + b * part + WHOLE / 2) >> 12;
+    const int down = transfer_is_linear(transfer) ? 4 : 0;
+    const uint32_t before = value_of_code(a, transfer) >> down, after = value_of_code(b, transfer) >> down;
+    return code_of_value((before * (WHOLE - part) + after * part + WHOLE / 2) >> 12 << down, transfer);
 }
 
-static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, bool linear)
+static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, smear_transfer transfer)
 {
-    return pixel_make(0, mixed_channel(pixel_red(a), pixel_red(b), part, linear),
-                      mixed_channel(pixel_green(a), pixel_green(b), part, linear),
-                      mixed_channel(pixel_blue(a), pixel_blue(b), part, linear));
+    return pixel_make(0, mixed_channel(pixel_red(a), pixel_red(b), part, transfer),
+                      mixed_channel(pixel_green(a), pixel_green(b), part, transfer),
+                      mixed_channel(pixel_blue(a), pixel_blue(b), part, transfer));
 }
 
 /* Returns an opaque pixel as it is seen past `passed`: colours times coverage, coverage on top. */
-static uint32_t behind_passed(uint32_t passed, uint32_t pixel, bool linear)
+static uint32_t behind_passed(uint32_t passed, uint32_t pixel, smear_transfer transfer)
 {
     const uint32_t rest = ((255u - (passed >> 24)) * WHOLE + 127u) / 255u;
-    uint32_t out = mixed_pixel(0, pixel, rest, linear), sum[3];
+    uint32_t out = mixed_pixel(0, pixel, rest, transfer), sum[3];
     for (int i = 0; i < 3; i++) {
         uint32_t a = out >> 8 * i & 255u, b = passed >> 8 * i & 255u;
-        sum[i] = linear
-                   ? smear_srgb_encode[min_u32((uint32_t)(smear_srgb_decode[a] + smear_srgb_decode[b]) >> 4,
-                                               4095u)]
-                   : min_u32(a + b, 255u);
+        sum[i] = code_of_sum(value_of_code(a, transfer) + value_of_code(b, transfer), transfer);
     }
     return pixel_make(0, sum[2], sum[1], sum[0]);
 }
 
 /* Puts `part` of a pixel over what has passed, coverage included. */
-static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, bool linear)
+static uint32_t over_passed(uint32_t passed, uint32_t pixel, uint32_t part, smear_transfer transfer)
 {
     uint32_t a = ((passed >> 24) * (WHOLE - part) + 255u * part + WHOLE / 2) >> 12;
-    return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, linear);
+    return a << 24 | mixed_pixel(passed & 0xffffffu, pixel, part, transfer);
 }
 
 /* Merges a pixel; `mixed`: where other groups were merged before this one, what lies behind them goes between them and what they
@@ -293,15 +285,15 @@ static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_d
         const uint32_t part = seen.behind.weight >= WHOLE - front
                                 ? (uint32_t)WHOLE
                                 : (seen.behind.weight << 12) / (WHOLE - front);
-        const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->linear), a->linear);
-        a->background[at] = mixed_pixel(a->background[at], whole, part, a->linear);
+        const uint32_t whole = behind_passed(passed, sum_mean(&seen.behind, a->transfer), a->transfer);
+        a->background[at] = mixed_pixel(a->background[at], whole, part, a->transfer);
         const uint32_t coverage = passed >> 24;
         passed = (coverage + (((255u - coverage) * part + WHOLE / 2) >> 12)) << 24
-               | mixed_pixel(passed & 0xffffffu, whole, part, a->linear);
+               | mixed_pixel(passed & 0xffffffu, whole, part, a->transfer);
     }
     if (front != 0) {
-        passed = over_passed(passed, sum_mean(&seen.sum, a->linear), front, a->linear);
-        a->background[at] = sum_pixel(&seen.sum, a->background[at], a->linear);
+        passed = over_passed(passed, sum_mean(&seen.sum, a->transfer), front, a->transfer);
+        a->background[at] = sum_pixel(&seen.sum, a->background[at], a->transfer);
     }
     if (!mixed || !a->group->marks || (seen.sum.weight | seen.behind.weight) == 0)
         return;
@@ -371,10 +363,10 @@ uint32_t smear_two_camera_merge(const struct smear_layer_area *a, int32_t vx, in
                 int32_t at = (y + a->top + ((vy * part + 0x8000) >> 16)) * l->width + x + l->margin
                            + ((vx * part + 0x8000) >> 16);
                 if (l->depth[at] > background_depth)
-                    sum_add(&sum, l->color[at], weight, a->linear);
+                    sum_add(&sum, l->color[at], weight, a->transfer);
             }
             if (sum.weight != 0)
-                *background = sum_pixel(&sum, *background, a->linear);
+                *background = sum_pixel(&sum, *background, a->transfer);
         }
     }
     return (uint32_t)(a->height * (a->right - a->left) * n);

@@ -221,7 +221,7 @@ static void set_area(struct layers_row *r)
         .layer = rows, .group = r->group, .rows = height + 2 * r->streak.reach_y, .top = r->streak.reach_y,
         .background = r->background.color, .background_depth = r->background.depth, .background_stride = frame->window.width,
         .height = height, .tile_shift = frame->window.tile_shift, .samples = min_i32(r->samples, SMEAR_GATHER_TAPS), .work = rows->work,
-        .linear = frame->raster.linear
+        .transfer = frame->raster.transfer
     };
 }
 

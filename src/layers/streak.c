@@ -127,12 +127,10 @@ size_t smear_streak_work(int32_t tile)
     return (size_t)(NODES * tile + STEPS_MAX) * sizeof(struct sums);
 }
 
-static struct sums sums_of_pixel(uint32_t p, bool linear)
+static struct sums sums_of_pixel(uint32_t p, smear_transfer transfer)
 {
-    if (linear)
-        return (struct sums){ { smear_srgb_decode[pixel_red(p)], smear_srgb_decode[pixel_green(p)], smear_srgb_decode[pixel_blue(p)],
-                                65535u } };
-    return (struct sums){ { pixel_red(p), pixel_green(p), pixel_blue(p), 255u } };
+    return (struct sums){ { value_of_code(pixel_red(p), transfer), value_of_code(pixel_green(p), transfer),
+                            value_of_code(pixel_blue(p), transfer), value_of_code(255u, transfer) } };
 }
 
 static void sums_add(struct sums *to, const struct sums *l, uint32_t times)
@@ -142,9 +140,9 @@ static void sums_add(struct sums *to, const struct sums *l, uint32_t times)
 }
 
 /* Divides a weighed sum by all weights. Codes are rounded to nearest: the mean of equal ones is exact. */
-static uint32_t mean_of(const struct smear_streak *s, uint32_t weighed, bool linear)
+static uint32_t mean_of(const struct smear_streak *s, uint32_t weighed, smear_transfer transfer)
 {
-    return linear ? mulh_u32(weighed, s->over << 10) : (weighed + (s->length >> 1)) * s->over >> 22;
+    return transfer_is_linear(transfer) ? mulh_u32(weighed, s->over << 10) : (weighed + (s->length >> 1)) * s->over >> 22;
 }
 
 /* Sums up steps [base, base + count) of the line from place `start`; pixels lie at steps [from, to). */
@@ -162,7 +160,7 @@ static void gather(const struct part *m, int32_t start, int32_t base, int32_t co
         const uint32_t pixel = a->layer->color[upright ? i * a->layer->width + place : place * a->layer->width + i];
         if (pixel >> 24 != 0)
             continue;
-        const struct sums one = sums_of_pixel(pixel, a->linear);
+        const struct sums one = sums_of_pixel(pixel, a->transfer);
         sums_add(&sum, &one, 1);
     }
 }
@@ -175,7 +173,7 @@ static void means(const struct part *m, int32_t start, int32_t base, int32_t fir
         const struct sums *p = m->sums + (i - s->half - base), *q = p + 2 * s->half + 1;
         struct sums mean;
         for (int k = 0; k < CHANNELS; k++)
-            mean.c[k] = mean_of(s, (q[0].c[k] - p[0].c[k]) * s->inner + (q[1].c[k] - p[-1].c[k]) * s->rest, m->a->linear);
+            mean.c[k] = mean_of(s, (q[0].c[k] - p[0].c[k]) * s->inner + (q[1].c[k] - p[-1].c[k]) * s->rest, m->a->transfer);
         const int32_t place = (start - m->low) * 65536 + passes(s, i);
         struct sums *out = m->node + (place >> 16) * m->across + ((i - m->first) >> s->node) * m->along;
         const uint32_t beyond = (uint32_t)place >> 8 & 255u;
@@ -209,14 +207,13 @@ static void add_line(const struct part *m, int32_t start)
 /* Returns a pixel of light, coverage left out. */
 static uint32_t light_pixel(uint32_t r, uint32_t g, uint32_t b)
 {
-    return pixel_make(0, smear_srgb_encode[min_u32(r >> 4, 4095u)], smear_srgb_encode[min_u32(g >> 4, 4095u)],
-                      smear_srgb_encode[min_u32(b >> 4, 4095u)]);
+    return pixel_make(0, code_of_sum(r, TRANSFER_LINEAR), code_of_sum(g, TRANSFER_LINEAR), code_of_sum(b, TRANSFER_LINEAR));
 }
 
 /* Returns a mean as a pixel, its colours times its coverage, which lies on top. */
-static uint32_t pixel_of_mean(const struct sums *m, bool linear)
+static uint32_t pixel_of_mean(const struct sums *m, smear_transfer transfer)
 {
-    if (linear)
+    if (transfer_is_linear(transfer))
         return min_u32(m->c[COVER] >> 8, 255u) << 24 | light_pixel(m->c[RED], m->c[GREEN], m->c[BLUE]);
     return pixel_make(m->c[COVER], m->c[RED], m->c[GREEN], m->c[BLUE]);
 }
@@ -232,10 +229,10 @@ static uint32_t codes_over(uint32_t front, uint32_t back)
 }
 
 /* Returns a mean over a pixel of the background, by its coverage. */
-static uint32_t mean_over(const struct sums *m, uint32_t background, bool linear)
+static uint32_t mean_over(const struct sums *m, uint32_t background, smear_transfer transfer)
 {
-    if (!linear)
-        return codes_over(pixel_of_mean(m, false), background & 0xffffffu) & 0xffffffu;
+    if (!transfer_is_linear(transfer))
+        return codes_over(pixel_of_mean(m, TRANSFER_CODES), background & 0xffffffu) & 0xffffffu;
     const uint32_t rest = (65536u - m->c[COVER]) >> 1;          /* q15 */
     return light_pixel(m->c[RED] + (smear_srgb_decode[pixel_red(background)] * rest >> 15),
                        m->c[GREEN] + (smear_srgb_decode[pixel_green(background)] * rest >> 15),
@@ -255,11 +252,11 @@ static void mean_before(struct sums *out, const struct part *m, int32_t x, int32
         const int32_t at = py * m->a->layer->width + px;
         if (m->a->layer->depth[at] <= background_depth)
             continue;
-        const struct sums one = sums_of_pixel(m->a->layer->color[at], m->a->linear);
+        const struct sums one = sums_of_pixel(m->a->layer->color[at], m->a->transfer);
         sums_add(&sum, &one, abs_i32(t) > s->half ? s->rest : s->inner + s->rest);
     }
     for (int i = 0; i < CHANNELS; i++)
-        out->c[i] = mean_of(s, sum.c[i], m->a->linear);
+        out->c[i] = mean_of(s, sum.c[i], m->a->transfer);
     out->c[COVER] = min_u32(out->c[COVER], 65536u);
 }
 
@@ -294,17 +291,17 @@ static void find_near(struct part *m)
 
 /* Returns `back`, of coverage b, between the background and `front`, of coverage a, which have been merged:
  * (1 - b) merged + (1 - a) back + b front. */
-static uint32_t between_two(uint32_t front, const struct sums *back, uint32_t merged, bool linear)
+static uint32_t between_two(uint32_t front, const struct sums *back, uint32_t merged, smear_transfer transfer)
 {
     uint32_t out[3];
     for (int i = 0; i < 3; i++) {
         const int shift = 16 - 8 * i;
         const uint32_t behind = merged >> shift & 255u, before = front >> shift & 255u;
-        if (linear) {
+        if (transfer_is_linear(transfer)) {
             const uint32_t a = (front >> 24) * 257u >> 1, b = back->c[COVER] >> 1;      /* q15 */
             const uint32_t sum = (smear_srgb_decode[behind] * (32768u - b) >> 15) + (back->c[i] * (32768u - a) >> 15)
                                + (smear_srgb_decode[before] * b >> 15);
-            out[i] = smear_srgb_encode[min_u32(sum >> 4, 4095u)];
+            out[i] = code_of_sum(sum, TRANSFER_LINEAR);
         } else {
             const uint32_t a = front >> 24, b = back->c[COVER];
             const uint32_t sum = behind * (255u - b) + back->c[i] * (255u - a) + before * b;
@@ -318,9 +315,10 @@ static uint32_t between_two(uint32_t front, const struct sums *back, uint32_t me
 static void merge_mixed(const struct part *m, const struct sums *mean, uint32_t depth, int32_t at)
 {
     const struct smear_layer_area *a = m->a;
-    const uint32_t before = a->layer->over[at], codes = pixel_of_mean(mean, a->linear);
+    const uint32_t before = a->layer->over[at], codes = pixel_of_mean(mean, a->transfer);
     const bool behind = before != 0 && depth < a->layer->over_depth[at];
-    a->background[at] = behind ? between_two(before, mean, a->background[at], a->linear) : mean_over(mean, a->background[at], a->linear);
+    a->background[at] = behind ? between_two(before, mean, a->background[at], a->transfer)
+                               : mean_over(mean, a->background[at], a->transfer);
     if (!m->marks)
         return;
     a->layer->over_depth[at] = (uint16_t)(before != 0 ? max_u32(depth, a->layer->over_depth[at]) : depth);
@@ -365,7 +363,7 @@ static void finish_pixel(struct part *m, struct sums *mean, int32_t x, int32_t y
     if (node_x >= 0 ? node_x < a->group->mixed1 && node_x + n > a->group->mixed0 : x >= a->group->mixed0 && x < a->group->mixed1)
         merge_mixed(m, mean, depth_near(m, node_x >= 0 ? node_x + (n >> 1) : x, y), at);
     else
-        a->background[at] = mean_over(mean, a->background[at], a->linear);
+        a->background[at] = mean_over(mean, a->background[at], a->transfer);
 }
 
 /* Returns the mean `step` steps behind node p and before node q. */
@@ -375,7 +373,7 @@ static struct sums mean_between(const struct part *m, const struct sums *p, cons
     const uint32_t n = 1u << node;
     struct sums mean;
     for (int i = 0; i < CHANNELS; i++) {
-        if (m->a->linear)
+        if (transfer_is_linear(m->a->transfer))
             mean.c[i] = (p->c[i] * (n - step) + q->c[i] * step) >> (8 + node);
         else
             mean.c[i] = (((p->c[i] + 128u) >> 8) * (n - step) + ((q->c[i] + 128u) >> 8) * step + (n >> 1)) >> node;
@@ -396,7 +394,7 @@ static void finish_along(struct part *m)
         for (int32_t x = max_i32(m->first, left); x < end; x++) {
             const int32_t k = (x - m->first) >> node, from = m->first + (k << node);
             struct sums mean = mean_between(m, &p[k], &p[min_i32(k + 1, m->nodes - 1)], (uint32_t)(x - from));
-            finish_pixel(m, &mean, x, y, row + x, !a->linear && from >= left && from + n <= end ? from : -1);
+            finish_pixel(m, &mean, x, y, row + x, !transfer_is_linear(a->transfer) && from >= left && from + n <= end ? from : -1);
         }
     }
 }

@@ -87,7 +87,7 @@ static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct smear
         draw_mover_picture(self, f);
         lines->picture = 0;
         f->background.color = lines->row;
-        smear_line_mix(lines->row, lines->over, w->width * (bottom - top), 1, lines->linear);
+        smear_line_mix(lines->row, lines->over, w->width * (bottom - top), 1, lines->transfer);
     }
     smear_movers_copy(lines, w);
     smear_movers_blur(lines, w, top, bottom);
@@ -124,7 +124,7 @@ static void mix_job(void *argument, int job, int worker)
     smear_job_columns(rows, job, &x0, &x1);
     for (int32_t y = top; lines->picture != 0 && x0 < x1 && y < bottom; y++)
         smear_line_mix(w->color + window_ring_row(w, y) * w->width + x0, lines->row + (y - top) * w->width + x0, x1 - x0, lines->picture,
-                       lines->linear);
+                       lines->transfer);
 }
 
 /* Looks at a picture of a row. Its depth becomes that of the pictures together, or a copy of it, for what is drawn behind. */

@@ -85,7 +85,7 @@ static void smooth_job(void *argument, int job, int worker)
             for (bool any = smear_row_fill(rows, s->row.row, FILL_STATIC | FILL_MOVING); any; any = smear_row_fill_next(rows))
                 smear_edges_draw(&s->units, &rows->raster, &place, rows->opaque, k);
     }
-    smear_edges_mean(&s->units, &t, &planes, frame_is_linear(&rows->raster));
+    smear_edges_mean(&s->units, &t, &planes, frame_transfer(&rows->raster));
 }
 
 void smear_smooth_static(struct smear_rows *rows, int row, const struct smear_temporal *temporal)

@@ -516,7 +516,7 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
     /* Pairs of taps of the widest gap, 8 to either side, find room between the borders of a frame this large. */
     self->chooser = (struct smear_chooser){
         frame->method, frame->samples, frame->target,
-        SMEAR_WITH_LINEAR && frame->light_space == SMEAR_LIGHT_LINEAR,
+        frame_transfer(&rows->raster),
         min_i32(w->width, w->height) >= 24 && smear_shutter_is_box(&self->shutter)
     };
     if (SMEAR_WITH_LINES && self->lines != NULL) {
@@ -526,7 +526,7 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
         lines->on = may && lines->wait == 0;
         lines->wait = (uint8_t)(lines->wait - (may && lines->wait != 0));
         if (lines->on)
-            smear_lines_begin(lines, shot, w, frame->target, frame_is_linear(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
+            smear_lines_begin(lines, shot, w, frame->target, frame_transfer(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
         else if (!may)
             lines_forget(lines);
     }

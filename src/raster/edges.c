@@ -252,13 +252,13 @@ static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_pl
 }
 
 void smear_edges_mean(const struct smear_edge_units *e, const struct smear_raster_target *t, const struct smear_edge_planes *planes,
-                      bool linear)
+                      smear_transfer transfer)
 {
     for (int32_t y = t->y0; y < t->y1; y++) {
         uint32_t *row = t->color + target_row(&t->color_rows, t, y);
         const int32_t at = (y - t->y0) * (t->x1 - t->x0) - t->x0;
         for (struct run r = { 0, t->x0 }; next_run(e, &r, (y - t->y0) >> EDGE_BAND_LOG2, t->x1);)
-            mean_row(row + r.x0, r.x1 - r.x0, planes, at + r.x0, linear);
+            mean_row(row + r.x0, r.x1 - r.x0, planes, at + r.x0, transfer_is_linear(transfer));
     }
 }
 

@@ -41,6 +41,6 @@ void smear_edges_draw(const struct smear_edge_units *e, const struct smear_raste
 
 /* Takes the mean of all places. */
 void smear_edges_mean(const struct smear_edge_units *e, const struct smear_raster_target *t, const struct smear_edge_planes *planes,
-                      bool linear);
+                      smear_transfer transfer);
 
 #endif

@@ -200,7 +200,7 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 {
     if (!segment_gouraud(s->segment)) {
         for (int i = 0; i < 3; i++)
-            c[i] = channel_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
+            c[i] = channel_value_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
         return;
     }
     const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
@@ -216,14 +216,6 @@ static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t 
 void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
 {
     const int32_t part = part_at(s, x, y);
-    const uint32_t fog = frame_fog(s->frame)->color;
-    if (!segment_gouraud(s->segment) && !frame_is_linear(s->frame)) {
-        for (int i = 0; i < 3; i++) {
-            const int32_t code = (int32_t)(s->color >> (16 - 8 * i) & 255u);
-            c[i] = (code << 16) + 0x8000 + ((int32_t)(fog >> (16 - 8 * i) & 255u) - code) * part;
-        }
-        return;
-    }
     channels_at(c, s, x, y);
     for (int i = 0; i < 3; i++)
         c[i] = fog_channel(s->frame, c[i], i, part);

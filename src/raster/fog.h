@@ -38,7 +38,7 @@ static inline int32_t fog_even_part(const struct setup *s) { return (s->fog - FO
 static inline int32_t fog_channel(const struct smear_raster_frame *frame, int32_t value, int channel, int32_t part)
 {
     const uint32_t code = frame_fog(frame)->color >> (16 - 8 * channel) & 255u;
-    return value + (((channel_of_code(frame, code) - value) >> 9) * part >> 7);
+    return value + (((channel_value_of_code(frame, code) - value) >> 9) * part >> 7);
 }
 
 /* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */

@@ -522,7 +522,7 @@ static bool is_flat(struct setup *s)
     uint32_t code[3];
     for (int c = 0; c < 3; c++) {
         uint32_t value = (uint32_t)value_in_fog(s, 0, c);
-        code[c] = code_of_channel(s->frame, value);
+        code[c] = code_of_channel(value, frame_transfer(s->frame));
     }
     s->color = pixel_make(0, code[0], code[1], code[2]);
     return true;

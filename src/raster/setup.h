@@ -141,26 +141,17 @@ static inline int32_t step_from_units(int32_t units, enum depth_slope slope)
     return shl_wrap(units, slope == SLOPE_FAR ? 5 : 1);
 }
 
-/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. Codes are
- * rounded by 1/2; linear light is looked up by its floor. Both keep a margin from 0 and 256
- * that rounding errors of a plane do not cross. */
+/* Channel c (r g b a) of a vertex with SHADE_GOURAUD, as it is interpolated: q16. */
 static inline int32_t channel_value(const struct setup *s, int vertex, int c)
 {
     uint32_t word = (uint32_t)s->v[vertex][s->segment->color + (c >> 1)];
-    int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-    return frame_is_linear(s->frame) && c < 3 ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+    return channel_of_vertex(c & 1 ? word >> 16 : word & 0xffffu, c < 3 ? frame_transfer(s->frame) : TRANSFER_CODES);
 }
 
 /* A code as channel_value has it. */
-static inline int32_t channel_of_code(const struct smear_raster_frame *frame, uint32_t code)
+static inline int32_t channel_value_of_code(const struct smear_raster_frame *frame, uint32_t code)
 {
-    return frame_is_linear(frame) ? clamp_i32((int32_t)smear_srgb_decode[code] << 8, 0x400, 0xffe000) : (int32_t)(code << 16) + 0x8000;
-}
-
-/* The code of what channel_value has. */
-static inline uint32_t code_of_channel(const struct smear_raster_frame *frame, uint32_t value)
-{
-    return frame_is_linear(frame) ? smear_srgb_encode[value >> 12] : value >> 16;
+    return channel_of_vertex(channel_of_code(code, frame_transfer(frame)) >> 8, frame_transfer(frame));
 }
 
 static inline int fog_of(const struct setup *s)

@@ -109,7 +109,7 @@ static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct s
     if (fog_row_is_even(s, left, right)) {
         const uint32_t color = smear_fog_row_color(s, left, right, p->y);
         for (int i = 0; i < 3; i++) {
-            c[i] = (uint32_t)channel_of_code(s->frame, color >> (16 - 8 * i) & 255u);
+            c[i] = (uint32_t)channel_value_of_code(s->frame, color >> (16 - 8 * i) & 255u);
             d[i] = 0;
         }
         return;
@@ -163,23 +163,14 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     }
 }
 
-/* Multiplies n texels by codes (q16), their alpha by one. Mostly light has no
- * colour: then red and blue are one product. */
-static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
+/* Multiplies n texels by a code, their alpha by one: red and blue are one product. */
+static void modulate_white(uint32_t *texel, uint32_t light, int32_t n)
 {
-    const uint32_t r = c[0] >> 16 & 255u, g = c[1] >> 16 & 255u, b = c[2] >> 16 & 255u, pair = 0xff00ffu;
-    if (r == b && r == g) {
-        for (; n > 0; n--, texel++) {
-            uint32_t t = *texel, rb = (t & pair) * r + 0x800080u, green = (t >> 8 & 255u) * r + 128u;
-            rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
-            *texel = (t >> 24 << 16 | (green + (green >> 8)) >> 8) << 8 | rb;
-        }
-        return;
-    }
+    const uint32_t pair = 0xff00ffu;
     for (; n > 0; n--, texel++) {
-        uint32_t t = *texel;
-        *texel = pixel_make(pixel_alpha(t), code_times(pixel_red(t), r), code_times(pixel_green(t), g),
-                            code_times(pixel_blue(t), b));
+        uint32_t t = *texel, rb = (t & pair) * light + 0x800080u, green = (t >> 8 & 255u) * light + 128u;
+        rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
+        *texel = (t >> 24 << 16 | (green + (green >> 8)) >> 8) << 8 | rb;
     }
 }
 
@@ -187,32 +178,25 @@ static void modulate_even(uint32_t *texel, const uint32_t c[3], int32_t n)
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
 {
-    const bool linear = frame_is_linear(s->frame);
+    const smear_transfer transfer = frame_transfer(s->frame);
     uint32_t c[4], d[4] = { 0, 0, 0, 0 };
     if (s->segment->shade == SHADE_FLAT) {
-        for (int i = 0; i < 3; i++) {
-            uint32_t code = s->color >> (16 - 8 * i) & 255u;
-            c[i] = linear ? (uint32_t)smear_srgb_decode[code] << 8 : code << 16;
-        }
+        for (int i = 0; i < 3; i++)
+            c[i] = channel_of_code(s->color >> (16 - 8 * i) & 255u, transfer);
         c[3] = pixel_alpha(s->color) << 16;
     } else {
         channels_at(s, p, k, c, d);
     }
-    if (SPAN_SPECIALIZED && !linear && (d[0] | d[1] | d[2]) == 0 && c[3] >> 16 == 255u && d[3] == 0) {
-        modulate_even(texel, c, n);
+    const bool white = ((c[0] ^ c[1]) | (c[0] ^ c[2])) < 1u << 16;
+    if (SPAN_SPECIALIZED && !transfer_is_linear(transfer) && white && (d[0] | d[1] | d[2] | d[3]) == 0 && c[3] >> 16 == 255u) {
+        modulate_white(texel, c[0] >> 16 & 255u, n);
         return;
     }
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {
         uint32_t t = *texel;
-        *texel = linear ? pixel_make(code_times(pixel_alpha(t), a >> 16 & 255u),
-                                     code_times_linear(pixel_red(t), c[0] >> 8 & 0xffffu),
-                                     code_times_linear(pixel_green(t), c[1] >> 8 & 0xffffu),
-                                     code_times_linear(pixel_blue(t), c[2] >> 8 & 0xffffu))
-                        : pixel_make(code_times(pixel_alpha(t), a >> 16 & 255u),
-                                     code_times(pixel_red(t), c[0] >> 16 & 255u),
-                                     code_times(pixel_green(t), c[1] >> 16 & 255u),
-                                     code_times(pixel_blue(t), c[2] >> 16 & 255u));
+        *texel = pixel_make(code_times(pixel_alpha(t), a >> 16 & 255u), code_times_channel(pixel_red(t), c[0], transfer),
+                            code_times_channel(pixel_green(t), c[1], transfer), code_times_channel(pixel_blue(t), c[2], transfer));
         for (int i = 0; i < 3; i++)
             c[i] += d[i];
         a += da;
@@ -225,15 +209,11 @@ static void shade_untextured(uint32_t *out, const struct setup *s, const struct 
 {
     uint32_t c[4], d[4];
     channels_at(s, p, k, c, d);
+    const smear_transfer transfer = frame_transfer(s->frame);
     uint32_t r = c[0], g = c[1], b = c[2], a = c[3], dr = d[0], dg = d[1], db = d[2], da = d[3];
-    if (frame_is_linear(s->frame)) {
-        for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
-            *out++ = pixel_make(a >> 16 & 255u, smear_srgb_encode[r >> 12 & 4095u],
-                                smear_srgb_encode[g >> 12 & 4095u], smear_srgb_encode[b >> 12 & 4095u]);
-    } else {
-        for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
-            *out++ = (a << 8 & 0xff000000u) | (r & 0xff0000u) | (g >> 8 & 0xff00u) | (b >> 16 & 255u);
-    }
+    for (; n > 0; n--, r += dr, g += dg, b += db, a += da)
+        *out++ = (a << 8 & 0xff000000u)
+               | pixel_of_channels(r & 0xffffffu, g & 0xffffffu, b & 0xffffffu, transfer);
 }
 
 /* Writes a block of colours: depth test, cutout, blend. */
@@ -265,7 +245,7 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_is_linear(s->frame));
+                *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_transfer(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {

@@ -116,7 +116,7 @@ struct smear_fog_levels {
 struct smear_raster_frame {
     const struct smear_bins *bins;
     const struct smear_raster_draw *draw;
-    bool linear;
+    smear_transfer transfer;
     int32_t width, height;
     int32_t velocity_scale;         /* q16: displacement between the motion poses to half the exposure's */
     int32_t inspect_scale;          /* q16: the same to a whole frame */
@@ -151,15 +151,17 @@ static inline bool frame_has_depth_velocity(const struct smear_raster_frame *f)
 
 static inline bool draw_is_fixed(const struct smear_raster_draw *d) { return SMEAR_WITH_FILTERS && d->fixed; }
 
-static inline bool frame_is_linear(const struct smear_raster_frame *f)
+static inline smear_transfer frame_transfer(const struct smear_raster_frame *f)
 {
-    return SMEAR_WITH_LINEAR && f->linear;
+    return SMEAR_WITH_LINEAR ? f->transfer : TRANSFER_CODES;
 }
+
+static inline bool frame_is_linear(const struct smear_raster_frame *f) { return transfer_is_linear(f->transfer); }
 
 /* A working pixel with `over` mixed into it by a part of 65536. */
 static inline uint32_t frame_mix(const struct smear_raster_frame *f, uint32_t pixel, uint32_t over, int32_t part)
 {
-    return pixel_mix_part(pixel, over, part, frame_is_linear(f));
+    return pixel_mix_part(pixel, over, part, f->transfer);
 }
 
 static inline bool draw_is_opaque(const struct smear_raster_draw *d)

@@ -23,7 +23,7 @@ static int32_t scale_for(int32_t size, int uv_shift, int8_t *shift)
 }
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
-                        bool bilinear, bool linear)
+                        bool bilinear, smear_transfer transfer)
 {
     bilinear = SMEAR_WITH_TEXTURE && bilinear;
     s->texels = texture->texels;
@@ -34,7 +34,7 @@ void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, i
     s->wrap_u = texture->wrap_u;
     s->wrap_v = texture->wrap_v;
     s->bilinear = bilinear;
-    s->linear = linear;
+    s->transfer = transfer;
     s->uv_shift = (uint8_t)uv_shift;
     int log2_width = log2_exact(texture->width), log2_height = log2_exact(texture->height);
     s->turns = log2_width >= 0 && log2_height >= 0 && s->wrap_u == SMEAR_REPEAT && s->wrap_v == SMEAR_REPEAT
@@ -100,16 +100,11 @@ static uint32_t texel(const struct smear_sampler *s, int32_t iu, int32_t iv)
 }
 
 /* Blends by weight 0 .. 256 towards b; alpha is always linear. */
-static uint32_t mix_texels(uint32_t a, uint32_t b, uint32_t weight, bool linear)
+static uint32_t mix_texels(uint32_t a, uint32_t b, uint32_t weight, smear_transfer transfer)
 {
-    uint32_t rest = 256u - weight, result = 0;
-    for (int shift = 0; shift < 32; shift += 8) {
-        uint32_t ca = a >> shift & 255u, cb = b >> shift & 255u;
-        uint32_t c = linear && shift < 24
-                       ? smear_srgb_encode[(smear_srgb_decode[ca] * rest + smear_srgb_decode[cb] * weight) >> 12]
-                       : (ca * rest + cb * weight + 128u) >> 8;
-        result |= c << shift;
-    }
+    uint32_t result = 0;
+    for (int shift = 0; shift < 32; shift += 8)
+        result |= code_mix(a >> shift & 255u, b >> shift & 255u, weight, shift < 24 ? transfer : TRANSFER_CODES) << shift;
     return result;
 }
 
@@ -119,9 +114,9 @@ static uint32_t sample_bilinear(const struct smear_sampler *s, int32_t u, int32_
     v = sub_wrap(v, 0x8000);
     int32_t iu = u >> 16, iv = v >> 16;
     uint32_t fu = (uint32_t)u >> 8 & 255u, fv = (uint32_t)v >> 8 & 255u;
-    uint32_t top = mix_texels(texel(s, iu, iv), texel(s, iu + 1, iv), fu, s->linear);
-    uint32_t bottom = mix_texels(texel(s, iu, iv + 1), texel(s, iu + 1, iv + 1), fu, s->linear);
-    return mix_texels(top, bottom, fv, s->linear);
+    uint32_t top = mix_texels(texel(s, iu, iv), texel(s, iu + 1, iv), fu, s->transfer);
+    uint32_t bottom = mix_texels(texel(s, iu, iv + 1), texel(s, iu + 1, iv + 1), fu, s->transfer);
+    return mix_texels(top, bottom, fv, s->transfer);
 }
 
 uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v)

@@ -15,7 +15,8 @@ struct smear_sampler {
     const uint32_t *palette;
     int32_t width, height;
     uint8_t format, wrap_u, wrap_v;
-    bool bilinear, linear;
+    bool bilinear;
+    smear_transfer transfer;
     uint8_t uv_shift;           /* mesh units: 2^uv_shift are the texture */
     bool turns;                 /* nearest texels of both sizes powers of two, repeated:
                                  * a coordinate's upper bits say */
@@ -27,7 +28,7 @@ struct smear_sampler {
 };
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
-                        bool bilinear, bool linear);
+                        bool bilinear, smear_transfer transfer);
 
 /* The smaller picture `level`, 1 .. levels, instead. */
 void smear_sampler_shrink(struct smear_sampler *s, int level);

@@ -70,22 +70,11 @@ TRACK_FUNCTION void track_start(struct texel_track *k, const struct texture_setu
 
 /* ------------------------------------------------------------------ runs */
 
-/* Linear light of which 65535 is one as struct texel_light has it, like code_times_linear. */
-static inline uint32_t whole_light(uint32_t light)
+/* A channel of the triangle's light. */
+static inline uint32_t channel_of(const struct setup *s, int i)
 {
-    return light + (light >> 15);
-}
-
-static inline uint32_t light_of_channel(const struct setup *s, int i)
-{
-    const uint32_t light = (uint32_t)s->channel[i].at;
-    return frame_is_linear(s->frame) ? whole_light(light >> 8 & 0xffffu) : light >> 16 & 255u;
-}
-
-static inline uint32_t light_of_color(const struct setup *s, int shift)
-{
-    const uint32_t code = s->color >> shift & 255u;
-    return frame_is_linear(s->frame) ? whole_light(smear_srgb_decode[code]) : code;
+    return segment_gouraud(s->segment) ? (uint32_t)s->channel[i].at
+                                       : channel_of_code(s->color >> (16 - 8 * i) & 255u, frame_transfer(s->frame));
 }
 
 /* The light is even: see smear_rows_choose. */
@@ -93,15 +82,11 @@ static SMEAR_NOINLINE void light_start(struct texel_light *l, const struct setup
 {
     const struct smear_sampler *m = &s->draw->sampler;
     texel_light_start(l, m->texels, m->palette, m->format, m->log2_width, m->log2_height,
-                      target_is_direct(s->target), frame_is_linear(s->frame));
-    if (segment_gouraud(s->segment)) {
-        l->red = light_of_channel(s, 0);
-        l->green = light_of_channel(s, 1);
-        l->blue = light_of_channel(s, 2);
-    } else if (s->segment->shade == SHADE_FLAT) {
-        l->red = light_of_color(s, 16);
-        l->green = light_of_color(s, 8);
-        l->blue = light_of_color(s, 0);
+                      target_is_direct(s->target), frame_transfer(s->frame));
+    if (segment_gouraud(s->segment) || s->segment->shade == SHADE_FLAT) {
+        l->red = texel_light_of(l, channel_of(s, 0));
+        l->green = texel_light_of(l, channel_of(s, 1));
+        l->blue = texel_light_of(l, channel_of(s, 2));
     }
     if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
         l->fog = frame_fog(s->frame)->color;

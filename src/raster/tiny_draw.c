@@ -66,11 +66,11 @@ static SMEAR_NOINLINE void colors_in_fog(struct tiny_box *b, const struct setup 
 {
     static const uint8_t shift[3] = { 16, 0, 8 };       /* red, blue, green */
     const int32_t part = fog_even_part(s) >> 1;
-    const uint32_t round = b->linear ? 0 : 1u << 21;
+    const uint32_t round = channel_round(b->transfer) << 6;
     for (int i = 0; i < 3; i++) {
         struct tiny_channel *const c = &b->channel[i];
         const uint32_t code = frame_fog(s->frame)->color >> shift[i] & 255u;
-        const int32_t there = b->linear ? smear_srgb_decode[code] : (int32_t)(code << 8), value = (int32_t)((c->base - round) >> 14);
+        const int32_t there = (int32_t)(channel_of_code(code, b->transfer) >> 8), value = (int32_t)((c->base - round) >> 14);
         c->base = ((uint32_t)(value + ((there - value) * part >> 15)) << 14) + round;
         c->to1 -= c->to1 * part >> 15;
         c->to2 -= c->to2 * part >> 15;
@@ -100,7 +100,7 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
     tiny_corners(b, v[0], v[1], v[2], left, top);
     if (SMEAR_WITH_GOURAUD && b->shaded) {
         const uint32_t *const c0 = (const uint32_t *)v[0] + l->color, *const c1 = (const uint32_t *)v[1] + l->color;
-        tiny_colors(b, c0, c1, (const uint32_t *)v[2] + l->color, b->linear ? 0 : 1u << 21);
+        tiny_colors(b, c0, c1, (const uint32_t *)v[2] + l->color, channel_round(b->transfer) << 6);
         if (SMEAR_WITH_FOG && (SMEAR_SMALL_CODE || fog != NULL) && fog_is_even(fog))
             colors_in_fog(b, fog);
     } else {

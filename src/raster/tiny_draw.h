@@ -43,7 +43,7 @@ static inline bool tiny_look_take(struct tiny_look *l, const struct smear_raster
     l->color = segment->color;
     l->even = segment_by_vertices(segment) && !segment_flat_depth(segment);
     l->box.shaded = segment_gouraud(segment);
-    l->box.linear = frame_is_linear(frame);
+    l->box.transfer = frame_transfer(frame);
     l->box.narrow = target_is_direct(t);
     l->box.stride = t->window_rows.stride;
     return true;

@@ -72,13 +72,13 @@ void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, 
     find_instants(lines->mover_instant, shot, line_mover_pictures(lines));
 }
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear,
-                       bool smooth)
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
+                       smear_transfer transfer, bool smooth)
 {
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
     const int pictures = pictures_for(lines, target);
-    lines->linear = linear;
+    lines->transfer = transfer;
     lines->movers = lines->behind = 0;
     lines->drawn = 0;
     lines->finished = 0;
@@ -243,7 +243,7 @@ static void blur_within(const struct smear_lines *lines, const struct smear_wind
         }
         b.in = w->color + at * w->width + x0;
         b.out = lines->row + (y & (w->tile - 1)) * w->width + x0;
-        smear_line_means(&b, lines->linear);
+        smear_line_means(&b, lines->transfer);
         at += b.rows;
         at -= at == w->ring ? w->ring : 0;
     }

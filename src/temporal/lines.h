@@ -11,6 +11,7 @@
 #ifndef SMEAR_LINES_H
 #define SMEAR_LINES_H
 
+#include "base/pixel.h"
 #include "geometry/reproject.h"
 #include "geometry/shot.h"
 #include "raster/window.h"
@@ -39,7 +40,7 @@ struct smear_line_seen {
 
 struct smear_lines {
     bool on;                        /* in this frame */
-    bool linear;
+    smear_transfer transfer;
     uint8_t pictures;               /* of what stands still */
     uint8_t picture;                /* that is assembled and drawn */
     struct smear_instant instant[LINE_PICTURES], mover_instant[LINE_MOVERS];
@@ -85,8 +86,8 @@ struct smear_line_block {
 static inline int32_t line_blocks(int32_t pixels) { return (pixels + LINE_BLOCK - 1) >> LINE_BLOCK_LOG2; }
 
 /* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. Smoothed edges have one picture. */
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target, bool linear,
-                       bool smooth);
+void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
+                       smear_transfer transfer, bool smooth);
 
 /* Forgets what the rows before showed. */
 static inline void lines_forget(struct smear_lines *lines)

@@ -124,7 +124,7 @@ static const union gap_mean *mean_of(struct gap *gap, const struct subframes *f,
     gap->made |= 1u << pairs;
     if (sums_light(f))
         mean->light = smear_light_mean(smear_light_full(f->instants), pairs, gap->unit, pair_weight(gap, pairs - 1),
-                                       frame_is_linear(f->t->frame));
+                                       frame_transfer(f->t->frame));
     else
         mean->packed = smear_packed_mean(gap->weight[pairs]);
     return mean;

@@ -59,7 +59,7 @@ void smear_subframe_sums_add(const struct subframes *f, const struct subframe_bo
     const int32_t n = b->x1 - b->x0;
     struct light_instant light;
     if (sums_light(f))
-        light = smear_light_instant(k, f->instants, frame_is_linear(f->t->frame));
+        light = smear_light_instant(k, f->instants, frame_transfer(f->t->frame));
     for (int32_t y = b->y0; y < b->y1; y++) {
         const uint32_t *background = s->color + target_row(&s->color_rows, s, y) + b->x0;
         const int32_t at = work_row(f, b, y);

@@ -312,7 +312,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
-    struct look look = { .shortness = shortness_of(f, plan->chooser->linear) };
+    struct look look = { .shortness = shortness_of(f, transfer_is_linear(plan->chooser->transfer)) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
     for (look.y = y0; look.y < y1; look.y = look.y1) {

@@ -121,7 +121,7 @@ static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint
  * by 1.3 in the mean. */
 static uint32_t allowed(const struct smear_chooser *chooser, uint32_t share, uint32_t blocks)
 {
-    const uint64_t target = (uint64_t)min_i32(chooser->target, 8191), parts = chooser->linear ? 7 : 9;
+    const uint64_t target = (uint64_t)min_i32(chooser->target, 8191), parts = transfer_is_linear(chooser->transfer) ? 7 : 9;
     const uint64_t sum = target * target * parts * blocks * share >> 18;
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }

@@ -52,7 +52,7 @@ struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
     int32_t target;             /* 1/64 codes */
-    bool linear;                /* light */
+    smear_transfer transfer;
     bool fills;                 /* gaps between instants may be closed: the frame is not all border, the shutter a box */
 };
 

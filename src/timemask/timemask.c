@@ -314,7 +314,7 @@ uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_
     struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
     smear_timemask_samples_place(&j.samples, j.list + LISTED, PIXELS_LOG2,
                                31 - count_leading_zeros((uint32_t)settings->samples),
-                                 frame_is_linear(t->frame));
+                                 frame_transfer(t->frame));
     j.even = smear_shutter_is_box(t->shutter);
     choose_segments(&j);
     list_moving(&j);

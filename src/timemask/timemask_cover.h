@@ -102,7 +102,7 @@ struct timemask_samples {
     uint8_t *count;             /* entries in use */
     int32_t pixels_log2;
     int32_t samples_log2;       /* of the whole exposure */
-    bool linear;
+    smear_transfer transfer;
 };
 
 /* What may be seen of a moving triangle in a pixel. */
@@ -123,7 +123,7 @@ static inline size_t timemask_samples_bytes(uint32_t pixels)
 
 /* Over `memory` of that size, aligned for words. */
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                  int32_t samples_log2, bool linear);
+                                  int32_t samples_log2, smear_transfer transfer);
 
 /* Frees all entries. */
 void smear_timemask_samples_clear(struct timemask_samples *b);

@@ -3,7 +3,7 @@
 #include "timemask/timemask_cover.h"
 
 void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int32_t pixels_log2,
-                                  int32_t samples_log2, bool linear)
+                                  int32_t samples_log2, smear_transfer transfer)
 {
     size_t pixels = (size_t)1 << pixels_log2;
     b->any = (uint32_t *)memory;
@@ -14,7 +14,7 @@ void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int3
     b->count = (uint8_t *)(b->farthest + pixels);
     b->pixels_log2 = pixels_log2;
     b->samples_log2 = samples_log2;
-    b->linear = linear;
+    b->transfer = transfer;
 }
 
 void smear_timemask_samples_clear(struct timemask_samples *b)
@@ -62,13 +62,13 @@ static SMEAR_NOINLINE uint32_t nearer_samples(int32_t depth, int32_t slope, uint
 /* ------------------------------------------------------------------ merging */
 
 /* (a wa + b wb) / n with n = wa + wb samples: equal codes keep their mean. */
-static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, bool linear)
+static uint32_t mean_of_two(uint32_t a, uint32_t wa, uint32_t b, uint32_t wb, smear_transfer transfer)
 {
     const uint32_t n = wa + wb, over = ((1u << 22) + n - 1u) / n;
     uint32_t out = 0;
     for (int shift = 0; shift < 24; shift += 8) {
         const uint32_t x = a >> shift & 255u, y = b >> shift & 255u;
-        if (linear)         /* sums are below 2^21 */
+        if (transfer_is_linear(transfer))         /* sums are below 2^21 */
             out |= (uint32_t)smear_srgb_encode[mulh_u32((smear_srgb_decode[x] * wa + smear_srgb_decode[y] * wb) << 11, over) >> 5] << shift;
         else                /* below 2^13: products with over / 2^4 fit */
             out |= ((x * wa + y * wb + (n >> 1)) * ((over + 15u) >> 4) >> 18) << shift;
@@ -100,13 +100,13 @@ static inline void entry_put(struct timemask_samples *b, uint32_t pixel, uint32_
 }
 
 /* Two entries in one: in the course of the longer. */
-static struct entry entry_join(const struct entry *a, const struct entry *b, bool linear)
+static struct entry entry_join(const struct entry *a, const struct entry *b, smear_transfer transfer)
 {
     uint32_t wa = count_bits(a->held), wb = count_bits(b->held);
     const struct entry *longer = wa < wb ? b : a;
     struct entry e = { a->held | b->held, longer->color, longer->depth };
     if ((a->color ^ b->color) << 8 != 0)
-        e.color = mean_of_two(a->color, wa, b->color, wb, linear) | (longer->color & 0xff000000u);
+        e.color = mean_of_two(a->color, wa, b->color, wb, transfer) | (longer->color & 0xff000000u);
     return e;
 }
 
@@ -145,7 +145,7 @@ static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, con
             }
         }
     struct entry joined = entry_join(&all[first], second < TIMEMASK_ENTRIES ? &all[second] : fresh,
-                                     b->linear);
+                                     b->transfer);
     entry_put(b, pixel, first, &joined);
     if (second < TIMEMASK_ENTRIES)
         entry_put(b, pixel, second, fresh);
@@ -261,9 +261,9 @@ uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t 
         const uint32_t n = own ? count_bits(b->held[at]) : rest, color = own ? b->color[at] : background;
         rest -= n;
         for (int k = 0; k < 3; k++)
-            sum[k] += n * (b->linear ? smear_srgb_decode[color >> 8 * k & 255u] : color >> 8 * k & 255u);
+            sum[k] += n * value_of_code(color >> 8 * k & 255u, b->transfer);
     }
     for (int k = 0; k < 3; k++)
-        out |= (b->linear ? smear_srgb_encode[sum[k] >> (b->samples_log2 + 4)] : sum[k] >> b->samples_log2) << 8 * k;
+        out |= code_of_value(sum[k] >> b->samples_log2, b->transfer) << 8 * k;
     return out;
 }

@@ -249,27 +249,18 @@ static void shade_depth(struct timemask_shade *s, struct course *c, const struct
     s->slope = clamp_i32(change >> s->samples_log2, -MOST_SLOPE, MOST_SLOPE);
 }
 
-static uint32_t channels_pixel(int32_t red, int32_t green, int32_t blue, bool linear)
-{
-    if (linear)
-        return pixel_make(0, smear_srgb_encode[red >> 12], smear_srgb_encode[green >> 12],
-                          smear_srgb_encode[blue >> 12]);
-    return pixel_make(0, (uint32_t)red >> 16, (uint32_t)green >> 16, (uint32_t)blue >> 16);
-}
-
 /* Channels of the vertices, q16 (see channel_value in setup.h). */
 struct channels {
     int32_t value[3][3];
 };
 
 static void channels_read(struct channels *out, const struct smear_segment *g, const int32_t *const record[3],
-                          bool linear)
+                          smear_transfer transfer)
 {
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++) {
             uint32_t word = (uint32_t)record[i][g->color + (c >> 1)];
-            int32_t a = (int32_t)((c & 1 ? word >> 16 : word & 0xffffu) << 8);
-            out->value[c][i] = linear ? clamp_i32(a, 0x400, 0xffe000) : min_i32(a + 0x8000, 0xff8000);
+            out->value[c][i] = channel_of_vertex(c & 1 ? word >> 16 : word & 0xffffu, transfer);
         }
 }
 
@@ -291,7 +282,7 @@ static void shade_gouraud(struct timemask_shade *s, const struct course *c,
 {
     struct channels k;
     struct over_w w;
-    channels_read(&k, s->segment, record, frame_is_linear(s->frame));
+    channels_read(&k, s->segment, record, frame_transfer(s->frame));
     uint32_t range = max_u32(spread(k.value[0]), max_u32(spread(k.value[1]), spread(k.value[2]))) >> 10;
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, COLOR_OFF);
     if (s->over_w)
@@ -316,7 +307,7 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
     if (s->over_w)
         over_w_make(s, &w, c, pose);
     if (s->gouraud) {
-        channels_read(&k, s->segment, record, frame_is_linear(s->frame));
+        channels_read(&k, s->segment, record, frame_transfer(s->frame));
         shade_channels(s, c, s->over_w ? &w : NULL, &k);
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
@@ -435,7 +426,7 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
                              int32_t light[3])
 {
     uint32_t texel[TAPS_MAX];
-    const bool linear = frame_is_linear(s->frame);
+    const smear_transfer transfer = frame_transfer(s->frame);
     const int up = TIMEMASK_TIME_LOG2 - s->samples_log2;
     int32_t travel = s->travel * (timemask_run_to(run) - timemask_run_from(run)) >> s->samples_log2;
     int log2 = 0;
@@ -458,16 +449,16 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     for (int32_t i = 0; i < n; i++)
         for (int c = 0; c < 3; c++) {
             uint32_t code = texel[i] >> (16 - 8 * c) & 255u;
-            sum[c] += linear ? smear_srgb_decode[code] : code;
+            sum[c] += value_of_code(code, transfer);
         }
     uint32_t out[3];
     for (int c = 0; c < 3; c++) {
         uint32_t mean = (sum[c] + ((1u << log2) >> 1)) >> log2;
         if (light != NULL) {
             uint32_t l = (uint32_t)light[c];
-            mean = linear ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
+            mean = transfer_is_linear(transfer) ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
         }
-        out[c] = linear ? smear_srgb_encode[mean >> 4] : mean;
+        out[c] = code_of_value(mean, transfer);
     }
     return pixel_make(0, out[0], out[1], out[2]);
 }
@@ -481,13 +472,10 @@ static uint32_t color_of(const struct timemask_shade *s, int32_t y, uint32_t run
     if (s->gouraud) {
         channels_at(s, x, y, timemask_middle(s, run), light);
         if (!SMEAR_WITH_TEXTURE || s->sampler == NULL)
-            return channels_pixel(light[0], light[1], light[2], frame_is_linear(s->frame));
+            return pixel_of_channels((uint32_t)light[0], (uint32_t)light[1], (uint32_t)light[2], frame_transfer(s->frame));
     } else if (s->segment->shade == SHADE_FLAT) {
-        for (int c = 0; c < 3; c++) {
-            uint32_t code = s->color >> (16 - 8 * c) & 255u;
-            light[c] = (int32_t)(frame_is_linear(s->frame) ? (uint32_t)smear_srgb_decode[code] << 8
-                                                           : code << 16);
-        }
+        for (int c = 0; c < 3; c++)
+            light[c] = (int32_t)channel_of_code(s->color >> (16 - 8 * c) & 255u, frame_transfer(s->frame));
     } else {
         return texture_mean(s, x, y, run, NULL);
     }

@@ -38,7 +38,7 @@ static bool make(struct tiny_box *b, struct kernel_call *c, bool shaded, bool li
                             .right1 = y2 * 256, .right2 = -y1 * 256, .sum = area - (int32_t)(c->word[LOOK] >> 4 & 1u),
                             .up = scale.up, .recip = scale.recip, .stride = STRIDE, .depth = c->plane[0], .pixels = c->plane[1],
                             .columns = min_i32(c->n, 8), .rows = c->n < STRIDE ? 1 : c->n / STRIDE,
-                            .color = narrow ? c->word[LIGHT] & 0xffffu : c->word[LIGHT], .shaded = shaded, .linear = linear,
+                            .color = narrow ? c->word[LIGHT] & 0xffffu : c->word[LIGHT], .shaded = shaded, .transfer = linear,
                             .narrow = narrow };
     for (int i = 0; i < 3; i++) {
         const uint32_t one = c->word[LIGHT + 2 * i], two = c->word[LIGHT + 2 * i + 1], most = linear ? 0xffffu : 0xff00u;

@@ -23,7 +23,7 @@ void store_begin(uint32_t *words, uint32_t count, int segments, int32_t width, i
         draw[i] = (struct smear_raster_draw){ .alpha = SMEAR_OPAQUE, .cutoff = 128 };
     }
     frame = (struct smear_raster_frame){
-        .bins = &geometry, .draw = draw, .width = width, .height = height, .linear = linear, .velocity_scale = 32768,
+        .bins = &geometry, .draw = draw, .width = width, .height = height, .transfer = linear, .velocity_scale = 32768,
         .inspect_scale = 65536, .reach_q3 = 15 * 8
     };
     for (int i = 0; i <= SHUTTER_SAMPLES; i++)

@@ -376,7 +376,7 @@ static bool random_corners(int32_t (*p)[2], int32_t x, int32_t y, int32_t size)
 static void random_list(void)
 {
     list_begin();
-    frame.linear = chance(2);
+    frame.transfer = chance(2);
     set_texture(0, 32, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
     for (int i = 0; i < SEGMENTS; i++) {
         bool uv = i & 1, color = i & 2;
@@ -392,7 +392,7 @@ static void random_list(void)
             .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
         };
         int uv_shift = between(12, 15);
-        smear_sampler_make(&draw[i].sampler, &texture, uv_shift, chance(4), frame.linear);
+        smear_sampler_make(&draw[i].sampler, &texture, uv_shift, chance(4), frame.transfer);
     }
     for (uint32_t i = 0; i < 32 * 16; i++)
         texels[i] = random_u32();
@@ -400,7 +400,7 @@ static void random_list(void)
     set_layout(1, true, false, between(0, 1), SHADE_NONE);
     draw[1].alpha = SMEAR_OPAQUE;
     const smear_texture plain = { .texels = texels, .width = 32, .height = 16 };
-    smear_sampler_make(&draw[1].sampler, &plain, 13, false, frame.linear);
+    smear_sampler_make(&draw[1].sampler, &plain, 13, false, frame.transfer);
     for (int n = 0; n < 40 && list_has_room(); n++) {
         int at = between(0, SEGMENTS - 1);
         int32_t size = chance(4) ? SMEAR_GUARD_PX << 8 : 256 << between(0, 6), p[3][2];
