@@ -236,10 +236,9 @@ static bool assemble_kind(struct smear_context *c, struct smear_assembler *as, c
     const struct smear_tile_box *ranges = ranges_all(as->bins);
     for (uint32_t k = 0; k < c->draw_count; k++) {
         const uint32_t i = frame_has_layers(c) ? c->sequence[k] : k;
-        if (ranges != NULL) {
-            as->ranges = ranges;
+        as->ranges = ranges;
+        if (ranges != NULL)
             ranges += ranges_of(as->bins, c->submitted[i].draw.mesh->triangle_count);
-        }
         if (!is_of_kind(c, i, kind) || !is_wanted(c, i, kind, f == NULL, &seen) || (f != NULL && !fill_lacks(c, f, k, i))
             || (ranges != NULL && !draw_reaches(c, as, i)) || draw_is_elsewhere(c, i))
             continue;

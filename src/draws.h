@@ -41,7 +41,6 @@ static inline void draws_begin_exposure(struct smear_context *c, int32_t from, i
     if (SMEAR_RANGES) {
         c->rows.bins.kept_words = c->part_rows = 0;
         c->row_is_full = false;
-        c->assembler.ranges = NULL;
     }
     if (rows_have_points(&c->rows))
         smear_draws_place_points(c, from, to);

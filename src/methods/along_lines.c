@@ -216,9 +216,10 @@ static int finish_rows(struct smear_temporal *self, struct smear_rows *rows, int
     return SMEAR_OK;
 }
 
-/* From here on there are so many pictures, or none, and instants. */
-static SMEAR_NOINLINE void go_on_with(struct smear_temporal *self, const struct smear_rows *rows, int pictures)
+/* From here on there are so many pictures, or none, and instants: what is known of where the first one has triangles holds no more. */
+static SMEAR_NOINLINE void go_on_with(struct smear_temporal *self, struct smear_rows *rows, int pictures)
 {
+    rows->bins.kept_words = 0;
     if (pictures <= self->lines->most) {
         smear_lines_take(self->lines, rows->bins.shot, pictures);
         return;

@@ -219,6 +219,46 @@ static void test_a_frame_in_parts_and_in_refilled_rows_is_the_same(void)
     CHECK(parts);
 }
 
+/* The only frame of its rig, of which nothing is known yet, before a camera that falls; the caller frees it. */
+static uint8_t *falling(const smear_desc *desc, double fall, int target, smear_stats *stats)
+{
+    struct rig r;
+    struct world w;
+    uint8_t *picture = NULL;
+    make_world(&w, POSES, 1);
+    w.frame.target = (uint16_t)target;
+    w.camera[1].pose.origin[1] += q16(fall);
+    w.camera[2].pose.origin[1] -= q16(fall);
+    if (rig_begin(&r, desc, false)) {
+        picture = rig_copy(&r, &w.frame, w.draw, DRAWS);
+        smear_get_stats(r.ctx, stats);
+    }
+    CHECK(guards_intact(&r));
+    rig_end(&r);
+    return picture;
+}
+
+/* Where the first rows tell that there are too few pictures, what was known of where these have triangles holds no more. */
+static void test_pictures_that_become_more_in_the_midst_are_the_same_in_any_room(void)
+{
+    smear_desc desc = sketch_desc();
+    smear_stats stats;
+    desc.tile = desc.reach = 8;
+    for (int fall = 1; fall <= 16; fall++)
+        for (int target = 64 * 4; target <= 64 * 16; target += 96) {
+            desc.max_triangles = 600;
+            uint8_t *want = falling(&desc, 0.1 * fall, target, &stats);
+            for (uint32_t room = 60; room >= 6; room -= room / 3) {
+                desc.max_triangles = room;
+                uint8_t *got = falling(&desc, 0.1 * fall, target, &stats);
+                if (!CHECK(want != NULL && got != NULL && memcmp(got, want, WIDTH * HEIGHT * 4) == 0))
+                    say("    fall %d, target %d, room for %u\n", fall, target, (unsigned)room);
+                free(got);
+            }
+            free(want);
+        }
+}
+
 /* The third frame by all workers. */
 static bool draw_by_all(struct rig *r, enum kind kind)
 {
