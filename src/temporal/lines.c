@@ -39,7 +39,7 @@ static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 
 
 /* Returns the squared error that so many pictures may have, in quarters of what is asked for: a sketch's second picture costs as much as
  * its first. */
-static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 8 : 6; }
+static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 11 : 6; }
 
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
