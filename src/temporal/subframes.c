@@ -401,14 +401,14 @@ static uint32_t draw_more(struct subframes *f, uint32_t first, uint32_t samples,
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
                              struct subframe_box *all)
 {
-    enum { LOOKS = 7, PART = 3 };
+    enum { LOOKS = 5, MANY = 21, PART = 3 };        /* first: five at least; of many, a third */
     const struct smear_shares before = *plan->own;
     const uint32_t cost = cost_of(f, middle);
     struct subframe_changes changes = { .sum = 0 };
     struct smear_contrast contrast;
     smear_tile_contrast(&contrast, f, plan, middle);
     const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
-    const int32_t first = f->passing.in_space ? max_i32(planned / PART | 1, LOOKS) : planned;
+    const int32_t first = !f->passing.in_space ? planned : planned < MANY ? max_i32(planned, LOOKS) : planned / PART | 1;
     f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
@@ -420,7 +420,7 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     *plan->own = before;
     smear_add_changes(&contrast, f, &changes);
     f->instants = (uint32_t)smear_tile_plan_instants(plan, f->t, &contrast, cost, max_i32(planned, first));
-    if (first < 2 * LOOKS && (passing & ~f->space->seen) != 0)
+    if (first < 2 * LOOKS && (f->instants > (uint32_t)first || (passing & ~f->space->seen) != 0))     /* few see little of it */
         f->instants = max_u32(f->instants, 3 * (uint32_t)first);
     return f->instants == (uint32_t)first ? samples : draw_more(f, (uint32_t)first, samples, all);
 }
