@@ -21,7 +21,7 @@ for name; do
         cost raspi0 none | sed -n 's/^total/sharp/p' >>$out/raspi0.new
         mv $out/raspi0.new $out/raspi0
         ;;
-    pico) sh platform/pico/run.sh build/pico/breakout/demo.elf cost pico-240 auto 72 >$out/pico-memory ;;
+    pico) sh platform/pico/run.sh build/pico/breakout/demo.elf cost pico-240 auto-sketch 72 >$out/pico-memory ;;
     *)
         for method in $methods; do
             # What does not fit into a board's memory has no row.
