@@ -134,7 +134,7 @@ static inline uint32_t over(uint32_t a, uint32_t b) { return a < b ? 0 : a / b; 
 static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, int32_t reach, int32_t width)
 {
     const bool may_close = instants > reach / STEP_MAX;
-    const uint32_t open = reach > 2 * width * instants ? (uint32_t)(8 * reach / (width * instants)) : 0;      /* q8 of the run */
+    const uint32_t open = reach > 2 * width * instants ? min_u32((uint32_t)(8 * reach / (width * instants)), 256) : 0;   /* q8 of it */
     const uint32_t square = (uint32_t)(instants * instants);
     uint32_t sum = over(unseen, square);
     for (int k = 0; k < CLOSING_CLASSES; k++) {
