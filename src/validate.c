@@ -448,7 +448,6 @@ int smear_check_draw(const smear_draw *draw)
 }
 
 #if SMEAR_WITH_DEBUG
-
 /* One after the other, each with its end: the kinds from SMEAR_OK down to SMEAR_ERR_ROOM, the faults, too little memory. */
 #define TEXT(name, text) text "\0"
 static const char texts[] = "no error\0"
@@ -479,11 +478,9 @@ const char *smear_error_text(int result)
 }
 
 #else
-
 const char *smear_error_text(int result)
 {
     (void)result;
     return "see smear_result";
 }
-
 #endif

@@ -329,10 +329,11 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
 
 /* ------------------------------------------------------------------ bounds */
 
-#if SMEAR_WITH_BOUNDS
 void smear_mesh_find_bounds(smear_mesh *mesh)
 {
     int16_t *b = mesh->bounds;
+    if (!SMEAR_WITH_BOUNDS)
+        return;
     for (int k = 0; k < 3; k++)
         b[k] = b[k + 3] = mesh->vertex_count != 0 ? mesh->position[k] : 0;
     for (uint32_t i = 3; i < mesh->vertex_count * 3u; i += 3)
@@ -342,9 +343,3 @@ void smear_mesh_find_bounds(smear_mesh *mesh)
             b[k + 3] = p > b[k + 3] ? p : b[k + 3];
         }
 }
-#else
-void smear_mesh_find_bounds(smear_mesh *mesh)
-{
-    (void)mesh;
-}
-#endif

@@ -244,13 +244,4 @@ int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows,
     return result;
 }
 
-#else
-int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int *end)
-{
-    (void)self;
-    (void)rows;
-    (void)row;
-    (void)end;
-    return SMEAR_OK;
-}
 #endif

@@ -283,19 +283,8 @@ static bool take_next(struct smear_temporal *self, const struct smear_window *w)
     return true;
 }
 #else
-static int begin_next(struct smear_finish *f, int end)
-{
-    (void)f;
-    (void)end;
-    return 0;
-}
-
-static bool take_next(struct smear_temporal *self, const struct smear_window *w)
-{
-    (void)self;
-    (void)w;
-    return false;
-}
+#define begin_next(f, end) ((void)(end), 0)
+#define take_next(self, w) false
 #endif
 
 /* ------------------------------------------------------------------ strips */
@@ -523,11 +512,10 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
         struct smear_lines *lines = self->lines;
         const bool may = frame->method == SMEAR_AUTO && shot->camera_moves && !shot->cut && smear_shutter_is_box(&self->shutter)
                       && target_has_lines(frame->target) && (frame->edges == SMEAR_EDGES_HARD || target_is_sketch(frame->target));
-        lines->on = may && lines->wait == 0;
+        lines->on = may && lines->wait == 0
+                 && smear_lines_begin(lines, shot, w, frame->target, frame_transfer(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
         lines->wait = (uint8_t)(lines->wait - (may && lines->wait != 0));
-        if (lines->on)
-            smear_lines_begin(lines, shot, w, frame->target, frame_transfer(&rows->raster), frame->edges != SMEAR_EDGES_HARD);
-        else if (!may)
+        if (!may)
             lines_forget(lines);
     }
     self->target = frame->target;

@@ -32,5 +32,8 @@ void smear_temporal_end_row(struct smear_temporal *self, const struct smear_rows
 /* Draws a row along lines and finishes the one above it, and the last itself. Where it takes more pictures than it has it becomes
  * *end, to be drawn again. */
 int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int *end);
+#if !SMEAR_WITH_LINES
+#define smear_draw_along_lines(self, rows, row, end) SMEAR_OK
+#endif
 
 #endif

@@ -6,15 +6,10 @@
 
 /* ------------------------------------------------------------------ draws */
 
-/* Whether a draw deforms, or turns by more than some ten degrees: what it shows goes many ways. */
+/* Whether a draw deforms, or turns by more than some nine degrees: what it shows goes many ways. */
 static bool turns(const struct smear_draw_poses *p)
 {
-    int64_t square = 0, product = 0;
-    for (int i = 0; i < 9; i++) {
-        square += (int64_t)p->object[0]->basis[i] * p->object[0]->basis[i] >> 8;
-        product += (int64_t)p->object[1]->basis[i] * p->object[2]->basis[i] >> 8;
-    }
-    return p->position[1] != p->position[0] || p->position[2] != p->position[0] || product < square - (square >> 7);
+    return p->position[1] != p->position[0] || p->position[2] != p->position[0] || smear_lines_turn(p->object[1], p->object[2], 128, 1);
 }
 
 /* Finds where a camera is seen from an object, without its scales. */

@@ -20,6 +20,16 @@ struct taps {
     bool sparse;                    /* every fourth pixel tells what lies between, as the line is long and level */
 };
 
+bool smear_lines_turn(const smear_transform *from, const smear_transform *to, int32_t parts, int32_t of)
+{
+    int64_t square = 0, product = 0;
+    for (int i = 0; i < 9; i++) {
+        square += (int64_t)from->basis[i] * from->basis[i] >> 18;
+        product += (int64_t)from->basis[i] * to->basis[i] >> 18;
+    }
+    return (square - product) * parts > square * of;
+}
+
 void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
                            const smear_camera camera[3])
 {
@@ -43,12 +53,26 @@ static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && 
 
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
-/* Returns how many pictures a frame takes that is like the last one, if anything is known of it: more than there may be where no number
- * will do. There are two at least but of a sketch: what blocks show is told by few of their pixels. */
-static int pictures_for(const struct smear_lines *lines, int32_t target)
+/* Returns how many pictures there are at least, or more than `most` where no number will do. There are two but of a sketch: what blocks
+ * show is told by few of their pixels. Lines are straight, and err by the square of the angle that a camera turns by from picture to
+ * picture, which is some 17 degrees at most for 4 codes. */
+static int least_pictures(const struct smear_shot *shot, int32_t target, int most)
+{
+    enum { PARTS = 8192,                /* of a target, 1/64 codes, for a third of that angle's square */
+           COARSEST = 1024 };
+    const struct smear_shutter_order at = smear_shot_order(shot);
+    const smear_transform *open = &shot->camera[at.open].pose, *close = &shot->camera[at.close].pose;
+    int k = target_is_sketch(target) ? 1 : 2;
+    while (k <= most && smear_lines_turn(open, close, PARTS, min_i32(target, COARSEST) * k * k))
+        k++;
+    return k;
+}
+
+/* Returns how many pictures, k or more, a frame takes that is like the last one, if anything is known of it: more than there may be where
+ * no number will do. */
+static int pictures_for(const struct smear_lines *lines, int32_t target, int k)
 {
     const uint64_t most = (uint64_t)target * (uint64_t)target * VALUES;
-    int k = target_is_sketch(target) ? 1 : 2;
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
            && (uint64_t)lines->contrast * left_of_contrast[k - 1]
@@ -72,20 +96,22 @@ void smear_lines_take(struct smear_lines *lines, const struct smear_shot *shot, 
     find_instants(lines->mover_instant, shot, line_mover_pictures(lines));
 }
 
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
+bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
                        smear_transfer transfer, bool smooth)
 {
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
-    const int pictures = pictures_for(lines, target);
+    const int least = least_pictures(shot, target, lines->most), pictures = min_i32(pictures_for(lines, target, least), lines->most);
+    if (least > lines->most)
+        return false;
     lines->transfer = transfer;
     lines->movers = lines->behind = 0;
-    lines->drawn = 0;
-    lines->finished = 0;
+    lines->drawn = lines->finished = 0;
     lines_forget(lines);
     lines->error = 0;
     smear_lines_make_flow(&lines->flow, shot, w, shot->camera);
-    smear_lines_take(lines, shot, min_i32(pictures, lines->most));
+    smear_lines_take(lines, shot, pictures);
+    return true;
 }
 
 static struct smear_line_seen *seen_at(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
@@ -316,30 +342,47 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
         }
 }
 
-/* Returns the nearest depth that the blocks beside a block show, as far as its taps reach. Rows are seen from `top` on. */
-static uint32_t depth_beside(const struct smear_lines *lines, const struct smear_window *w, const struct smear_line_seen *seen, int32_t x,
-                             int32_t y, int32_t top)
+/* Gives a bare block the way of what passes it, whose depth is kept in place of a contrast: of that no use is made any more. */
+static void give_way(struct smear_line_seen *bare, uint16_t depth, int16_t x, int16_t y)
 {
-    const int32_t aside = (abs_i32(seen->x) / 2 & -BLOCK) + BLOCK, along = (abs_i32(seen->y) / 2 & -BLOCK) + BLOCK;
-    uint32_t nearest = 0;
-    for (int32_t v = max_i32(y - along, top); v <= y + along && v < lines->drawn; v += BLOCK)
-        for (int32_t u = max_i32(x - aside, 0); u <= x + aside && u < w->width; u += BLOCK)
-            nearest = max_u32(nearest, seen_at(lines, w, u, v)->depth);
-    return nearest;
+    bare->contrast = depth;
+    bare->x = x;
+    bare->y = y;
 }
 
-/* Nothing but the clear colour is seen in a bare block, so that only what its taps meet beside it can show how it goes. */
+/* Gives its way to the bare blocks of columns [x0, x1) of rows [y0, y1) that a block passes, half the way before and after. Of several the
+ * nearest is seen. */
+static void pass_bare(const struct smear_lines *lines, const struct smear_window *w, const struct smear_line_seen *seen, int32_t x,
+                      int32_t y, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    int log = 0;
+    while (max_i32(abs_i32(seen->x), abs_i32(seen->y)) > 2 * BLOCK << log)
+        log++;
+    for (int32_t k = -(1 << log); k <= 1 << log; k++) {
+        const int32_t u = x + BLOCK / 2 + (seen->x * k >> (log + 1)), v = y + BLOCK / 2 + (seen->y * k >> (log + 1));
+        struct smear_line_seen *const bare = u < x0 || u >= x1 || v < y0 || v >= y1 ? NULL : seen_at(lines, w, u, v);
+        if (bare != NULL && bare->depth == 0 && bare->contrast < seen->depth)
+            give_way(bare, seen->depth, seen->x, seen->y);
+    }
+}
+
+/* Nothing but the clear colour is seen in a bare block: only what passes it shows how it goes. */
 static void settle_bare(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    const int32_t top = max_i32((y0 & -w->tile) - w->tile, 0);
-    for (int32_t y = y0; y < y1; y += BLOCK) {
-        struct smear_line_seen *seen = seen_at(lines, w, x0, y);
-        for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
-            const uint32_t beside = seen->depth != 0 ? 0 : depth_beside(lines, w, seen, x, y, top);
-            if (beside != 0)
-                displace_block(lines, w, seen, x, y, beside);
+    bool any = false;
+    for (int32_t y = y0; y < y1; y += BLOCK)
+        for (int32_t x = x0; x < x1; x += BLOCK) {
+            struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            any |= seen->depth == 0;
+            if (seen->depth == 0)
+                give_way(seen, 0, 0, 0);
         }
-    }
+    for (int32_t y = any ? max_i32((y0 & -w->tile) - w->tile, 0) : lines->drawn; y < lines->drawn; y += BLOCK)
+        for (int32_t x = 0; x < w->width; x += BLOCK) {
+            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            if (seen->depth != 0 && (seen->x | seen->y) != 0)
+                pass_bare(lines, w, seen, x, y, x0, x1, y0, y1);
+        }
 }
 
 void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)

@@ -85,8 +85,13 @@ struct smear_line_block {
 
 static inline int32_t line_blocks(int32_t pixels) { return (pixels + LINE_BLOCK - 1) >> LINE_BLOCK_LOG2; }
 
-/* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. Smoothed edges have one picture. */
-void smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
+/* Whether what two transforms turn into differs by an angle of which a third of the square is more than of / parts: about, up to 90
+ * degrees. */
+bool smear_lines_turn(const smear_transform *from, const smear_transform *to, int32_t parts, int32_t of);
+
+/* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. Smoothed edges have one picture. Returns false
+ * where it turns too far for lines. */
+bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot, const struct smear_window *w, int32_t target,
                        smear_transfer transfer, bool smooth);
 
 /* Forgets what the rows before showed. */
