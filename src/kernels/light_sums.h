@@ -3,7 +3,7 @@
  *
  * A sum has the shape of a packed sum (packed_sums.h), with light in place of codes and, beside green, the light that
  * white has at its instants in place of their number. Light has 12 bits. Few instants add it shifted up, so that means
- * have all 16 bits to round in; more than LIGHT_WHOLE add fewer bits of it, rounded by a threshold that differs from instant to
+ * have all 16 bits to round in; more than 16 add fewer bits of it, rounded by a threshold that differs from instant to
  * instant, so that the sum has what the parts leave out. */
 #ifndef SMEAR_KERNELS_LIGHT_SUMS_H
 #define SMEAR_KERNELS_LIGHT_SUMS_H
@@ -11,7 +11,7 @@
 #include "base/tables.h"
 #include "kernels/gap_means.h"
 
-enum { LIGHT_WHITE = 4095, LIGHT_WHOLE = 16, LIGHT_INSTANTS_MAX = 1024 };
+enum { LIGHT_WHITE = 4095, LIGHT_INSTANTS_MAX = 1024 };
 
 /* Returns the light of a code: linear, or what stands for it where codes themselves are averaged. */
 SMEAR_INLINE uint32_t light_of_code(uint32_t code, bool linear)

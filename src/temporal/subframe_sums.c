@@ -28,17 +28,6 @@ SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const s
     }
 }
 
-SMEAR_RARE void smear_subframe_sums_rescale(const struct subframes *f, uint32_t before)
-{
-    const struct subframe_box b = read_box(f);
-    const int down = smear_light_instant(0, before, false).up - smear_light_instant(0, f->instants, false).up;
-    for (int32_t y = b.y0; y < b.y1 && down != 0; y++)
-        for (int32_t at = work_row(f, &b, y), end = at + b.x1 - b.x0; at < end; at++) {
-            const struct packed_sum sum = packed_sum_at(&f->sums, at);
-            packed_sum_put(&f->sums, at, (struct packed_sum){ sum.rb >> down, sum.gn >> down });
-        }
-}
-
 /* Vectors take whole rounds: pixels beside a box look like the background and add nothing. */
 static struct subframe_box whole_rounds(const struct subframes *f, const struct subframe_box *box)
 {

@@ -105,9 +105,6 @@ static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS 
 /* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
 void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
 
-/* Brings sums of the light of `before` instants to what f->instants add, both at most LIGHT_WHOLE: by bits that are 0. */
-void smear_subframe_sums_rescale(const struct subframes *f, uint32_t before);
-
 /* Adds the box of instant k to the sums, or sets them, and makes its colours background again. */
 void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets);
 

@@ -383,32 +383,19 @@ static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, 
     return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
 }
 
-/* Draws and sums f->instants, of which `first` have been summed: these are every so manieth of them where that is cheaper than to
- * begin again. Shifts, and light that is rounded, depend on how many there are. */
-static uint32_t draw_more(struct subframes *f, uint32_t first, uint32_t samples, struct subframe_box *all)
-{
-    const uint32_t times = (f->instants + first - 1) / first | 1u, instants = times * first;
-    if (has_shifts(f) || (sums_light(f) && instants > LIGHT_WHOLE) || instants > PACKED_INSTANTS_MAX || instants - first > f->instants)
-        return draw_rest(f, 0, 0, all);
-    f->instants = instants;
-    if (sums_light(f))
-        smear_subframe_sums_rescale(f, first);
-    return draw_rest(f, (int32_t)times, samples, all);
-}
-
 /* Draws and sums as many instants as the plan says, of which the middle one has been drawn. Where something passes the eye they show
- * what the middle does not: some of them are drawn first, and what changes from one to the next is planned for, too. */
+ * what the middle does not: what changes from one to the next is planned for, too. Up to half as many more are done without. */
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
                              struct subframe_box *all)
 {
-    enum { LOOKS = 5, MANY = 21, PART = 3 };        /* first: five at least; of many, a third */
+    enum { LOOKS = 5 };         /* at least, where something passes */
     const struct smear_shares before = *plan->own;
     const uint32_t cost = cost_of(f, middle);
     struct subframe_changes changes = { .sum = 0 };
     struct smear_contrast contrast;
     smear_tile_contrast(&contrast, f, plan, middle);
     const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
-    const int32_t first = !f->passing.in_space ? planned : planned < MANY ? max_i32(planned, LOOKS) : planned / PART | 1;
+    const int32_t first = f->passing.in_space ? max_i32(planned, LOOKS) : planned;
     f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
@@ -419,10 +406,13 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     f->changes = NULL;
     *plan->own = before;
     smear_add_changes(&contrast, f, &changes);
-    f->instants = (uint32_t)smear_tile_plan_instants(plan, f->t, &contrast, cost, max_i32(planned, first));
-    if (first < 2 * LOOKS && (f->instants > (uint32_t)first || (passing & ~f->space->seen) != 0))     /* few see little of it */
-        f->instants = max_u32(f->instants, 3 * (uint32_t)first);
-    return f->instants == (uint32_t)first ? samples : draw_more(f, (uint32_t)first, samples, all);
+    int32_t wanted = smear_tile_plan_instants(plan, f->t, &contrast, cost, first);
+    if (first < 2 * LOOKS && (wanted > first || (passing & ~f->space->seen) != 0))          /* few see little of it */
+        wanted = max_i32(wanted, 3 * first);
+    if (2 * wanted <= 3 * first)
+        return samples;
+    f->instants = (uint32_t)wanted;
+    return draw_rest(f, 0, 0, all);
 }
 
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
