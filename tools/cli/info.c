@@ -232,7 +232,7 @@ static void print_memory(const struct presented *presented, int width, int heigh
                names[setup], need.total, need.window, need.bands, need.draw_bytes,
                (unsigned)need.triangles, need.triangle_bytes, need.rest,
                setup == MEMORY_AUTO_SHARP ? "; what a smear_desc has that says no methods"
-               : setup == MEMORY_AUTO ? "; with SMEAR_SET_SKETCH, as this program draws" : "");
+               : setup == MEMORY_AUTO ? "; with SMEAR_SET_SKETCH, as this program draws drafts" : "");
     }
 }
 

@@ -17,14 +17,14 @@ static bool is_layered_method(const struct render_options *o)
     return o->shutter_degrees > 0 && smear_method_has_layers(o->method);
 }
 
-/* SMEAR_AUTO has a window beside it, for sketches: its tiles are those of a filter. */
+/* For sketches and drafts SMEAR_AUTO has a window beside it: its tiles are those of a filter. */
 static unsigned method_set(const struct render_options *o)
 {
     const bool has_kind = o->method == SMEAR_CAMERA || o->method == SMEAR_HALF;
     if (o->shutter_degrees == 0 && o->edges == SMEAR_EDGES_HARD)
         return SMEAR_SET(SMEAR_NONE);
     if (o->method == SMEAR_AUTO)
-        return SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH;
+        return SMEAR_SET(SMEAR_AUTO) | (o->target >= SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u);
     return SMEAR_SET(o->method)
          | (has_kind && o->filter == SMEAR_FILTER_PINGPONG ? SMEAR_SET(SMEAR_PINGPONG) : 0u);
 }

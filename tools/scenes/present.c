@@ -739,9 +739,10 @@ void present_tiles(smear_desc *desc)
     const bool has_reach = (desc->methods & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH)) != 0;
     const bool is_temporal = (desc->methods & SMEAR_SET_TEMPORAL) != 0;
     const int share = desc->height * 5 / 100, usual = share < 1 ? 1 : share > 64 ? 64 : share;
-    const int reach = desc->reach != 0 ? desc->reach : usual;
+    const int reach = desc->reach != 0 ? desc->reach : usual, tenth = (desc->width + 9) / 10;
+    const int least = is_temporal && !has_reach ? (tenth < 32 ? tenth : 32) : reach;
     if (desc->tile == 0)
-        desc->tile = is_temporal && !has_reach ? 32 : reach <= 8 ? 8 : reach <= 16 ? 16 : reach <= 32 ? 32 : 64;
+        desc->tile = least <= 8 ? 8 : least <= 16 ? 16 : least <= 32 ? 32 : 64;
     if (desc->strip == 0 && is_temporal)
         desc->strip = 128;
 }
