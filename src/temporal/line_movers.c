@@ -40,28 +40,30 @@ static bool is_far(const smear_camera *c, uint32_t units)
                              : (int64_t)units * c->far_plane <= (int64_t)c->near_plane << (NEAR_LOG2 + PART_LOG2);
 }
 
-/* Returns how a draw goes on the screen, as some of its vertices tell. */
-static enum smear_line_kind kind_of(const struct smear_flow *own, const struct smear_lines *lines, const struct smear_placement *place,
-                                    const struct smear_window *w, const smear_mesh *mesh, const smear_camera *camera)
+/* Returns how a draw goes on the screen, as some of its vertices tell, and whether it goes far. */
+static enum smear_line_kind kind_of(bool *far, const struct smear_flow *own, const struct smear_lines *lines,
+                                    const struct smear_placement *place, const struct smear_window *w, const smear_mesh *mesh,
+                                    const smear_camera *camera)
 {
-    enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256 };      /* q8 px */
+    enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256, FAR = 8 * 256 };      /* q8 px */
     const struct smear_viewport viewport = { w->width, w->height };
     int32_t apart = 0, way = 0;
     bool seen = false, behind = true;
     for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
         struct smear_homogeneous h;
         struct smear_screen s;
-        int32_t a[2], b[2], far[2];
+        int32_t a[2], b[2], c[2];
         if ((placement_project(&s, &h, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
             continue;           /* what goes round the camera is seen in part */
         seen = true;
         smear_flow_at(own, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, a);
         smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, b);
-        smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, 0, far);
-        behind = behind && max_i32(abs_i32(far[0] - b[0]), abs_i32(far[1] - b[1])) <= PARALLAX && is_far(camera, (uint32_t)s.depth >> 11);
+        smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, 0, c);
+        behind = behind && max_i32(abs_i32(c[0] - b[0]), abs_i32(c[1] - b[1])) <= PARALLAX && is_far(camera, (uint32_t)s.depth >> 11);
         apart = max_i32(apart, max_i32(abs_i32(a[0] - b[0]), abs_i32(a[1] - b[1])));
         way = max_i32(way, max_i32(abs_i32(a[0]), abs_i32(a[1])));
     }
+    *far = !seen || way > FAR;
     return !seen ? LINE_MOVES : apart <= ALIKE ? LINE_GOES_ALONG : way > STILL ? LINE_MOVES : behind ? LINE_IS_BEHIND : LINE_IS_STILL;
 }
 
@@ -78,12 +80,17 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
     }
     smear_lines_make_flow(&lines->own[draw], shot, w, camera);
     smear_draw_poses_place(&place, p, shot, mesh, &lines->mover_instant[0]);
-    const enum smear_line_kind kind = kind_of(&lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
+    bool far;
+    const enum smear_line_kind kind = kind_of(&far, &lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
     if (kind != LINE_GOES_ALONG && !lines->takes_movers)
         return false;
     lines->kind[draw] = (uint8_t)kind;
     lines->movers = (uint16_t)(lines->movers + (kind != LINE_GOES_ALONG));
     lines->behind = (uint16_t)(lines->behind + (kind == LINE_IS_BEHIND));
+    if (kind == LINE_MOVES && far && !lines->goes_far) {
+        lines->goes_far = true;
+        smear_lines_take(lines, shot, lines->pictures);
+    }
     return true;
 }
 
