@@ -459,13 +459,6 @@ void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, i
     }
 }
 
-void smear_line_join_reference(uint16_t *nearest, const uint16_t *more, int32_t n)
-{
-    for (const uint16_t *const end = nearest + n; nearest != end; nearest++, more++)
-        if (*nearest < *more)
-            *nearest = *more;
-}
-
 #if SMEAR_VECTORS
 static inline smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, smear_v4u k, smear_v4u part, bool third)
 {
@@ -492,20 +485,9 @@ void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, 
     }
     smear_line_mix_reference(mean + i, more + i, n - i, k, linear);
 }
-
-void smear_line_join(uint16_t *nearest, const uint16_t *more, int32_t n)
-{
-    for (; n >= 8; n -= 8, nearest += 8, more += 8) {
-        const smear_v8u b = (smear_v8u)v8i_load(more), a = b + v8u_less((smear_v8u)v8i_load(nearest), b);
-        __builtin_memcpy(nearest, &a, sizeof a);
-    }
-    smear_line_join_reference(nearest, more, n);
-}
 #else
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
     smear_line_mix_reference(mean, more, n, k, linear);
 }
-
-void smear_line_join(uint16_t *nearest, const uint16_t *more, int32_t n) { smear_line_join_reference(nearest, more, n); }
 #endif

@@ -31,12 +31,8 @@ void smear_line_means(const struct line_block *b, bool linear);
 /* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. */
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
 
-/* Makes each of n depths that of the nearer one of two. */
-void smear_line_join(uint16_t *nearest, const uint16_t *more, int32_t n);
-
 /* What all variants give. */
 void smear_line_means_reference(const struct line_block *b, bool linear);
 void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
-void smear_line_join_reference(uint16_t *nearest, const uint16_t *more, int32_t n);
 
 #endif

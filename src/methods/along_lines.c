@@ -127,7 +127,8 @@ static void mix_job(void *argument, int job, int worker)
                        lines->transfer);
 }
 
-/* Looks at a picture of a row. Its depth becomes that of the pictures together, or a copy of it, for what is drawn behind. */
+/* Looks at a picture of a row. That in the middle has the depth before which movers are seen; of the first one, what is drawn behind it
+ * takes a copy. */
 static void look_job(void *argument, int job, int worker)
 {
     const struct smear_finish *f = (const struct smear_finish *)argument;
@@ -141,13 +142,13 @@ static void look_job(void *argument, int job, int worker)
     if (lines->picture + 1 == lines->pictures)
         smear_lines_displace(lines, &rows->window, x0, x1, top, bottom);
     for (int32_t y = top; x0 < x1 && y < bottom; y++)
-        if (lines->picture != 0 && lines->movers != 0)
-            smear_line_join(window_depth(&rows->window, x0, y), line_depth(lines, &rows->window, x0, y), x1 - x0);
-        else if (lines->picture == 0 && lines->behind != 0)
+        if (lines->picture == 0 && lines->behind != 0)
             smear_lines_take_depth(lines, &rows->window, x0, x1, y);
+        else if (lines->picture != 0 && lines->picture == lines->pictures / 2 && lines->movers != 0)
+            smear_lines_give_depth(lines, &rows->window, x0, x1, y);
 }
 
-/* Draws what stands still far behind a picture of a row into it. The depth of the first picture, in the window, stays what it is. */
+/* Draws what stands still far behind a picture of a row into it. The depth in the window stays what it is. */
 static void draw_behind(struct smear_temporal *self, struct smear_finish *f)
 {
     struct smear_rows *rows = f->row.rows;
@@ -160,7 +161,7 @@ static void draw_behind(struct smear_temporal *self, struct smear_finish *f)
     smear_row_run(rows, over_job, &f->row, FILL_MOVING);
     lines->picture = picture;
     for (int32_t y = row_top(rows, f->row.row); picture == 0 && y < row_bottom(rows, f->row.row); y++)
-        __builtin_memcpy(window_depth(w, 0, y), line_depth(lines, w, 0, y), (size_t)w->width * sizeof *w->depth);
+        smear_lines_give_depth(lines, w, 0, w->width, y);
 }
 
 /* Draws a further picture of a row. */

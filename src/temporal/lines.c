@@ -207,6 +207,11 @@ void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_
     __builtin_memcpy(line_depth(lines, w, x0, y), window_depth(w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
+void smear_lines_give_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+{
+    __builtin_memcpy(window_depth(w, x0, y), line_depth(lines, w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
+}
+
 int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
                                  int32_t y, uint32_t depth)
 {

@@ -129,7 +129,7 @@ void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear
 /* Notes what columns [x0, x1) of pixel rows [y0, y1), a tile row, show in the picture that has been drawn. */
 void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
 
-/* Points at the depth of a pixel: in the picture that is drawn, and in all of them. */
+/* Points at the depth of a pixel: in the picture that is drawn, and in the one before which movers are seen. */
 static inline uint16_t *line_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x, int32_t y)
 {
     return lines->depth + (y & (w->tile - 1)) * w->width + x;
@@ -140,8 +140,9 @@ static inline uint16_t *window_depth(const struct smear_window *w, int32_t x, in
     return w->depth + window_ring_row(w, y) * w->width + x;
 }
 
-/* Copies the depth of columns [x0, x1) of row y of the window to lines->depth. */
+/* Copies the depth of columns [x0, x1) of row y of the window to lines->depth, and back. */
 void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
+void smear_lines_give_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
 
 /* Finds the displacements of the blocks of columns [x0, x1) of a tile row whose pictures have been looked at. */
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);
