@@ -67,7 +67,8 @@ struct subframes {
     uint32_t moving_listed, all_listed;
     uint32_t moving_rest, blend_rest;
     uint32_t moving_seen;       /* moving triangles that may be seen, whether they are listed or not */
-    uint32_t lowest, highest;   /* depth codes of the background */
+    bool closes;                /* gaps, for which it counts what is in front */
+    uint32_t lowest, highest;   /* depth codes of the background; 0 where none are closed */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */
     struct subframe_box area;      /* and nothing of it is seen elsewhere */
     bool plans;                 /* it is to be found out how many instants there are: */

@@ -67,7 +67,7 @@ static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
 
 static void begin_list(struct subframes *f, const struct subframe_box *whole)
 {
-    const struct depth_range depths = smear_subframe_depths(f, whole, 0);
+    const struct depth_range depths = f->closes ? smear_subframe_depths(f, whole, 0) : (struct depth_range){ 0, 0 };
     f->lowest = depths.least;
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;
@@ -442,7 +442,8 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     struct smear_space space;
     struct subframe_box all;
     make(&f, &space, t, instants);
-    f.plans = plan != NULL && plan->chooser != NULL;
+    f.closes = plan != NULL;
+    f.plans = f.closes && plan->chooser != NULL;
     bool is_still = false;
     if (f.plans && target_is_sketch(plan->chooser->target)) {
         const int32_t sketched = smear_tile_sketch_instants(plan, t);
