@@ -15,86 +15,53 @@
 
 /* clang-format off */
 /* A tap of two pixels. */
-#define LINE_TAP_ARMV6M(at)                 \
-    "ldr r0, [r2, #" #at "]\n\t"            \
-    "add r0, r8\n\t"                        \
-    "ldm r0, {r0, r1}\n\t"                  \
-    "adds r4, r4, r0\n\t"                   \
-    "ands r0, r3\n\t"                       \
-    "adds r5, r5, r0\n\t"                   \
-    "adds r6, r6, r1\n\t"                   \
-    "ands r1, r3\n\t"                       \
-    "adds r7, r7, r1\n\t"
-/* Makes RED_BLUE the mean of its sums and of ALL, which is lost. */
-#define LINE_MEAN_ARMV6M(ALL, RED_BLUE)     \
-    "subs " ALL ", " ALL ", " RED_BLUE "\n\t" \
-    "add " ALL ", r9\n\t"                   \
-    "lsrs " ALL ", " ALL ", #11\n\t"        \
-    "uxtb " ALL ", " ALL "\n\t"             \
-    "lsls " ALL ", " ALL ", #8\n\t"         \
-    "add " RED_BLUE ", r10\n\t"             \
-    "lsrs " RED_BLUE ", " RED_BLUE ", #3\n\t" \
-    "ands " RED_BLUE ", r3\n\t"             \
-    "orrs " RED_BLUE ", " ALL "\n\t"
+#define LINE_TAP_ARMV6M(at)                                                             \
+    "ldr r0, [r2, #" #at "]\n\t" "add r0, r8\n\t" "ldm r0, {r0, r1}\n\t"                \
+    "adds r4, r4, r0\n\t" "ands r0, r3\n\t" "adds r5, r5, r0\n\t"                       \
+    "adds r6, r6, r1\n\t" "ands r1, r3\n\t" "adds r7, r7, r1\n\t"
+/* Makes RED_BLUE the mean of its sums and of ALL, which is lost; of 2^LOG taps, HIGH is 8 + LOG. */
+#define LINE_MEAN_ARMV6M(ALL, RED_BLUE, LOG, HIGH)                                      \
+    "subs " ALL ", " ALL ", " RED_BLUE "\n\t" "add " ALL ", r9\n\t"                     \
+    "lsrs " ALL ", " ALL ", #" #HIGH "\n\t" "uxtb " ALL ", " ALL "\n\t"                 \
+    "lsls " ALL ", " ALL ", #8\n\t"                                                     \
+    "add " RED_BLUE ", r10\n\t" "lsrs " RED_BLUE ", " RED_BLUE ", #" #LOG "\n\t"        \
+    "ands " RED_BLUE ", r3\n\t" "orrs " RED_BLUE ", " ALL "\n\t"
 
-/* Writes n means, n even and not 0; offsets in bytes. 49 instructions a pixel, where compilers take 65. */
-static inline void line_means_armv6m(uint32_t *out, const uint32_t *in, const int32_t offset[8], int32_t n)
-{
-    register const uint32_t *r0 __asm__("r0") = in;
-    register const uint32_t *r1 __asm__("r1") = in + n;
-    register const int32_t *r2 __asm__("r2") = offset;
-    register uint32_t *r11 __asm__("r11") = out;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "mov r8, r0\n\t"
-        "mov r12, r1\n\t"
-        "movs r3, #255\n\t"
-        "lsls r4, r3, #16\n\t"
-        "orrs r3, r4\n\t"
-        "movs r4, #4\n\t"
-        "lsls r5, r4, #8\n\t"
-        "mov r9, r5\n\t"                    /* half of eight: of green, 256 times; of red and blue */
-        "lsls r5, r4, #16\n\t"
-        "orrs r5, r4\n\t"
-        "mov r10, r5\n"
-        "1:\n\t"
-        "movs r4, #0\n\t"
-        "movs r5, #0\n\t"
-        "movs r6, #0\n\t"
-        "movs r7, #0\n\t"
-        LINE_TAP_ARMV6M(0) LINE_TAP_ARMV6M(4) LINE_TAP_ARMV6M(8) LINE_TAP_ARMV6M(12)
-        LINE_TAP_ARMV6M(16) LINE_TAP_ARMV6M(20) LINE_TAP_ARMV6M(24) LINE_TAP_ARMV6M(28)
-        LINE_MEAN_ARMV6M("r4", "r5")
-        LINE_MEAN_ARMV6M("r6", "r7")
-        "mov r0, r11\n\t"
-        "stm r0!, {r5, r7}\n\t"
-        "mov r11, r0\n\t"
-        "mov r0, r8\n\t"
-        "adds r0, #8\n\t"
-        "mov r8, r0\n\t"
-        "cmp r0, r12\n\t"
-        "bne 1b"
-        : "+r"(r0), "+r"(r1), "+r"(r11)
-        : "r"(r2)
-        : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r12", "cc", "memory");
-}
+/* Writes n means of 2^LOG taps, n even and not 0; offsets in bytes. 49 instructions a pixel of eight, where compilers take 65. */
+#define LINE_MEANS_ARMV6M(NAME, LOG, HIGH, HALF, TAPS)                                                          \
+    static inline void NAME(uint32_t *out, const uint32_t *in, const int32_t *offset, int32_t n)                \
+    {                                                                                                           \
+        register const uint32_t *r0 __asm__("r0") = in;                                                         \
+        register const uint32_t *r1 __asm__("r1") = in + n;                                                     \
+        register const int32_t *r2 __asm__("r2") = offset;                                                      \
+        register uint32_t *r11 __asm__("r11") = out;                                                            \
+        __asm__ volatile(                                                                                       \
+            ".syntax unified\n\t"                                                                               \
+            "mov r8, r0\n\t" "mov r12, r1\n\t"                                                                  \
+            "movs r3, #255\n\t" "lsls r4, r3, #16\n\t" "orrs r3, r4\n\t"                                        \
+            "movs r4, #" #HALF "\n\t" "lsls r5, r4, #8\n\t" "mov r9, r5\n\t"        /* of green, 256 times */   \
+            "lsls r5, r4, #16\n\t" "orrs r5, r4\n\t" "mov r10, r5\n"                /* of red and blue */       \
+            "1:\n\t"                                                                                            \
+            "movs r4, #0\n\t" "movs r5, #0\n\t" "movs r6, #0\n\t" "movs r7, #0\n\t"                             \
+            TAPS LINE_MEAN_ARMV6M("r4", "r5", LOG, HIGH) LINE_MEAN_ARMV6M("r6", "r7", LOG, HIGH)                \
+            "mov r0, r11\n\t" "stm r0!, {r5, r7}\n\t" "mov r11, r0\n\t"                                         \
+            "mov r0, r8\n\t" "adds r0, #8\n\t" "mov r8, r0\n\t"                                                 \
+            "cmp r0, r12\n\t" "bne 1b"                                                                          \
+            : "+r"(r0), "+r"(r1), "+r"(r11)                                                                     \
+            : "r"(r2)                                                                                           \
+            : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r12", "cc", "memory");                          \
+    }
+#define LINE_FOUR_ARMV6M LINE_TAP_ARMV6M(0) LINE_TAP_ARMV6M(4) LINE_TAP_ARMV6M(8) LINE_TAP_ARMV6M(12)
+LINE_MEANS_ARMV6M(line_means4_armv6m, 2, 10, 2, LINE_FOUR_ARMV6M)
+LINE_MEANS_ARMV6M(line_means8_armv6m, 3, 11, 4,
+                  LINE_FOUR_ARMV6M LINE_TAP_ARMV6M(16) LINE_TAP_ARMV6M(20) LINE_TAP_ARMV6M(24) LINE_TAP_ARMV6M(28))
 
 /* A tap of one pixel. */
 #define LINE_SINGLE_ARMV6M(at)              \
-    "ldr r0, [r2, #" #at "]\n\t"            \
-    "ldr r0, [r1, r0]\n\t"                 \
-    "adds r4, r4, r0\n\t"                  \
-    "ands r0, r3\n\t"                      \
-    "adds r5, r5, r0\n\t"
-/* Makes r4 what lies between A and B, by r0 and the mask in r1. */
-#define LINE_BETWEEN_ARMV6M(A, B)           \
-    "movs r4, " A "\n\t"                   \
-    "movs r0, " A "\n\t"                   \
-    "eors r4, " B "\n\t"                   \
-    "orrs r0, " B "\n\t"                   \
-    "lsrs r4, r4, #1\n\t"                  \
-    "ands r4, r1\n\t"                      \
-    "subs r4, r0, r4\n\t"
+    "ldr r0, [r2, #" #at "]\n\t" "ldr r0, [r1, r0]\n\t" "adds r4, r4, r0\n\t" "ands r0, r3\n\t" "adds r5, r5, r0\n\t"
+/* Makes OUT what lies between A and B, of which r0 has A | B and DIFFERS A ^ B; the mask is in r1. */
+#define LINE_BETWEEN_ARMV6M(OUT, DIFFERS) \
+    "lsrs " DIFFERS ", " DIFFERS ", #1\n\t" "ands " DIFFERS ", r1\n\t" "subs " OUT ", r0, " DIFFERS "\n\t"
 
 /* Writes n pixels, a multiple of four and not 0, of which every fourth is a mean: `mean` is the first, and the next one is that of the
  * taps of `in`. 21 instructions a pixel. */
@@ -107,52 +74,26 @@ static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, c
     register uint32_t *r12 __asm__("r12") = out + n;
     __asm__ volatile(
         ".syntax unified\n\t"
-        "movs r3, #127\n\t"
-        "lsls r4, r3, #16\n\t"
-        "orrs r3, r4\n\t"
-        "lsls r4, r3, #8\n\t"
-        "orrs r4, r3\n\t"
-        "mov r8, r4\n\t"                   /* 0x7f7f7f7f */
-        "lsls r3, r3, #1\n\t"
-        "movs r4, #1\n\t"
-        "lsls r5, r4, #16\n\t"
-        "orrs r5, r4\n\t"
-        "orrs r3, r5\n\t"                  /* 0x00ff00ff */
-        "lsls r5, r5, #2\n\t"
-        "mov r10, r5\n\t"
-        "lsls r4, r4, #10\n\t"
-        "mov r9, r4\n"
+        "movs r3, #127\n\t" "lsls r4, r3, #16\n\t" "orrs r3, r4\n\t"
+        "lsls r4, r3, #8\n\t" "orrs r4, r3\n\t" "mov r8, r4\n\t"                            /* 0x7f7f7f7f */
+        "lsls r3, r3, #1\n\t" "movs r4, #1\n\t" "lsls r5, r4, #16\n\t" "orrs r5, r4\n\t"
+        "orrs r3, r5\n\t"                                                                   /* 0x00ff00ff */
+        "lsls r5, r5, #2\n\t" "mov r10, r5\n\t" "lsls r4, r4, #10\n\t" "mov r9, r4\n"
         "1:\n\t"
-        "movs r4, #0\n\t"
-        "movs r5, #0\n\t"
+        "movs r4, #0\n\t" "movs r5, #0\n\t"
         LINE_SINGLE_ARMV6M(0) LINE_SINGLE_ARMV6M(4) LINE_SINGLE_ARMV6M(8) LINE_SINGLE_ARMV6M(12)
         LINE_SINGLE_ARMV6M(16) LINE_SINGLE_ARMV6M(20) LINE_SINGLE_ARMV6M(24) LINE_SINGLE_ARMV6M(28)
-        LINE_MEAN_ARMV6M("r4", "r5")
-        "mov r11, r1\n\t"
-        "mov r1, r8\n\t"
-        LINE_BETWEEN_ARMV6M("r6", "r5")
-        "str r6, [r7]\n\t"
-        "str r4, [r7, #8]\n\t"
-        "movs r0, r6\n\t"
-        "eors r6, r4\n\t"
-        "orrs r0, r4\n\t"
-        "lsrs r6, r6, #1\n\t"
-        "ands r6, r1\n\t"
-        "subs r0, r0, r6\n\t"
+        LINE_MEAN_ARMV6M("r4", "r5", 3, 11)
+        "mov r11, r1\n\t" "mov r1, r8\n\t"
+        "movs r4, r6\n\t" "movs r0, r6\n\t" "eors r4, r5\n\t" "orrs r0, r5\n\t" LINE_BETWEEN_ARMV6M("r4", "r4")
+        "str r6, [r7]\n\t" "str r4, [r7, #8]\n\t"
+        "movs r0, r6\n\t" "eors r6, r4\n\t" "orrs r0, r4\n\t" LINE_BETWEEN_ARMV6M("r0", "r6")
         "str r0, [r7, #4]\n\t"
-        "movs r0, r5\n\t"
-        "movs r6, r5\n\t"                  /* the next one's first */
-        "orrs r0, r4\n\t"
-        "eors r4, r5\n\t"
-        "lsrs r4, r4, #1\n\t"
-        "ands r4, r1\n\t"
-        "subs r0, r0, r4\n\t"
+        "movs r0, r5\n\t" "movs r6, r5\n\t"         /* the next one's first */
+        "orrs r0, r4\n\t" "eors r4, r5\n\t" LINE_BETWEEN_ARMV6M("r0", "r4")
         "str r0, [r7, #12]\n\t"
-        "adds r7, #16\n\t"
-        "mov r1, r11\n\t"
-        "adds r1, #16\n\t"
-        "cmp r7, r12\n\t"
-        "bne 1b"
+        "adds r7, #16\n\t" "mov r1, r11\n\t" "adds r1, #16\n\t"
+        "cmp r7, r12\n\t" "bne 1b"
         : "+r"(r1), "+r"(r6), "+r"(r7)
         : "r"(r2), "r"(r12)
         : "r0", "r3", "r4", "r5", "r8", "r9", "r10", "r11", "cc", "memory");
@@ -230,30 +171,6 @@ void smear_line_means_reference(const struct line_block *b, bool linear)
             else
                 out[x] = mean;
         }
-    }
-}
-
-/* Codes of a number of taps that is known. */
-SMEAR_INLINE void code_means(const struct line_block *b, int32_t log)
-{
-    for (int32_t y = 0; y < b->rows; y++) {
-        const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
-        uint32_t *out = b->out + y * b->out_stride;
-#if SMEAR_VECTORS
-        const uint32_t half = (1u << log) >> 1;
-        for (; end - in >= 4; in += 4, out += 4) {
-            smear_v4u all = { 0, 0, 0, 0 }, red_blue = { 0, 0, 0, 0 };
-            for (int k = 0; k < 1 << log; k++) {
-                const smear_v4u c = v4u_load(in + b->offset[k]);
-                all += c;
-                red_blue += c & 0xff00ffu;
-            }
-            const smear_v4u green = ((all - red_blue) >> 8) + half;
-            v4u_store(out, ((red_blue + half * 0x10001u) >> log & 0xff00ffu) | (green >> log & 0xffu) << 8);
-        }
-#endif
-        for (; in != end; in++, out++)
-            *out = code_mean(in, b->offset, log);
     }
 }
 
@@ -354,20 +271,22 @@ static void sparse_light_means8(const struct line_block *b) { smear_line_means_r
 #endif
 
 #if PACKED_ASM_ARMV6M
-/* Eight taps, two pixels at once. */
-static void code_means8(const struct line_block *b)
+/* Four or eight taps, two pixels at once. */
+SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
 {
     const int32_t even = b->columns & ~1;
-    int32_t bytes[8];
-    for (int k = 0; k < 8; k++)
+    int32_t bytes[LINE_TAPS_MAX];
+    for (int k = 0; k < 1 << log; k++)
         bytes[k] = b->offset[k] * 4;
     for (int32_t y = 0; y < b->rows; y++) {
         const uint32_t *in = b->in + y * b->in_stride;
         uint32_t *out = b->out + y * b->out_stride;
-        if (even != 0)
-            line_means_armv6m(out, in, bytes, even);
+        if (even != 0 && log == 2)
+            line_means4_armv6m(out, in, bytes, even);
+        else if (even != 0)
+            line_means8_armv6m(out, in, bytes, even);
         if (even != b->columns)
-            out[even] = code_mean(in + even, b->offset, 3);
+            out[even] = code_mean(in + even, b->offset, log);
     }
 }
 
@@ -383,8 +302,48 @@ static void sparse_code_means8(const struct line_block *b)
     }
 }
 #else
-static void code_means8(const struct line_block *b) { code_means(b, 3); }
+/* Codes of a number of taps that is known. */
+SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
+{
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
+        uint32_t *out = b->out + y * b->out_stride;
+#if SMEAR_VECTORS
+        const uint32_t half = (1u << log) >> 1;
+        for (; end - in >= 4; in += 4, out += 4) {
+            smear_v4u all = { 0, 0, 0, 0 }, red_blue = { 0, 0, 0, 0 };
+            for (int k = 0; k < 1 << log; k++) {
+                const smear_v4u c = v4u_load(in + b->offset[k]);
+                all += c;
+                red_blue += c & 0xff00ffu;
+            }
+            const smear_v4u green = ((all - red_blue) >> 8) + half;
+            v4u_store(out, ((red_blue + half * 0x10001u) >> log & 0xff00ffu) | (green >> log & 0xffu) << 8);
+        }
 #endif
+        for (; in != end; in++, out++)
+            *out = code_mean(in, b->offset, log);
+    }
+}
+#endif
+
+static void code_means4(const struct line_block *b) { code_means_of(b, 2); }
+static void code_means8(const struct line_block *b) { code_means_of(b, 3); }
+
+/* Two taps. */
+static void code_means2(const struct line_block *b)
+{
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride, *one = in + b->offset[0], *other = in + b->offset[1];
+        uint32_t *out = b->out + y * b->out_stride, *const end = out + b->columns;
+#if SMEAR_VECTORS
+        for (; end - out >= 4; out += 4, one += 4, other += 4)
+            v4u_store(out, v4u_mean8(v4u_load(one), v4u_load(other)) & 0xffffffu);
+#endif
+        while (out != end)
+            *out++ = line_between(*one++, *other++) & 0xffffffu;
+    }
+}
 
 /* Of one tap. */
 static void copy_rows(const struct line_block *b)
@@ -410,20 +369,20 @@ void smear_line_means(const struct line_block *b, bool linear)
     else if (b->log == 3)
         code_means8(b);
     else if (b->log == 2)
-        code_means(b, 2);
+        code_means4(b);
     else
-        code_means(b, b->log);
+        code_means2(b);
 }
 
 /* ------------------------------------------------------------------ means of pictures */
 
 enum { THIRD = 3 };             /* the mean of so many is a product by 85 and a quarter, in 16 bits: 256 / 3 = 85.33 */
 
-/* Returns the mean of k codes in each half of a word, and one more; `part` of each, q8. */
-static inline uint32_t mixed_halves(uint32_t mean, uint32_t more, uint32_t k, uint32_t part)
+/* Returns the mean of k codes in the bytes of a mask, every other one of a word, and one more; `part` of each, q8. */
+SMEAR_INLINE uint32_t mixed_bytes(uint32_t mean, uint32_t more, uint32_t k, uint32_t part, uint32_t mask)
 {
-    const uint32_t sum = k * (mean & 0xff00ffu) + (more & 0xff00ffu);
-    return (sum * part + (k + 1 == THIRD ? sum >> 2 & 0xff00ffu : 0) + 0x800080u) >> 8 & 0xff00ffu;
+    const uint32_t sum = k * (mean & mask) + (more & mask);
+    return (sum * part + (k + 1 == THIRD ? sum >> 2 & mask : 0) + (mask & 0x80808080u)) >> 8 & mask;
 }
 
 /* `part`: of each, q16. */
@@ -444,19 +403,24 @@ static inline bool is_near(uint32_t a, uint32_t b)
     return ((((a >> 1 & 0x7f7f7fu) | 0x808080u) - (b >> 1 & 0x7f7f7fu) + 0x080808u) & 0xf0f0f0u) == 0x808080u;
 }
 
-void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+SMEAR_INLINE void mix(uint32_t *mean, const uint32_t *more, int32_t n, uint32_t k, bool linear)
 {
-    const uint32_t weight = (uint32_t)k, part = 65536 / (weight + 1);
+    const uint32_t part = 65536 / (k + 1);
     for (const uint32_t *const end = mean + n; mean != end; mean++, more++) {
         const uint32_t a = *mean, b = *more;
         if (a == b)
             continue;
         if (SMEAR_WITH_LINEAR && linear && !is_near(a, b))
-            *mean = mixed_light(a, b, weight, part);
+            *mean = mixed_light(a, b, k, part);
         else
             *mean = k == 1 ? line_between(a, b) & 0xffffffu
-                           : mixed_halves(a, b, weight, part >> 8) | (mixed_halves(a >> 8, b >> 8, weight, part >> 8) & 0xffu) << 8;
+                           : mixed_bytes(a, b, k, part >> 8, 0xff00ffu) | mixed_bytes(a, b, k, part >> 8, 0xff00u);
     }
+}
+
+void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+{
+    mix(mean, more, n, (uint32_t)k, linear);
 }
 
 #if SMEAR_VECTORS
@@ -488,6 +452,13 @@ void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, 
 #else
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
-    smear_line_mix_reference(mean, more, n, k, linear);
+    if (SMEAR_WITH_LINEAR && linear)
+        smear_line_mix_reference(mean, more, n, k, true);
+    else if (k == 1)
+        mix(mean, more, n, 1, false);
+    else if (k == 2)
+        mix(mean, more, n, 2, false);
+    else
+        mix(mean, more, n, 3, false);
 }
 #endif
