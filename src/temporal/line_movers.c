@@ -119,18 +119,29 @@ void smear_movers_copy(const struct smear_lines *lines, const struct smear_windo
     __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
 }
 
-/* Returns a block whose depth is known, as every other pixel tells it along x and y. */
-static struct smear_line_block *look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t y0, int32_t y1)
+/* Returns the depth of a block, as every other pixel tells it along x and y. */
+static SMEAR_NOINLINE uint16_t look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t y0, int32_t y1)
 {
-    struct smear_line_block *b = block_of(lines, w, x0, y0);
-    if (b->depth != 0)
-        return b;
-    b->depth = 1;
-    for (int32_t y = y0; y < min_i32(y0 + LINE_BLOCK, y1); y += 2) {
-        const uint16_t *const still = window_depth(w, 0, y), *const now = line_depth(lines, w, 0, y);
-        for (int32_t x = x0; x < min_i32(x0 + LINE_BLOCK, w->width); x += 2)
-            b->depth = now[x] != still[x] && now[x] > b->depth ? now[x] : b->depth;
+    const uint16_t *now = line_depth(lines, w, x0, y0);
+    const int32_t columns = min_i32(w->width - x0, LINE_BLOCK);
+    int32_t at = window_ring_row(w, y0);
+    uint32_t nearest = 1;
+    for (int32_t y = y0; y < min_i32(y0 + LINE_BLOCK, y1); y += 2, at += 2, now += 2 * w->width) {
+        at -= at >= w->ring ? w->ring : 0;
+        const uint16_t *const still = w->depth + at * w->width + x0;
+        for (int32_t x = 0; x < columns; x += 2)
+            if (now[x] != still[x])
+                nearest = max_u32(nearest, now[x]);
     }
+    return (uint16_t)nearest;
+}
+
+/* Makes a block's depth known. */
+static inline struct smear_line_block *looked_at(struct smear_line_block *b, const struct smear_lines *lines, const struct smear_window *w,
+                                                 int32_t x, int32_t y, int32_t y1)
+{
+    if (b->depth == 0)
+        b->depth = look(lines, w, x, y, y1);
     return b;
 }
 
@@ -158,10 +169,11 @@ static void mark(const struct smear_lines *lines, const struct smear_window *w, 
 {
     const int32_t steps = (max_i32(abs_i32(d[0]), abs_i32(d[1])) + 2 * LINE_BLOCK * 256 - 1) >> (LINE_BLOCK_LOG2 + 9);
     for (int32_t i = -steps; i <= steps; i++) {
-        const int32_t left = x + (d[0] * i / max_i32(steps, 1) >> 9), up = y + (d[1] * i / max_i32(steps, 1) >> 9);
+        const int32_t left = x + ((steps > 1 ? d[0] * i / steps : d[0] * i) >> 9),
+                      up = y + ((steps > 1 ? d[1] * i / steps : d[1] * i) >> 9);
         for (int32_t by = max_i32(up, y0) & -LINE_BLOCK; by < min_i32(up + LINE_BLOCK, y1); by += LINE_BLOCK)
             for (int32_t bx = max_i32(left, 0) & -LINE_BLOCK; bx < min_i32(left + LINE_BLOCK, w->width); bx += LINE_BLOCK) {
-                struct smear_line_block *b = look(lines, w, bx, by, y1);
+                struct smear_line_block *b = looked_at(block_of(lines, w, bx, by), lines, w, bx, by, y1);
                 if ((bx == x && by == y) || b->depth <= 1)
                     b->x = (int16_t)(d[0] >> 8), b->y = (int16_t)(d[1] >> 8);
             }
@@ -179,18 +191,22 @@ void smear_movers_find(const struct smear_lines *lines, const struct smear_bins 
         if (lines->kind[s->draw] != LINE_MOVES)
             continue;
         find_extent(&e, g, s, t);
-        for (int32_t y = max_i32(e.low[1], y0) & -LINE_BLOCK; y < min_i32(e.high[1] + 1, y1); y += LINE_BLOCK)
-            for (int32_t x = max_i32(e.low[0], 0) & -LINE_BLOCK; x < min_i32(e.high[0] + 1, w->width); x += LINE_BLOCK) {
-                struct smear_line_block *b = look(lines, w, x, y, y1);
+        const int32_t left = max_i32(e.low[0], 0) & -LINE_BLOCK, right = min_i32(e.high[0] + 1, w->width);
+        for (int32_t y = max_i32(e.low[1], y0) & -LINE_BLOCK; y < min_i32(e.high[1] + 1, y1); y += LINE_BLOCK) {
+            struct smear_line_block *b = block_of(lines, w, left, y);
+            for (int32_t x = left; x < right; x += LINE_BLOCK, b++) {
                 int32_t d[2];
+                if (looked_at(b, lines, w, x, y, y1)->depth <= 1 || b->mover == s->draw + 1)
+                    continue;
                 const int32_t units = (int32_t)smear_depth_units(b->depth);
-                if (b->depth <= 1 || b->mover == s->draw + 1 || units < e.low[2] - ROUNDED || units > e.high[2] + ROUNDED)
+                if (units < e.low[2] - ROUNDED || units > e.high[2] + ROUNDED)
                     continue;
                 smear_lines_displacement(d, line_mover_pictures(lines), &lines->own[s->draw], w, min_i32(x + LINE_BLOCK / 2, w->width - 1),
                                          min_i32(y + LINE_BLOCK / 2, y1 - 1), b->depth);
                 mark(lines, w, d, x, y, y0, y1);
                 b->mover = (uint16_t)(s->draw + 1);
             }
+        }
     }
 }
 

@@ -212,15 +212,23 @@ void smear_lines_give_depth(const struct smear_lines *lines, const struct smear_
     __builtin_memcpy(window_depth(w, x0, y), line_depth(lines, w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
 }
 
+/* Returns a / n, n 1 .. LINE_PICTURES: quotients are calls where there is no instruction. */
+static inline int32_t part_of(int32_t a, int n)
+{
+    const int32_t m = abs_i32(a);
+    const int32_t part = n == 1 ? m : n == 2 ? m >> 1 : n == 4 ? m >> 2 : m < 65536 ? (int32_t)((uint32_t)m * 43691u >> 17) : m / n;
+    return a < 0 ? -part : part;
+}
+
 int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
                                  int32_t y, uint32_t depth)
 {
     enum { STEP = 256 };
     const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
-    const int32_t part = smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out) / (2 * pictures) >> 4;         /* q12 */
+    const int32_t part = part_of(smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out), pictures) / 2 >> 4;   /* q12 */
     int32_t times = 1;
     for (int i = 0; i < 2; i++)
-        out[i] = pictures == 1 ? out[i] : out[i] / pictures;
+        out[i] = part_of(out[i], pictures);
     for (int i = 0; i < 2; i++) {
         const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
         times = max_i32(times, (min_i32(length, most_x) >> 8) * (part * part >> 12) >> 12);
