@@ -264,7 +264,17 @@ static void sparse_code_means8(const struct line_block *b) { sparse_means8(b, fa
 static void sparse_light_means8(const struct line_block *b) { sparse_means8(b, true); }
 #else
 #if !PACKED_ASM_ARMV6M
-static void sparse_code_means8(const struct line_block *b) { smear_line_means_reference(b, false); }
+static void sparse_code_means8(const struct line_block *b)
+{
+    for (int32_t y = 0; y < b->rows; y++) {
+        const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
+        uint32_t *out = b->out + y * b->out_stride, next = code_mean(in, b->offset, LINE_TAPS_LOG_MAX);
+        for (; in != end; in += LINE_SPARSE, out += LINE_SPARSE) {
+            const uint32_t mean = next;
+            write_between(out, mean, next = code_mean(in + LINE_SPARSE, b->offset, LINE_TAPS_LOG_MAX));
+        }
+    }
+}
 #endif
 static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
 static void sparse_light_means8(const struct line_block *b) { smear_line_means_reference(b, true); }
