@@ -175,17 +175,31 @@ void smear_line_means_reference(const struct line_block *b, bool linear)
 }
 
 #if SMEAR_VECTORS
-/* Means of four pixels, so far apart. */
-SMEAR_INLINE smear_v4u sparse_means(const uint32_t *in, const int32_t *offset, int third, int last)
+/* Loads a tap of four pixels, so far apart. */
+SMEAR_INLINE smear_v4u tap4(const uint32_t *in, int second, int third, int last)
 {
-    smear_v4u all = { 0, 0, 0, 0 }, red_blue = { 0, 0, 0, 0 };
-    for (int k = 0; k < LINE_TAPS_MAX; k++) {
-        const uint32_t *tap = in + offset[k];
-        const smear_v4u c = { tap[0], tap[LINE_SPARSE], tap[third], tap[last] };
-        all += c;
-        red_blue += c & 0xff00ffu;
-    }
-    return ((red_blue + 0x40004u) >> 3 & 0xff00ffu) | ((((all - red_blue) >> 8) + 4) >> 3 & 0xffu) << 8;
+    return second == 1 ? v4u_load(in) : (smear_v4u){ in[0], in[second], in[third], in[last] };
+}
+
+/* Adds four taps: not in a loop, which compilers would keep. */
+SMEAR_INLINE void add_taps(smear_v4u *all, smear_v4u *red_blue, const uint32_t *in, const int32_t *offset, int second, int third, int last)
+{
+    const smear_v4u a = tap4(in + offset[0], second, third, last), b = tap4(in + offset[1], second, third, last);
+    const smear_v4u c = tap4(in + offset[2], second, third, last), d = tap4(in + offset[3], second, third, last);
+    *all += a + b + c + d;
+    *red_blue += (a & 0xff00ffu) + (b & 0xff00ffu) + (c & 0xff00ffu) + (d & 0xff00ffu);
+}
+
+/* Returns the means of 2^log taps, four or eight. */
+SMEAR_INLINE smear_v4u code_means(const uint32_t *in, const int32_t *offset, int32_t log, int second, int third, int last)
+{
+    const uint32_t half = (1u << log) >> 1;
+    smear_v4u all = { 0, 0, 0, 0 }, red_blue = all;
+    add_taps(&all, &red_blue, in, offset, second, third, last);
+    if (log == 3)
+        add_taps(&all, &red_blue, in, offset + 4, second, third, last);
+    const smear_v4u green = ((all - red_blue) >> 8) + half;
+    return ((red_blue + half * 0x10001u) >> log & 0xff00ffu) | (green >> log & 0xffu) << 8;
 }
 
 /* Writes four means and what lies between each and its next one. */
@@ -244,13 +258,13 @@ SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
         int32_t left = b->columns;
         for (; left >= FOUR; left -= FOUR, in += FOUR, out += FOUR) {
             const smear_v4u mean = linear ? light_means4(in, b->offset, LOG, LINE_SPARSE, TWO, 3 * LINE_SPARSE)
-                                          : sparse_means(in, b->offset, TWO, 3 * LINE_SPARSE);
+                                          : code_means(in, b->offset, LOG, LINE_SPARSE, TWO, 3 * LINE_SPARSE);
             const uint32_t end = linear ? light_mean(in + FOUR, b->offset, LOG) : code_mean(in + FOUR, b->offset, LOG);
             write_between4(out, mean, (smear_v4u){ mean[1], mean[2], mean[3], end });
         }
         if (left >= TWO) {
             const smear_v4u mean = linear ? light_means4(in, b->offset, LOG, LINE_SPARSE, TWO, TWO)
-                                          : sparse_means(in, b->offset, TWO, TWO);
+                                          : code_means(in, b->offset, LOG, LINE_SPARSE, TWO, TWO);
             write_between(out, mean[0], mean[1]);
             write_between(out + LINE_SPARSE, mean[1], mean[2]);
             left -= TWO, in += TWO, out += TWO;
@@ -319,17 +333,8 @@ SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
         const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
         uint32_t *out = b->out + y * b->out_stride;
 #if SMEAR_VECTORS
-        const uint32_t half = (1u << log) >> 1;
-        for (; end - in >= 4; in += 4, out += 4) {
-            smear_v4u all = { 0, 0, 0, 0 }, red_blue = { 0, 0, 0, 0 };
-            for (int k = 0; k < 1 << log; k++) {
-                const smear_v4u c = v4u_load(in + b->offset[k]);
-                all += c;
-                red_blue += c & 0xff00ffu;
-            }
-            const smear_v4u green = ((all - red_blue) >> 8) + half;
-            v4u_store(out, ((red_blue + half * 0x10001u) >> log & 0xff00ffu) | (green >> log & 0xffu) << 8);
-        }
+        for (; end - in >= 4; in += 4, out += 4)
+            v4u_store(out, code_means(in, b->offset, log, 1, 2, 3));
 #endif
         for (; in != end; in++, out++)
             *out = code_mean(in, b->offset, log);

@@ -323,13 +323,15 @@ static void blur_columns(const struct smear_lines *lines, const struct smear_win
 void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear_window *w, const int32_t d[2], int32_t x0, int32_t x1,
                              int32_t y0, int32_t y1, int32_t first, int32_t end)
 {
-    struct taps t;
+    struct taps t, within;
     place_taps(&t, d[0], d[1], lines->pictures);
     const int32_t top = clamp_i32(first - t.up, y0, y1), bottom = clamp_i32(end - t.down, top, y1);
     for (int32_t y = y0, next; y < y1; y = next) {
         next = y < top ? min_i32(y + LINE_BORDER, top) : y < bottom ? bottom : min_i32(y + LINE_BORDER, y1);
-        const struct taps within = taps_within(&t, -w->width, w->width, first - y, end - next);
-        blur_columns(lines, w, &within, x0, x1, y, next);
+        const bool inside = y >= top && y < bottom;
+        if (!inside)
+            within = taps_within(&t, -w->width, w->width, first - y, end - next);
+        blur_columns(lines, w, inside ? &t : &within, x0, x1, y, next);
     }
 }
 
