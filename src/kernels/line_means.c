@@ -428,7 +428,7 @@ SMEAR_INLINE void mix(uint32_t *mean, const uint32_t *more, int32_t n, uint32_t 
         if (SMEAR_WITH_LINEAR && linear && !is_near(a, b))
             *mean = mixed_light(a, b, k, part);
         else
-            *mean = k == 1 ? line_between(a, b) & 0xffffffu
+            *mean = k == 1 ? line_between(a, b)
                            : mixed_bytes(a, b, k, part >> 8, 0xff00ffu) | mixed_bytes(a, b, k, part >> 8, 0xff00u);
     }
 }
@@ -439,41 +439,41 @@ void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, i
 }
 
 #if SMEAR_VECTORS
-static inline smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, smear_v4u k, smear_v4u part, bool third)
+SMEAR_INLINE smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, uint32_t k)
 {
-    const smear_v4u sum = v4u_mul16(mean & 0xff00ffu, k) + (more & 0xff00ffu), quarter = sum >> 2 & 0xff00ffu;
-    return (v4u_mul16(sum, part) + (third ? quarter : quarter ^ quarter) + 0x800080u) >> 8 & 0xff00ffu;
+    const uint32_t part = 256u / (k + 1) * 0x10001u;
+    const smear_v4u parts = { part, part, part, part }, sum = (mean & 0xff00ffu) * k + (more & 0xff00ffu);
+    const smear_v4u most = v4u_mul16(sum, parts) + 0x800080u;
+    return (k + 1 == THIRD ? most + (sum >> 2 & 0xff00ffu) : most) >> 8 & 0xff00ffu;
+}
+#endif
+
+/* Does so for a number that is known; light in rounds of vectors. */
+SMEAR_INLINE void mix_known(uint32_t *mean, const uint32_t *more, int32_t n, uint32_t k, bool linear)
+{
+#if SMEAR_VECTORS
+    for (; n >= 4; n -= 4, mean += 4, more += 4) {
+        const smear_v4u a = v4u_load(mean), b = v4u_load(more);
+        if (!v4u_any(a ^ b))
+            continue;
+        const smear_v4u half = (a >> 1 & 0x7f7f7fu) | 0x808080u, other = b >> 1 & 0x7f7f7fu;
+        if (SMEAR_WITH_LINEAR && linear && v4u_any(((half - other + 0x080808u) & 0xf0f0f0u) ^ 0x808080u))
+            smear_line_mix_reference(mean, more, 4, (int32_t)k, true);
+        else
+            v4u_store(mean, k == 1 ? v4u_mean8(a, b) : mixed_halves4(a, b, k) | (mixed_halves4(a >> 8, b >> 8, k) & 0xffu) << 8);
+    }
+#endif
+    mix(mean, more, n, k, SMEAR_VECTORS && linear);
 }
 
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
 {
-    const uint32_t weight = 0x10001u * (uint32_t)k, part = 0x10001u * (256u / ((uint32_t)k + 1u));
-    const smear_v4u weights = { weight, weight, weight, weight }, parts = { part, part, part, part };
-    int32_t i = 0;
-    for (; i + 4 <= n; i += 4) {
-        const smear_v4u a = v4u_load(mean + i), b = v4u_load(more + i), differs = (smear_v4u)(a != b);
-        if (!v4u_any(differs))
-            continue;
-        const smear_v4u half = (a >> 1 & 0x7f7f7fu) | 0x808080u, other = b >> 1 & 0x7f7f7fu;
-        if (SMEAR_WITH_LINEAR && linear && v4u_any(((half - other + 0x080808u) & 0xf0f0f0u) ^ 0x808080u)) {
-            smear_line_mix_reference(mean + i, more + i, 4, k, true);
-            continue;
-        }
-        const smear_v4u green = mixed_halves4(a >> 8, b >> 8, weights, parts, k + 1 == THIRD) & 0xffu;
-        v4u_store(mean + i, (a & ~differs) | ((mixed_halves4(a, b, weights, parts, k + 1 == THIRD) | green << 8) & differs));
-    }
-    smear_line_mix_reference(mean + i, more + i, n - i, k, linear);
-}
-#else
-void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
-{
-    if (SMEAR_WITH_LINEAR && linear)
+    if (!SMEAR_VECTORS && SMEAR_WITH_LINEAR && linear)
         smear_line_mix_reference(mean, more, n, k, true);
     else if (k == 1)
-        mix(mean, more, n, 1, false);
+        mix_known(mean, more, n, 1, linear);
     else if (k == 2)
-        mix(mean, more, n, 2, false);
+        mix_known(mean, more, n, 2, linear);
     else
-        mix(mean, more, n, 3, false);
+        mix_known(mean, more, n, 3, linear);
 }
-#endif

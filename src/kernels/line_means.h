@@ -28,7 +28,8 @@ static inline uint32_t line_between(uint32_t a, uint32_t b) { return (a | b) - (
  * channel becomes 0. */
 void smear_line_means(const struct line_block *b, bool linear);
 
-/* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. */
+/* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. Their upper eight
+ * bits are 0. */
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
 
 /* What all variants give. */

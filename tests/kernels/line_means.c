@@ -122,6 +122,8 @@ static void prepare_mix(struct kernel_call *c)
     for (int32_t i = 0; i < c->n; i++) {
         const uint32_t near = out[i] ^ (kernel_random() & 0x0f0f0fu);
         in[i] = kernel_random() % 4u < alike ? out[i] : kernel_random() % 2u != 0 ? near : in[i];
+        in[i] &= 0xffffffu;
+        out[i] &= 0xffffffu;
     }
 }
 
