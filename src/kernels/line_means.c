@@ -59,17 +59,20 @@ LINE_MEANS_ARMV6M(line_means8_armv6m, 3, 11, 4,
 /* A tap of one pixel. */
 #define LINE_SINGLE_ARMV6M(at)              \
     "ldr r0, [r2, #" #at "]\n\t" "ldr r0, [r1, r0]\n\t" "adds r4, r4, r0\n\t" "ands r0, r3\n\t" "adds r5, r5, r0\n\t"
+#define LINE_SINGLE_MEAN_ARMV6M             \
+    "movs r4, #0\n\t" "movs r5, #0\n\t"                                                                      \
+    LINE_SINGLE_ARMV6M(0) LINE_SINGLE_ARMV6M(4) LINE_SINGLE_ARMV6M(8) LINE_SINGLE_ARMV6M(12)                \
+    LINE_SINGLE_ARMV6M(16) LINE_SINGLE_ARMV6M(20) LINE_SINGLE_ARMV6M(24) LINE_SINGLE_ARMV6M(28)             \
+    LINE_MEAN_ARMV6M("r4", "r5", 3, 11)
 /* Makes OUT what lies between A and B, of which r0 has A | B and DIFFERS A ^ B; the mask is in r1. */
 #define LINE_BETWEEN_ARMV6M(OUT, DIFFERS) \
     "lsrs " DIFFERS ", " DIFFERS ", #1\n\t" "ands " DIFFERS ", r1\n\t" "subs " OUT ", r0, " DIFFERS "\n\t"
 
-/* Writes n pixels, a multiple of four and not 0, of which every fourth is a mean: `mean` is the first, and the next one is that of the
- * taps of `in`. 21 instructions a pixel. */
-static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, const int32_t offset[8], int32_t n, uint32_t mean)
+/* Writes n pixels, a multiple of four and not 0, of which every fourth is a mean. 21 instructions a pixel. */
+static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, const int32_t offset[8], int32_t n)
 {
     register const uint32_t *r1 __asm__("r1") = in;
     register const int32_t *r2 __asm__("r2") = offset;
-    register uint32_t r6 __asm__("r6") = mean;
     register uint32_t *r7 __asm__("r7") = out;
     register uint32_t *r12 __asm__("r12") = out + n;
     __asm__ volatile(
@@ -78,12 +81,11 @@ static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, c
         "lsls r4, r3, #8\n\t" "orrs r4, r3\n\t" "mov r8, r4\n\t"                            /* 0x7f7f7f7f */
         "lsls r3, r3, #1\n\t" "movs r4, #1\n\t" "lsls r5, r4, #16\n\t" "orrs r5, r4\n\t"
         "orrs r3, r5\n\t"                                                                   /* 0x00ff00ff */
-        "lsls r5, r5, #2\n\t" "mov r10, r5\n\t" "lsls r4, r4, #10\n\t" "mov r9, r4\n"
+        "lsls r5, r5, #2\n\t" "mov r10, r5\n\t" "lsls r4, r4, #10\n\t" "mov r9, r4\n\t"
+        LINE_SINGLE_MEAN_ARMV6M
+        "movs r6, r5\n\t" "adds r1, #16\n"
         "1:\n\t"
-        "movs r4, #0\n\t" "movs r5, #0\n\t"
-        LINE_SINGLE_ARMV6M(0) LINE_SINGLE_ARMV6M(4) LINE_SINGLE_ARMV6M(8) LINE_SINGLE_ARMV6M(12)
-        LINE_SINGLE_ARMV6M(16) LINE_SINGLE_ARMV6M(20) LINE_SINGLE_ARMV6M(24) LINE_SINGLE_ARMV6M(28)
-        LINE_MEAN_ARMV6M("r4", "r5", 3, 11)
+        LINE_SINGLE_MEAN_ARMV6M
         "mov r11, r1\n\t" "mov r1, r8\n\t"
         "movs r4, r6\n\t" "movs r0, r6\n\t" "eors r4, r5\n\t" "orrs r0, r5\n\t" LINE_BETWEEN_ARMV6M("r4", "r4")
         "str r6, [r7]\n\t" "str r4, [r7, #8]\n\t"
@@ -94,12 +96,17 @@ static inline void line_means_sparse_armv6m(uint32_t *out, const uint32_t *in, c
         "str r0, [r7, #12]\n\t"
         "adds r7, #16\n\t" "mov r1, r11\n\t" "adds r1, #16\n\t"
         "cmp r7, r12\n\t" "bne 1b"
-        : "+r"(r1), "+r"(r6), "+r"(r7)
+        : "+r"(r1), "+r"(r7)
         : "r"(r2), "r"(r12)
-        : "r0", "r3", "r4", "r5", "r8", "r9", "r10", "r11", "cc", "memory");
+        : "r0", "r3", "r4", "r5", "r6", "r8", "r9", "r10", "r11", "cc", "memory");
 }
 /* clang-format on */
 
+static inline void find_bytes(int32_t *bytes, const struct line_block *b, int32_t log)
+{
+    for (int k = 0; k < 1 << log; k++)
+        bytes[k] = b->offset[k] * 4;
+}
 #endif
 
 /* Rounds sums of 2^log codes. */
@@ -277,9 +284,14 @@ SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
 static void sparse_code_means8(const struct line_block *b) { sparse_means8(b, false); }
 static void sparse_light_means8(const struct line_block *b) { sparse_means8(b, true); }
 #else
-#if !PACKED_ASM_ARMV6M
 static void sparse_code_means8(const struct line_block *b)
 {
+#if PACKED_ASM_ARMV6M
+    int32_t bytes[LINE_TAPS_MAX];
+    find_bytes(bytes, b, LINE_TAPS_LOG_MAX);
+    for (int32_t y = 0; y < b->rows; y++)
+        line_means_sparse_armv6m(b->out + y * b->out_stride, b->in + y * b->in_stride, bytes, b->columns);
+#else
     for (int32_t y = 0; y < b->rows; y++) {
         const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
         uint32_t *out = b->out + y * b->out_stride, next = code_mean(in, b->offset, LINE_TAPS_LOG_MAX);
@@ -288,59 +300,35 @@ static void sparse_code_means8(const struct line_block *b)
             write_between(out, mean, next = code_mean(in + LINE_SPARSE, b->offset, LINE_TAPS_LOG_MAX));
         }
     }
-}
 #endif
+}
 static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
 static void sparse_light_means8(const struct line_block *b) { smear_line_means_reference(b, true); }
 #endif
 
-#if PACKED_ASM_ARMV6M
-/* Four or eight taps, two pixels at once. */
-SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
-{
-    const int32_t even = b->columns & ~1;
-    int32_t bytes[LINE_TAPS_MAX];
-    for (int k = 0; k < 1 << log; k++)
-        bytes[k] = b->offset[k] * 4;
-    for (int32_t y = 0; y < b->rows; y++) {
-        const uint32_t *in = b->in + y * b->in_stride;
-        uint32_t *out = b->out + y * b->out_stride;
-        if (even != 0 && log == 2)
-            line_means4_armv6m(out, in, bytes, even);
-        else if (even != 0)
-            line_means8_armv6m(out, in, bytes, even);
-        if (even != b->columns)
-            out[even] = code_mean(in + even, b->offset, log);
-    }
-}
-
-static void sparse_code_means8(const struct line_block *b)
-{
-    int32_t bytes[8];
-    for (int k = 0; k < 8; k++)
-        bytes[k] = b->offset[k] * 4;
-    for (int32_t y = 0; y < b->rows; y++) {
-        const uint32_t *in = b->in + y * b->in_stride;
-        line_means_sparse_armv6m(b->out + y * b->out_stride, in + LINE_SPARSE, bytes, b->columns,
-                                 code_mean(in, b->offset, 3));
-    }
-}
-#else
 /* Codes of a number of taps that is known. */
 SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
 {
-    for (int32_t y = 0; y < b->rows; y++) {
-        const uint32_t *in = b->in + y * b->in_stride, *const end = in + b->columns;
-        uint32_t *out = b->out + y * b->out_stride;
-#if SMEAR_VECTORS
-        for (; end - in >= 4; in += 4, out += 4)
-            v4u_store(out, code_means(in, b->offset, log, 1, 2, 3));
+    const uint32_t *in = b->in;
+    uint32_t *out = b->out;
+#if PACKED_ASM_ARMV6M
+    int32_t bytes[LINE_TAPS_MAX];
+    find_bytes(bytes, b, log);
 #endif
-        for (; in != end; in++, out++)
-            *out = code_mean(in, b->offset, log);
+    for (int32_t y = 0; y < b->rows; y++, in += b->in_stride, out += b->out_stride) {
+        int32_t x = 0;
+#if SMEAR_VECTORS
+        for (; x + 4 <= b->columns; x += 4)
+            v4u_store(out + x, code_means(in + x, b->offset, log, 1, 2, 3));
+#elif PACKED_ASM_ARMV6M
+        x = b->columns & ~1;
+        if (x != 0)
+            (log == 2 ? line_means4_armv6m : line_means8_armv6m)(out, in, bytes, x);
+#endif
+        for (; x < b->columns; x++)
+            out[x] = code_mean(in + x, b->offset, log);
     }
 }
-#endif
 
 static void code_means4(const struct line_block *b) { code_means_of(b, 2); }
 static void code_means8(const struct line_block *b) { code_means_of(b, 3); }
