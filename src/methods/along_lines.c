@@ -76,7 +76,7 @@ static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct smear
         return;
     smear_movers_begin(lines, w);
     if (pictures > 1)
-        smear_movers_copy(lines, w);
+        __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
     draw_mover_picture(self, f);
     if (pictures > 1) {
         for (int32_t y = top; y < bottom; y++)
@@ -89,7 +89,6 @@ static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct smear
         f->background.color = lines->row;
         smear_line_mix(lines->row, lines->over, w->width * (bottom - top), 1, lines->transfer);
     }
-    smear_movers_copy(lines, w);
     smear_movers_blur(lines, w, top, bottom);
 }
 

@@ -114,11 +114,6 @@ void smear_movers_next(const struct smear_lines *lines, const struct smear_windo
         lines->block[i].depth = lines->block[i].mover = 0;
 }
 
-void smear_movers_copy(const struct smear_lines *lines, const struct smear_window *w)
-{
-    __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
-}
-
 /* Returns the depth of a block, as every other pixel tells it along x and y. */
 static SMEAR_NOINLINE uint16_t look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t y0, int32_t y1)
 {
@@ -210,9 +205,28 @@ void smear_movers_find(const struct smear_lines *lines, const struct smear_bins 
     }
 }
 
+/* Copies what lines of blocks with movers may meet. */
+static void copy_met(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
+{
+    int32_t left = w->width, right = 0;
+    for (int32_t y = y0; y < y1; y += LINE_BLOCK)
+        for (int32_t x = 0; x < w->width; x += LINE_BLOCK) {
+            const struct smear_line_block *const b = block_of(lines, w, x, y);
+            if ((b->x | b->y) == 0)
+                continue;
+            left = min_i32(left, x - abs_i32(b->x));
+            right = max_i32(right, x + LINE_BLOCK + abs_i32(b->x));
+        }
+    left = max_i32(left, 0);
+    right = min_i32(right, w->width);
+    for (int32_t at = (y0 & (w->tile - 1)) * w->width + left, y = y0; y < y1 && left < right; y++, at += w->width)
+        __builtin_memcpy(lines->over + at, lines->row + at, (size_t)(right - left) * sizeof *lines->over);
+}
+
 void smear_movers_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
 {
     struct smear_window over = *w;
+    copy_met(lines, w, y0, y1);
     over.color = lines->over;
     over.ring = w->tile;
     for (int32_t y = y0; y < y1; y += LINE_BLOCK)

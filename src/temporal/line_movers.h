@@ -17,15 +17,12 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
 void smear_movers_begin(const struct smear_lines *lines, const struct smear_window *w);
 void smear_movers_next(const struct smear_lines *lines, const struct smear_window *w);
 
-/* Copies lines->row to lines->over. */
-void smear_movers_copy(const struct smear_lines *lines, const struct smear_window *w);
-
 /* Finds the blocks of pixel rows [y0, y1), a tile row, in which movers of a list go: they are what lines->depth has before what stands
  * still. */
 void smear_movers_find(const struct smear_lines *lines, const struct smear_bins *g, const struct smear_window *w, uint32_t head, int32_t y0,
                        int32_t y1);
 
-/* Blurs them, and those beside them as far as movers go, from lines->over into lines->row. */
+/* Blurs them, and those beside them as far as movers go, in lines->row; lines->over has what it was. */
 void smear_movers_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1);
 
 #endif
