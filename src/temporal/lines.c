@@ -243,14 +243,14 @@ int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smea
     return times;
 }
 
-/* Places two taps per pixel of the way, evenly. */
+/* Places taps evenly on the way: no more than three quarters of a pixel apart, where there may be so many. */
 static void place_taps(struct taps *t, int32_t x, int32_t y, int pictures)
 {
     enum { LONG = 8 * 256,              /* so that four pixels beside each other on it are nearly alike; half of it for one picture */
            LEVEL_LOG2 = 1 };            /* and two lie between them across */
     const int32_t length = max_i32(abs_i32(x), abs_i32(y));
     int32_t log = 0;
-    while (log < LINE_TAPS_LOG_MAX && length << 1 > 256 << log)
+    while (log < LINE_TAPS_LOG_MAX && length * 4 > 3 * 256 << log)
         log++;
     const int32_t n = 1 << log, down = log + 1 + 8, half = n << 8;
     for (int32_t k = 0; k < n; k++) {
