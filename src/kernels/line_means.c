@@ -281,10 +281,10 @@ SMEAR_INLINE void sparse_means8(const struct line_block *b, bool linear)
     }
 }
 
-static void sparse_code_means8(const struct line_block *b) { sparse_means8(b, false); }
-static void sparse_light_means8(const struct line_block *b) { sparse_means8(b, true); }
+static void sparse_code_means(const struct line_block *b) { sparse_means8(b, false); }
+static void sparse_light_means(const struct line_block *b) { sparse_means8(b, true); }
 #else
-static void sparse_code_means8(const struct line_block *b)
+static void sparse_code_means(const struct line_block *b)
 {
 #if PACKED_ASM_ARMV6M
     int32_t bytes[LINE_TAPS_MAX];
@@ -303,7 +303,7 @@ static void sparse_code_means8(const struct line_block *b)
 #endif
 }
 static void light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
-static void sparse_light_means8(const struct line_block *b) { smear_line_means_reference(b, true); }
+static void sparse_light_means(const struct line_block *b) { smear_line_means_reference(b, true); }
 #endif
 
 /* Codes of a number of taps that is known. */
@@ -330,9 +330,6 @@ SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
     }
 }
 
-static void code_means4(const struct line_block *b) { code_means_of(b, 2); }
-static void code_means8(const struct line_block *b) { code_means_of(b, 3); }
-
 /* Two taps. */
 static void code_means2(const struct line_block *b)
 {
@@ -341,10 +338,10 @@ static void code_means2(const struct line_block *b)
         uint32_t *out = b->out + y * b->out_stride, *const end = out + b->columns;
 #if SMEAR_VECTORS
         for (; end - out >= 4; out += 4, one += 4, other += 4)
-            v4u_store(out, v4u_mean8(v4u_load(one), v4u_load(other)) & 0xffffffu);
+            v4u_store(out, v4u_mean8(v4u_load(one), v4u_load(other)));
 #endif
         while (out != end)
-            *out++ = line_between(*one++, *other++) & 0xffffffu;
+            *out++ = line_between(*one++, *other++);
     }
 }
 
@@ -357,22 +354,16 @@ static void copy_rows(const struct line_block *b)
 
 void smear_line_means(const struct line_block *b, bool linear)
 {
-    if (b->log == 0 && !b->sparse)
+    if (b->log == 0)
         copy_rows(b);
-    else if (SMEAR_WITH_LINEAR && linear && b->sparse && b->log == 3)
-        sparse_light_means8(b);
-    else if (SMEAR_WITH_LINEAR && linear && b->sparse)
-        smear_line_means_reference(b, true);
+    else if (b->sparse)
+        (SMEAR_WITH_LINEAR && linear ? sparse_light_means : sparse_code_means)(b);
     else if (SMEAR_WITH_LINEAR && linear)
         light_means(b);
-    else if (b->sparse && b->log == 3)
-        sparse_code_means8(b);
-    else if (b->sparse)
-        smear_line_means_reference(b, false);
     else if (b->log == 3)
-        code_means8(b);
+        code_means_of(b, 3);
     else if (b->log == 2)
-        code_means4(b);
+        code_means_of(b, 2);
     else
         code_means2(b);
 }

@@ -15,8 +15,8 @@ struct line_block {
     int32_t columns, rows;
     int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX: */
     int32_t offset[LINE_TAPS_MAX];      /* from a pixel to each */
-    bool sparse;                /* rows have a multiple of LINE_SPARSE columns, and their ends have taps: means are taken of every
-                                 * fourth pixel, and what lies between two is theirs */
+    bool sparse;                /* of most taps; rows have a multiple of LINE_SPARSE columns, and their ends have taps: means are taken of
+                                 * every fourth pixel, and what lies between two is theirs */
 };
 
 enum { LINE_SPARSE = 4 };
@@ -25,7 +25,7 @@ enum { LINE_SPARSE = 4 };
 static inline uint32_t line_between(uint32_t a, uint32_t b) { return (a | b) - ((a ^ b) >> 1 & 0x7f7f7fu); }
 
 /* Writes the mean of each pixel's taps; with `linear` that of their light, for which the squares of codes stand, as a code. The fourth
- * channel becomes 0. */
+ * channel of all is 0. */
 void smear_line_means(const struct line_block *b, bool linear);
 
 /* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. Their upper eight

@@ -35,6 +35,7 @@ static void call(struct kernel_call *c, void (*means)(const struct line_block *b
     struct line_block b = { .in = in + REACH, .out = c->plane[OUT], .in_stride = in_stride(c), .out_stride = out_stride(c),
                             .columns = c->n, .rows = rows_of(c), .log = (int32_t)(c->word[LOG] % (LINE_TAPS_LOG_MAX + 1u)),
                             .sparse = c->word[SPARSE] % 2u != 0 && c->n % LINE_SPARSE == 0 };
+    b.sparse = b.sparse && b.log == LINE_TAPS_LOG_MAX;
     for (int k = 0; k < LINE_TAPS_MAX; k++)
         b.offset[k] = (int32_t)(c->word[OFFSET + k] % (2 * REACH + 1u)) - REACH;
     means(&b, linear);
