@@ -8,8 +8,6 @@
 #include "kernels/kernels.h"
 #include "kernels/tiny_weights.h"
 
-#define TINY_ASM_ARMV6M (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_CODE)
-
 /* One loop of C does for all kinds where size counts: in a page and in the GBA's fast memory, too. */
 #ifdef __wasm__
 #define TINY_ONE_LOOP 1
@@ -143,173 +141,6 @@ static inline void tiny_box_unrolled(struct tiny_box *b)
     else
         tiny_box_rows(b, true, true, b->narrow, false);
 }
-
-#if TINY_ASM_ARMV6M
-SMEAR_STATIC_ASSERT(offsetof(struct tiny_box, stride) == 20 && offsetof(struct tiny_box, rows) == 28
-                        && offsetof(struct tiny_box, up) == 32 && offsetof(struct tiny_box, units) == 40
-                        && offsetof(struct tiny_box, to1_low) == 48 && offsetof(struct tiny_box, to_pixel) == 64
-                        && offsetof(struct tiny_box, channel) == 72 && offsetof(struct tiny_box, right1) == 108
-                        && offsetof(struct tiny_box, round) == 120 && sizeof(struct tiny_channel) == 12,
-                    "the assembly knows struct tiny_box");
-
-/* Takes the next channel at r3, for the parts a in r4 and b in r5: eight bits into r1. */
-#define TINY_BOX_CHANNEL        \
-    "ldm r3!, {r1, r2, r6}\n\t" \
-    "muls r1, r4\n\t"           \
-    "muls r2, r5\n\t"           \
-    "adds r1, r1, r2\n\t"       \
-    "adds r1, r1, r6\n\t"       \
-    "lsrs r1, r1, #22\n\t"
-
-/* Red and blue into r7, green into r1; the box's address again in r3. */
-#define TINY_BOX_SHADE                      \
-    "lsrs r4, r4, #17\n\t"                  \
-    "lsrs r5, r5, #17\n\t"                  \
-    "adds r3, #72\n\t" TINY_BOX_CHANNEL     \
-    "lsls r7, r1, #16\n\t" TINY_BOX_CHANNEL \
-    "orrs r7, r1\n\t" TINY_BOX_CHANNEL      \
-    "subs r3, #108\n\t"
-
-/* rgb565_nearest, into r1. */
-#define TINY_BOX_SHADE_NARROW \
-    TINY_BOX_SHADE            \
-    "movs r2, #249\n\t"       \
-    "muls r7, r2\n\t"         \
-    "ldr r2, [r3, #120]\n\t"  \
-    "adds r7, r7, r2\n\t"     \
-    "movs r2, #253\n\t"       \
-    "muls r1, r2\n\t"         \
-    "adds r1, #250\n\t"       \
-    "adds r1, #255\n\t"       \
-    "lsrs r1, r1, #10\n\t"    \
-    "lsls r1, r1, #5\n\t"     \
-    "lsls r2, r7, #16\n\t"    \
-    "lsrs r2, r2, #27\n\t"    \
-    "orrs r1, r2\n\t"         \
-    "lsrs r7, r7, #27\n\t"    \
-    "lsls r7, r7, #11\n\t"    \
-    "orrs r1, r7\n\t"
-#define TINY_BOX_SHADE_WIDE \
-    TINY_BOX_SHADE          \
-    "lsls r1, r1, #8\n\t"   \
-    "orrs r1, r7\n\t"
-#define TINY_BOX_FLAT \
-    "ldr r1, [r3, #68]\n\t"
-#define TINY_BOX_STORE_NARROW \
-    "ldr r2, [r3, #64]\n\t"   \
-    "strh r1, [r0, r2]\n"
-#define TINY_BOX_STORE_WIDE \
-    "ldr r2, [r3, #64]\n\t" \
-    "adds r2, r2, r0\n\t"   \
-    "str r1, [r0, r2]\n"
-
-/* Edge functions into r4 and r5; `mi` where the pixel in r0 is not covered. */
-#define TINY_BOX_TEST     \
-    "mov r4, r8\n\t"      \
-    "mov r5, r9\n\t"      \
-    "mov r6, r12\n\t"     \
-    "subs r6, r6, r4\n\t" \
-    "subs r6, r6, r5\n\t" \
-    "orrs r6, r4\n\t"     \
-    "orrs r6, r5\n\t"
-
-/* One pixel further right; `ne` unless the row is at its end. */
-#define TINY_BOX_STEP \
-    "add r8, r10\n\t" \
-    "add r9, r11\n\t" \
-    "adds r0, #2\n\t" \
-    "cmp r0, lr\n\t"
-
-/* r0 points to depths, r3 to the box; e1 in r8, e2 in r9, their steps in r10 and r11, the sum of all in r12, the row's end in lr.
- * A loop by compilers takes twice the instructions. */
-#define TINY_BOX_ARMV6M(COLOR, STORE)   \
-    __asm__ volatile(                   \
-        ".syntax unified\n\t"           \
-        "movs r0, r3\n\t"               \
-        "adds r0, #108\n\t"             \
-        "ldm r0!, {r4, r5, r6}\n\t"     \
-        "mov r10, r4\n\t"               \
-        "mov r11, r5\n\t"               \
-        "mov r12, r6\n"                 \
-        "1: ldr r0, [r3, #24]\n\t"      \
-        "ldr r6, [r3, #16]\n\t"         \
-        "lsls r6, r6, #1\n\t"           \
-        "adds r6, r6, r0\n\t"           \
-        "mov lr, r6\n\t"                \
-        "ldm r3!, {r4, r5, r6, r7}\n\t" \
-        "mov r8, r4\n\t"                \
-        "mov r9, r5\n\t"                \
-        "adds r6, r6, r4\n\t"           \
-        "adds r7, r7, r5\n\t"           \
-        "subs r3, #16\n\t"              \
-        "stm r3!, {r6, r7}\n\t"         \
-        "subs r3, #8\n"                 \
-        "2: " TINY_BOX_TEST             \
-        "bpl 3f\n\t" TINY_BOX_STEP      \
-        "bne 2b\n\t"                    \
-        "b 5f\n"                        \
-        "3: ldr r7, [r3, #32]\n\t"      \
-        "lsls r4, r7\n\t"               \
-        "lsls r5, r7\n\t"               \
-        "lsrs r4, r4, #16\n\t"          \
-        "lsrs r5, r5, #16\n\t"          \
-        "ldr r7, [r3, #36]\n\t"         \
-        "muls r4, r7\n\t"               \
-        "muls r5, r7\n\t"               \
-        "lsrs r6, r4, #15\n\t"          \
-        "lsrs r7, r5, #15\n\t"          \
-        "ldr r1, [r3, #52]\n\t"         \
-        "muls r1, r6\n\t"               \
-        "ldr r2, [r3, #48]\n\t"         \
-        "muls r6, r2\n\t"               \
-        "lsrs r6, r6, #16\n\t"          \
-        "adds r1, r1, r6\n\t"           \
-        "ldr r2, [r3, #60]\n\t"         \
-        "muls r2, r7\n\t"               \
-        "adds r1, r1, r2\n\t"           \
-        "ldr r2, [r3, #56]\n\t"         \
-        "muls r7, r2\n\t"               \
-        "lsrs r7, r7, #16\n\t"          \
-        "adds r1, r1, r7\n\t"           \
-        "ldr r2, [r3, #40]\n\t"         \
-        "adds r1, r1, r2\n\t"           \
-        "ldr r2, [r3, #44]\n\t"         \
-        "lsrs r1, r2\n\t"               \
-        "ldrh r2, [r0]\n\t"             \
-        "cmp r2, r1\n\t"                \
-        "bhs 4f\n\t"                    \
-        "strh r1, [r0]\n\t" COLOR STORE \
-        "4: " TINY_BOX_STEP             \
-        "beq 5f\n\t" TINY_BOX_TEST      \
-        "bpl 3b\n"                      \
-        "5: ldr r0, [r3, #20]\n\t"      \
-        "lsls r0, r0, #1\n\t"           \
-        "ldr r1, [r3, #24]\n\t"         \
-        "adds r1, r1, r0\n\t"           \
-        "str r1, [r3, #24]\n\t"         \
-        "ldr r0, [r3, #28]\n\t"         \
-        "subs r0, #1\n\t"               \
-        "str r0, [r3, #28]\n\t"         \
-        "bne 1b"                        \
-        : "+r"(r3)                      \
-        :                               \
-        : "r0", "r1", "r2", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
-
-SMEAR_INLINE void tiny_box_armv6m(struct tiny_box *b)
-{
-    register struct tiny_box *r3 __asm__("r3") = b;
-    b->round = 0x03f603f6u;
-    b->to_pixel = (uint32_t)(uintptr_t)b->pixels - (uint32_t)(uintptr_t)b->depth * (b->narrow ? 1u : 2u);
-    if (b->shaded && b->narrow)
-        TINY_BOX_ARMV6M(TINY_BOX_SHADE_NARROW, TINY_BOX_STORE_NARROW);
-    else if (b->shaded)
-        TINY_BOX_ARMV6M(TINY_BOX_SHADE_WIDE, TINY_BOX_STORE_WIDE);
-    else if (b->narrow)
-        TINY_BOX_ARMV6M(TINY_BOX_FLAT, TINY_BOX_STORE_NARROW);
-    else
-        TINY_BOX_ARMV6M(TINY_BOX_FLAT, TINY_BOX_STORE_WIDE);
-}
-#endif
 
 #if SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(offsetof(struct tiny_box, stride) == 20 && offsetof(struct tiny_box, rows) == 28
@@ -466,12 +297,7 @@ static inline void tiny_box(struct tiny_box *b, bool narrow)
         tiny_box_across(b);
         return;
     }
-#if TINY_ASM_ARMV6M
-    if (!b->shaded || !transfer_is_linear(b->transfer)) {
-        tiny_box_armv6m(b);
-        return;
-    }
-#elif SMEAR_ASM_ARMV7EM
+#if SMEAR_ASM_ARMV7EM
     if (!b->shaded || !transfer_is_linear(b->transfer)) {
         tiny_box_armv7em(b);
         return;
