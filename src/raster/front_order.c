@@ -181,7 +181,30 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
     return at;
 }
 
-bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t)
+/* Whether depths of columns [left, right) of some rows are 2 half at least. */
+static bool hides_columns(const uint16_t *depth, int32_t stride, int32_t left, int32_t right, int32_t rows, uint32_t half)
+{
+    const uint16_t *const even = (const uint16_t *)((uintptr_t)(depth + left) & ~(uintptr_t)3u);
+    return hidden_box((const pixel_word *)(const void *)even, stride >> 1, (int32_t)(depth + right + 1 - even) >> 1, rows, half);
+}
+
+/* Whether blocks of columns are hidden in all of the target's rows. Notes how near they are found to be. */
+static bool hides_blocks(uint16_t *least, const uint16_t *depth, const struct smear_raster_target *t, int32_t left, int32_t right,
+                         bool looks, uint32_t half)
+{
+    for (int32_t x = t->x0 + ((left - t->x0) & -FRONT_BLOCK); x < right; x += FRONT_BLOCK) {
+        uint16_t *const found = least + (x - t->x0) / FRONT_BLOCK;
+        if (*found >= half)
+            continue;
+        if (!looks || !hides_columns(depth, t->window_rows.stride, x, min_i32(x + FRONT_BLOCK, t->x1), t->y1 - t->y0, half))
+            return false;
+        *found = (uint16_t)half;
+    }
+    return true;
+}
+
+bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t,
+                       uint16_t least[FRONT_BLOCKS])
 {
     const struct smear_segment *segment = &frame->bins->segment[t->segment];
     const int32_t *const v0 = bins_vertex(frame->bins, segment, t->vertex[0]), *const v1 = bins_vertex(frame->bins, segment, t->vertex[1]),
@@ -196,10 +219,11 @@ bool smear_front_hides(const struct smear_raster_frame *frame, const struct smea
     const struct smear_plane_rows *const rows = &target->window_rows;
     const uint32_t units = ((uint32_t)(r.nearest + depth_margin(r.nearest)) >> 11) + 1u;
     const uint32_t half = (units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4) + 1u, 65534u)) / 2u + 1u;
-    const uint16_t *const depth = target->depth + target_row(rows, target, top);
-    if (half > 0x7fffu || depth[((bottom - top) >> 1) * rows->stride + ((left + right) >> 1)] >> 1 < half)     /* as most that are seen */
+    const uint16_t *const depth = target->depth + target_row(rows, target, target->y0);
+    const uint16_t *const first = depth + (top - target->y0) * rows->stride;
+    const bool looks = 2 * (bottom - top) >= target->y1 - target->y0;       /* at what is not known of blocks yet */
+    if (half > 0x7fffu || first[((bottom - top) >> 1) * rows->stride + ((left + right) >> 1)] >> 1 < half)     /* as most that are seen */
         return false;
-    const int32_t even = left - ((left - rows->x0) & 1);
-    return hidden_box((const pixel_word *)(const void *)(depth + even), rows->stride >> 1, (right - even + 1) >> 1, bottom - top, half);
+    return hides_blocks(least, depth, target, left, right, looks, half)
+        || hides_columns(first, rows->stride, left, right, bottom - top, half);
 }
-

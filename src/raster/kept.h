@@ -101,7 +101,11 @@ static inline void front_learn(const struct smear_raster_cache *cache, uint32_t 
     ((struct front_memory *)cache->entry - 1)->rest = 16 * hidden < count ? FRONT_REST : 0;
 }
 
-/* Whether something nearer hides all pixels of a triangle. */
-bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t);
+enum { FRONT_BLOCK = 32, FRONT_BLOCKS = 2048 / FRONT_BLOCK };
+
+/* Whether something nearer hides all pixels of a triangle. `least`: of blocks of the target's columns, how near they have been found to be
+ * in all rows; at first 0. */
+bool smear_front_hides(const struct smear_raster_frame *frame, const struct smear_raster_target *target, const struct smear_triangle *t,
+                       uint16_t least[FRONT_BLOCKS]);
 
 #endif

@@ -284,6 +284,9 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
     struct smear_raster_pass p;
     struct points_plane points = { .depth = NULL };
     uint32_t i = 0, hidden = 0;
+    uint16_t least[FRONT_BLOCKS];
+    if (SMEAR_FRONT_ORDER && given != NULL && given->narrow != NULL)
+        __builtin_memset(least, 0, sizeof least);
     smear_raster_begin(&p, frame, target);
     const bool at_once = !SMEAR_SMALL_CODE && given == NULL && points_make(&points, frame, target);
     for (;; i++) {
@@ -310,7 +313,7 @@ static void draw_list(const struct smear_raster_frame *frame, const struct smear
         }
         /* Where few are hidden, only some are looked at. */
         if (SMEAR_FRONT_ORDER && given != NULL && given->narrow != NULL && (8 * hidden + 32 > i || (i & 3u) == 0)
-            && smear_front_hides(frame, target, t)) {
+            && smear_front_hides(frame, target, t, least)) {
             hidden++;
             continue;
         }
