@@ -115,7 +115,8 @@ static inline size_t smear_memory_needed(int result)
 #else                                       /* SMEAR_NONE */
 #define SMEAR_TILE_(w, h) ((w) <= 160 ? 8u : (w) <= 320 ? 16u : 32u)
 #define SMEAR_TRIANGLES_BYTES_(t) ((t) * SMEAR_TRIANGLE_BYTES + (t) / 256u)
-#define SMEAR_WORKER_BYTES_(w, T) (0u * (w) * (T))
+/* Colour and depth of rows, and numbers of triangles. */
+#define SMEAR_WORKER_BYTES_(w, T) ((w) * (sizeof(void *) < 8 ? (T) : 64u) * 7u + 1024u)
 /* 64-bit machines draw a quarter of the height at once. */
 #define SMEAR_HIGH_(h, T) \
     (sizeof(void *) < 8 ? (size_t)(T) : SMEAR_MIN_(((h) + 4u * (T) - 1u) / (4u * (T)) * (size_t)(T), 64u))

@@ -5,6 +5,7 @@
 #include "smear_memory.h"
 
 #include "display/band.h"
+#include "methods/sharp.h"
 #include "needs.h"
 #include "others.h"
 
@@ -145,6 +146,14 @@ static void lay_out_scratch(struct smear_rows *rows, struct smear_arena *a, cons
     rows->scratch = SMEAR_PLACE(d, SMEAR_PART_INSTANTS, arena_take(a, pixels, 4), pixels * 4);
 }
 
+/* Where sharp frames are all that a context draws. */
+static void lay_out_apart(struct smear_rows *rows, struct smear_arena *a, const smear_desc *d)
+{
+    const size_t bytes = smear_sharp_apart_bytes(d->workers, (size_t)d->width * (size_t)row_px(d));
+    rows->scratch = arena_take(a, bytes, 1);
+    rows->scratch_end = rows->scratch != NULL ? (uint8_t *)rows->scratch + bytes : NULL;
+}
+
 void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
     struct smear_rows *rows = &c->rows;
@@ -154,6 +163,8 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     c->temporal.strip = d->strip;
     if (has_window(d) || is_temporal(d))
         lay_out_scratch(rows, a, d);
+    else if (d->workers > 1 && !smear_sharp_may_be_direct(d, false))
+        lay_out_apart(rows, a, d);
     lay_out_temporal(c, a, d);
     lay_out_damage(c, a, d);
     if (SMEAR_WITH_LAYERS && has_layers(d))

@@ -6,13 +6,10 @@
 
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes)
 {
-    const struct smear_bins *g = &rows->bins;
-    const uint32_t first = (g->vertex_words + 1u) & ~1u,
-                   end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
-    const size_t bytes = first < end ? (size_t)(end - first) * 4 : 0;
+    size_t bytes;
+    uint8_t *const own = bins_rest(&rows->bins, &bytes);
     const bool takes_other = bytes < other_bytes;
-    rows->cache = smear_raster_cache_make(takes_other ? other : (void *)(g->pool + first), takes_other ? other_bytes : bytes,
-                                          rows->jobs.workers, g);
+    rows->cache = smear_raster_cache_make(takes_other ? other : own, takes_other ? other_bytes : bytes, rows->jobs.workers, &rows->bins);
 }
 
 void smear_window_target(const struct smear_rows *rows, int32_t y0, int32_t y1, struct smear_raster_target *t)

@@ -187,6 +187,36 @@ static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_wor
 
 static inline uint32_t bins_kept(const struct smear_bins *g) { return SMEAR_RANGES ? g->kept_words : 0; }
 
+/* Triangles of a list, from `head` on; or, while other cores go on with that, those of these numbers. */
+struct smear_list {
+    uint32_t head;
+    const uint32_t *number, *end;       /* null: by the head */
+};
+
+/* Returns the first of a list; SMEAR_NO_TRIANGLE where there is none. */
+SMEAR_INLINE uint32_t list_first(const struct smear_list *l)
+{
+    return !SMEAR_POOL_PARTS || l->number == NULL ? l->head : l->number != l->end ? *l->number : SMEAR_NO_TRIANGLE;
+}
+
+/* Goes on behind it. */
+SMEAR_INLINE void list_next(struct smear_list *l, const struct smear_triangle *first)
+{
+    if (SMEAR_POOL_PARTS && l->number != NULL)
+        l->number++;
+    else
+        l->head = first->next;
+}
+
+/* Memory between vertices and triangles, which nothing needs until they grow again. */
+static inline uint8_t *bins_rest(const struct smear_bins *g, size_t *bytes)
+{
+    const uint32_t first = (g->vertex_words + 1u) & ~1u,
+                   end = g->pool_words - g->triangle_count * (uint32_t)(sizeof(struct smear_triangle) / 4);
+    *bytes = first < end ? (size_t)(end - first) * 4 : 0;
+    return (uint8_t *)(g->pool + first);
+}
+
 /* Empties the store for the tile rows [first, end). */
 void smear_bins_reset(struct smear_bins *g, int first, int end);
 

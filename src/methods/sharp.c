@@ -10,20 +10,19 @@
 
 /* ------------------------------------------------------------------ rows of several cores */
 
-/* Windows of other cores lie in the memory of temporal methods. */
-#define SMEAR_SHARP_APART (SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES && !SMEAR_SMALL_CODE)
+#define SMEAR_SHARP_APART SMEAR_POOL_PARTS
 
 /* Whether there is anything to gain, and nothing that needs rows one after the other. */
 static inline bool may_be_apart(const struct smear_rows *rows, bool direct, int first, int end)
 {
     return SMEAR_SHARP_APART && rows->jobs.workers > 1 && end - first > rows->jobs.workers && rows->refill == NULL
-        && rows->scratch_end != NULL && !direct && !rows->blends && !rows_have_overlay(rows) && rows->inspect == NULL && !rows->keeps_motion
+        && !direct && !rows->blends && !rows_have_overlay(rows) && rows->inspect == NULL && !rows->keeps_motion
         && rows->desc->band_rows == rows->bins.row_px;
 }
 
 enum {
     BUFFERS_MOST = 8,
-    FLUSH_AFTER = 16            /* triangles: core 0 looks after the display between so many */
+    APART_PIXELS = 8            /* of a row for each triangle that finds room at least */
 };
 
 /* What one core has for itself. */
@@ -37,6 +36,7 @@ struct apart {
     struct smear_rows *rows;
     int first, count;           /* tile rows */
     int whole;                  /* of them drawn by one core each; of the others, each half is a job */
+    uint32_t most;              /* triangles of a row of which numbers find room */
     uint32_t handed;            /* bands that had been handed out before */
     int result;
     /* Where finished rows lie, in turn. The first are the bands' own, in which the last rows lie: they may still be sent when
@@ -75,8 +75,9 @@ static bool buffer_is_free(const struct apart *a, int i)
 }
 
 /* Core 0 hands out what is finished, in order, and never a third band. */
-static void flush_ready(struct apart *a)
+static void flush_ready(void *apart)
 {
+    struct apart *const a = (struct apart *)apart;
     for (int i; (i = (int)word_own(&a->flushed)) < a->count && word_own(&a->failed) == 0;) {
         const int at = buffer_of(a, i);
         if (word_read(&a->ready[at][0]) != (unsigned)i + 1u || word_read(&a->ready[at][1]) != (unsigned)i + 1u
@@ -105,11 +106,12 @@ static struct apart_place place_of(const struct apart *a, int job)
     return (struct apart_place){ row, upper ? top : middle, lower ? bottom : middle, upper, lower };
 }
 
-/* Lists the triangles of a job's row, after those before; returns how many there are. */
+/* Lists the triangles of a job's row, after those before; returns how many there are. UINT32_MAX where they find no room: the row's list
+ * is this job's until it is given on. */
 static uint32_t list_apart(struct apart *a, int job, const struct apart_place *p, int worker, uint32_t *number)
 {
     struct smear_rows *rows = a->rows;
-    uint32_t n = 0;
+    uint32_t n = 0, at;
     while (word_read(&a->listed) != (unsigned)job) {
         if (worker == 0)
             flush_ready(a);
@@ -117,10 +119,10 @@ static uint32_t list_apart(struct apart *a, int job, const struct apart_place *p
     }
     if (p->upper)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, a->first + p->row);
-    for (uint32_t at = rows->opaque; at != SMEAR_NO_TRIANGLE; at = bins_triangle(&rows->bins, at)->next) {
-        SMEAR_ASSERT(n < bins_listed(&rows->bins));
+    for (at = rows->opaque; at != SMEAR_NO_TRIANGLE && n < a->most; at = bins_triangle(&rows->bins, at)->next)
         number[n++] = at;
-    }
+    if (at != SMEAR_NO_TRIANGLE)
+        return UINT32_MAX;
     word_write(&a->listed, (unsigned)job + 1u);
     return n;
 }
@@ -129,6 +131,7 @@ static void draw_apart(struct apart *a, int job, const struct apart_place *p, in
 {
     const struct smear_rows *rows = a->rows;
     const struct apart_window *w = &a->window[worker];
+    const struct smear_between flush = { flush_ready, a };
     const uint32_t count = list_apart(a, job, p, worker, w->number);
     smear_window_target(rows, p->y0, p->y1, t);
     if (w->color != NULL) {
@@ -138,11 +141,12 @@ static void draw_apart(struct apart *a, int job, const struct apart_place *p, in
     }
     t->cache = smear_raster_cache_of(&rows->cache, worker);
     smear_row_clear(t, rows->clear, 0);
-    for (uint32_t k = 0; k < count; k += FLUSH_AFTER) {
-        smear_raster_numbers(&rows->raster, t, w->number + k, min_u32(count - k, FLUSH_AFTER));
-        if (worker == 0)
-            flush_ready(a);
+    if (count != UINT32_MAX) {
+        smear_raster_numbers(&rows->raster, t, w->number, count, worker == 0 ? &flush : NULL);
+        return;
     }
+    smear_raster_list(&rows->raster, t, rows->opaque);
+    word_write(&a->listed, (unsigned)job + 1u);
 }
 
 static void convert_apart(struct apart *a, const struct apart_place *p, const struct smear_raster_target *t)
@@ -196,19 +200,31 @@ static void cut_buffers(struct apart *a, struct smear_arena *arena, size_t bytes
         a->buffer[a->buffers++] = arena_take(arena, rows->bands.bytes, 1);
 }
 
-/* Cuts the memory; what is left keeps setups, where it kept them before. Null where it is too small. */
+size_t smear_sharp_apart_bytes(size_t workers, size_t pixels)
+{
+    const size_t numbers = pixels / APART_PIXELS * sizeof(uint32_t) + 8;
+    return SMEAR_SHARP_APART ? sizeof(struct apart) + 8 + workers * numbers + (workers - 1) * (pixels * 6 + 16) : 0;
+}
+
+/* Cuts the memory of the rows or what is left of triangles'; what is left of that keeps setups, where it kept them before. Null where it
+ * is too small. */
 static struct apart *cut_apart(struct smear_rows *rows, int count)
 {
-    const uintptr_t from = (uintptr_t)rows->scratch, to = (uintptr_t)rows->scratch_end, cache = (uintptr_t)rows->cache.entry;
     const size_t n = (size_t)rows->jobs.workers, pixels = (size_t)rows->window.width * (size_t)rows->bins.row_px;
-    const size_t numbers = bins_listed(&rows->bins) * sizeof(uint32_t), bytes = to - from;
-    struct smear_arena arena = { (uint8_t *)rows->scratch, 0 };
-    if (to < from || bytes < sizeof(struct apart) + 8 + (n - 1) * (pixels * 6 + 16) + n * (numbers + 8))
+    const size_t own = rows->scratch_end != NULL ? (size_t)(rows->scratch_end - (uint8_t *)rows->scratch) : 0,
+                 least = smear_sharp_apart_bytes(n, pixels);
+    size_t bytes;
+    uint8_t *const rest = bins_rest(&rows->bins, &bytes);
+    struct smear_arena arena = { bytes < own ? (uint8_t *)rows->scratch : rest, 0 };
+    bytes = bytes < own ? own : bytes;
+    const uintptr_t from = (uintptr_t)arena.memory, to = from + bytes, cache = (uintptr_t)rows->cache.entry;
+    if (bytes < least)
         return NULL;
+    const uint32_t most = (uint32_t)(pixels / APART_PIXELS + (bytes - least) / (8 * n));
     struct apart *a = arena_take(&arena, 1, sizeof *a);
-    *a = (struct apart){ .rows = rows, .count = count, .handed = rows->bands.handed };
+    *a = (struct apart){ .rows = rows, .count = count, .most = min_u32(most, bins_listed(&rows->bins)), .handed = rows->bands.handed };
     for (size_t i = 0; i < n; i++) {
-        a->window[i].number = arena_take(&arena, numbers, 1);
+        a->window[i].number = arena_take(&arena, a->most, sizeof *a->window[i].number);
         a->window[i].color = i != 0 ? arena_take(&arena, pixels, sizeof *a->window[i].color) : NULL;
         a->window[i].depth = i != 0 ? arena_take(&arena, pixels, sizeof *a->window[i].depth) : NULL;
     }

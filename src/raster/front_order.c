@@ -7,18 +7,17 @@
  * reaches its levels, so that those two stay in order. */
 #include "raster/kept.h"
 
-
 #include "base/fixmath.h"
 #include "kernels/hidden_box.h"
 
 enum {
     OCTAVE = 4,                     /* levels of depths up to twice as near */
     LEVELS = 12 * OCTAVE,
-    LEVEL_NONE = LEVELS,            /* of those that another job draws */
     STRIPS = 16,
     ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
     ORDER_PIXELS = 8,               /* of the target for each: smaller ones hide little; */
-    SMALL_PIXELS = 32               /* small ones may */
+    SMALL_PIXELS = 32,              /* small ones may, but in so many lists after one in which few are hidden */
+    SMALL_REST = 7
 };
 
 /* Levels that were taken: of each strip, from which level of a near end on how far back triangles were put. */
@@ -95,48 +94,47 @@ static int strip_shift(const struct smear_raster_target *target)
     return shift + 8;
 }
 
-/* Returns a list's triangles, or one more than `most`. */
-static uint32_t list_count(const struct smear_bins *bins, uint32_t head, uint32_t most)
+/* Whether triangles are small. */
+static inline bool are_small(const struct smear_raster_frame *frame, const struct smear_raster_target *t, uint32_t count)
 {
-    uint32_t n = 0;
-    for (; head != SMEAR_NO_TRIANGLE && n <= most; head = bins_triangle(bins, head)->next)
-        n++;
-    return n;
+    return count > (uint32_t)((t->x1 - t->x0) * frame->bins->row_px) / SMALL_PIXELS;
+}
+
+void smear_front_learn(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t hidden, uint32_t count)
+{
+    if (are_small(frame, target, count))
+        ((struct front_memory *)target->cache.entry - 1)->rest = 16 * hidden < count ? SMALL_REST : 0;
 }
 
 /* Whether a list's order is worth finding: of small triangles not where little was hidden in one of the last lists. */
-static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
 {
-    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * frame->bins->row_px);
     struct front_memory *const memory = (struct front_memory *)target->cache.entry - 1;
-    const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS), count = list_count(frame->bins, head, most);
-    if (count > pixels / SMALL_PIXELS && memory->rest != 0) {
+    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * frame->bins->row_px);
+    const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS);
+    uint32_t count = 0;
+    for (uint32_t i; count <= most && (i = list_first(&list)) != SMEAR_NO_TRIANGLE; count++)
+        list_next(&list, bins_triangle(frame->bins, i));
+    if (are_small(frame, target, count) && memory->rest != 0) {
         memory->rest--;
         return false;
     }
-    return count <= most;
-}
-
-/* Whether no row of a triangle is one of the target's, which has not all rows of the list. */
-static inline bool is_apart(const struct smear_raster_target *t, const int32_t *v0, const int32_t *v1, const int32_t *v2)
-{
-    const int32_t y0 = v0[VERTEX_Y], y1 = v1[VERTEX_Y], y2 = v2[VERTEX_Y];
-    return (min_i32(y0, min_i32(y1, y2)) + 127) >> 8 >= t->y1 || (max_i32(y0, max_i32(y1, y2)) + 127) >> 8 <= t->y0;
+    return count >= ORDER_LEAST && count <= most;
 }
 
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
  * is a point or blended. */
-static uint32_t find_levels(uint16_t count[LEVELS + 1], uint8_t *level, const struct smear_raster_frame *frame,
-                            const struct smear_raster_target *target, uint32_t head)
+static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct smear_raster_frame *frame,
+                            const struct smear_raster_target *target, struct smear_list list)
 {
     const struct smear_bins *const bins = frame->bins;
     const int shift = strip_shift(target);
-    const bool is_part = target->y1 - target->y0 < bins->row_px;
     struct front_taken taken;
     uint32_t n = 0;
     __builtin_memset(&taken, 255, sizeof taken);
-    while (head != SMEAR_NO_TRIANGLE) {
-        const struct smear_triangle *t = bins_triangle(bins, head);
+    for (uint32_t i; (i = list_first(&list)) != SMEAR_NO_TRIANGLE;) {
+        const struct smear_triangle *t = bins_triangle(bins, i);
+        list_next(&list, t);
         if (t->segment == SMEAR_POINT)
             return 0;
         const struct smear_segment *segment = &bins->segment[t->segment];
@@ -144,40 +142,35 @@ static uint32_t find_levels(uint16_t count[LEVELS + 1], uint8_t *level, const st
             return 0;
         const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
                       *const v2 = bins_vertex(bins, segment, t->vertex[2]);
-        uint32_t taken_level = LEVEL_NONE;
-        if (!is_part || !is_apart(target, v0, v1, v2)) {
-            const struct front_range r = range_of(v0, v1, v2);
-            taken_level = take_level(&taken, target, &r, shift);
-        }
-        level[n++] = (uint8_t)taken_level;
-        count[taken_level]++;
-        head = t->next;
+        const struct front_range r = range_of(v0, v1, v2);
+        level[n] = (uint8_t)take_level(&taken, target, &r, shift);
+        count[level[n++]]++;
     }
     return n;
 }
 
-uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
 {
     const struct smear_plane_rows *const rows = &target->window_rows;
-    uint16_t *const order = front_order_of(&target->cache), place[LEVELS + 1] = { 0 };
-    if (order == NULL || head == SMEAR_NO_TRIANGLE || target_has_velocity(target) || frame_has_fog(frame)
+    uint16_t *const order = front_order_of(&target->cache), place[LEVELS] = { 0 };
+    if (order == NULL || target_has_velocity(target) || frame_has_fog(frame)
         || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
         return 0;
-    if (!is_worth_it(frame, target, head))
+    if (!is_worth_it(frame, target, list))
         return 0;
     uint8_t *const level = (uint8_t *)(order + front_order_most((const struct front_memory *)target->cache.entry - 1));
-    const uint32_t n = find_levels(place, level, frame, target, head);
-    if (n < ORDER_LEAST)
-        return 0;
+    const uint32_t n = find_levels(place, level, frame, target, list);
     uint32_t at = 0;
-    for (int i = LEVELS - 1; i >= 0; i--) {
+    for (int i = LEVELS - 1; i >= 0 && n != 0; i--) {
         const uint32_t count = place[i];
         place[i] = (uint16_t)at;
         at += count;
     }
-    place[LEVEL_NONE] = (uint16_t)at;
-    for (uint32_t i = 0; i < n; i++, head = bins_triangle(frame->bins, head)->next)
-        order[place[level[i]]++] = (uint16_t)head;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t number = list_first(&list);
+        order[place[level[i]]++] = (uint16_t)number;
+        list_next(&list, bins_triangle(frame->bins, number));
+    }
     return at;
 }
 

@@ -67,8 +67,6 @@ static inline void leave_kept(struct kept *k, bool goes_on)
         k->triangle = SMEAR_NO_TRIANGLE;
 }
 
-enum { FRONT_REST = 7 };
-
 /* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
 struct front_memory {
     uint32_t bytes;         /* of both */
@@ -93,13 +91,10 @@ static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
 
 /* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any
  * pixel. Returns how many there are; 0 where the list is to be drawn as it is. */
-uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head);
+uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list);
 
 /* Notes how many of an ordered list's triangles were hidden. */
-static inline void front_learn(const struct smear_raster_cache *cache, uint32_t hidden, uint32_t count)
-{
-    ((struct front_memory *)cache->entry - 1)->rest = 16 * hidden < count ? FRONT_REST : 0;
-}
+void smear_front_learn(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t hidden, uint32_t count);
 
 enum { FRONT_BLOCK = 32, FRONT_BLOCKS = 2048 / FRONT_BLOCK };
 

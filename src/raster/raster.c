@@ -53,34 +53,40 @@ static bool points_make(struct points_plane *p, const struct smear_raster_frame 
     return rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
 }
 
-/* Draws points from entry `head` on, where they are nearer. Returns the first entry that is no point, or UINT32_MAX. Pixels are
- * RGB565 where they are narrow. */
-SMEAR_INLINE uint32_t points_list(const struct points_plane *p, uint32_t head, bool narrow)
+/* Draws points of a list up to its first entry that is none, where they are nearer. Returns the list from there on. Pixels are RGB565
+ * where they are narrow. */
+SMEAR_INLINE struct smear_list points_list(const struct points_plane *p, struct smear_list l, bool narrow)
 {
     const struct points_plane k = *p;
-    while (head != UINT32_MAX) {
-        const struct smear_triangle e = *(k.top - head);
-        if (e.segment != SMEAR_POINT)
+    for (uint32_t i; (i = list_first(&l)) != SMEAR_NO_TRIANGLE;) {
+        const struct smear_triangle *const t = k.top - i;
+        if (t->segment != SMEAR_POINT)
             break;
-        head = e.next;
-        const uint32_t x = e.vertex[POINT_X] - k.x0, y = e.vertex[POINT_Y] - k.y0;
+        const uint32_t x = t->vertex[POINT_X] - k.x0, y = t->vertex[POINT_Y] - k.y0, depth = t->vertex[POINT_DEPTH], color = t->color;
+        list_next(&l, t);
         if (x >= k.width || y >= k.height)
             continue;
         const int32_t at = (int32_t)y * k.stride + (int32_t)x;
-        if (e.vertex[POINT_DEPTH] <= k.depth[at])
+        if (depth <= k.depth[at])
             continue;
-        k.depth[at] = e.vertex[POINT_DEPTH];
+        k.depth[at] = (uint16_t)depth;
         if (narrow)
-            ((uint16_t *)k.pixels)[at] = (uint16_t)rgb565_nearest(e.color);
+            ((uint16_t *)k.pixels)[at] = (uint16_t)rgb565_nearest(color);
         else
-            ((uint32_t *)k.pixels)[at] = e.color & 0xffffffu;
+            ((uint32_t *)k.pixels)[at] = color & 0xffffffu;
     }
-    return head;
+    return l;
 }
 
 static SMEAR_NOINLINE uint32_t draw_points(const struct points_plane *p, uint32_t head, bool narrow)
 {
-    return narrow ? points_list(p, head, true) : points_list(p, head, false);
+    const struct smear_list list = { head, NULL, NULL };
+    return narrow ? points_list(p, list, true).head : points_list(p, list, false).head;
+}
+
+static SMEAR_NOINLINE const uint32_t *draw_numbered_points(const struct points_plane *p, const uint32_t *number, const uint32_t *end)
+{
+    return points_list(p, (struct smear_list){ SMEAR_NO_TRIANGLE, number, end }, false).number;
 }
 
 /* ------------------------------------------------------------------ a triangle */
@@ -248,8 +254,8 @@ static SMEAR_NOINLINE void take_segment(struct smear_raster_pass *p, const struc
 }
 
 /* Draws a triangle. After one that is large, some are not even looked at for being tiny: those that are come to draw_any. */
-static inline void draw_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, uint32_t number,
-                                 const int32_t *const v[3], const struct bounds *given, bool looks)
+SMEAR_INLINE void draw_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, uint32_t number,
+                                const int32_t *const v[3], const struct bounds *given, bool looks)
 {
     if (segment != p->segment)
         take_segment(p, segment);
@@ -269,77 +275,70 @@ void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segme
     draw_triangle(p, segment, color, SMEAR_NO_TRIANGLE, v, bounds, true);
 }
 
-/* Numbers of triangles of a list, of 16 or of 32 bits. */
-struct numbers {
-    const uint16_t *narrow;
-    const uint32_t *wide;
-    uint32_t count;
-};
+/* Draws a triangle that is no point. */
+SMEAR_INLINE void draw_listed(struct smear_raster_pass *p, const struct smear_triangle *t, uint32_t number)
+{
+    const struct smear_bins *const bins = p->frame->bins;
+    const struct smear_segment *const segment = &bins->segment[t->segment];
+    const int32_t *const v[3] = { bins_vertex(bins, segment, t->vertex[0]), bins_vertex(bins, segment, t->vertex[1]),
+                                  bins_vertex(bins, segment, t->vertex[2]) };
+    draw_triangle(p, segment, t->color, number, v, NULL, (number & 3u) == 0);
+}
 
-/* Draws a list from `head` on, in order; or those of its triangles that are given, in theirs, from the front but for what is hidden
- * where numbers are narrow. */
-static void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head,
-                      const struct numbers *given)
+/* Draws `count` triangles of the target's order, from the front, but for what is hidden. Where few are, only some are looked at. */
+static SMEAR_NOINLINE void draw_ordered(struct smear_raster_pass *p, uint32_t count, const struct smear_between *between)
+{
+    const uint16_t *const order = front_order_of(&p->target->cache);
+    uint16_t least[FRONT_BLOCKS] = { 0 };
+    uint32_t hidden = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct smear_triangle *const t = bins_triangle(p->frame->bins, order[i]);
+        between_triangles(between, i);
+        if ((8 * hidden + 32 > i || (i & 3u) == 0) && smear_front_hides(p->frame, p->target, t, least))
+            hidden++;
+        else
+            draw_listed(p, t, order[i]);
+    }
+    smear_front_learn(p->frame, p->target, hidden, count);
+}
+
+SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list,
+                            const struct smear_between *between)
 {
     struct smear_raster_pass p;
     struct points_plane points = { .depth = NULL };
-    uint32_t i = 0, hidden = 0;
-    uint16_t least[FRONT_BLOCKS];
-    if (SMEAR_FRONT_ORDER && given != NULL && given->narrow != NULL)
-        __builtin_memset(least, 0, sizeof least);
+    const uint32_t ordered = SMEAR_FRONT_ORDER ? smear_front_order(frame, target, list) : 0;
     smear_raster_begin(&p, frame, target);
-    const bool at_once = !SMEAR_SMALL_CODE && given == NULL && points_make(&points, frame, target);
-    for (;; i++) {
-        uint32_t number = head;
-        if (given != NULL) {
-            if (i == given->count) {
-                if (SMEAR_FRONT_ORDER && given->narrow != NULL)
-                    front_learn(&target->cache, hidden, i);
-                return;
-            }
-            number = given->narrow != NULL ? given->narrow[i] : given->wide[i];
-        } else if (number == SMEAR_NO_TRIANGLE) {
-            return;
-        }
+    if (ordered != 0) {
+        draw_ordered(&p, ordered, between);
+        return;
+    }
+    const bool at_once = !SMEAR_SMALL_CODE && points_make(&points, frame, target);
+    uint32_t i = 0;
+    for (uint32_t number; (number = list_first(&list)) != SMEAR_NO_TRIANGLE; i++) {
         const struct smear_triangle *const t = bins_triangle(frame->bins, number);
-        if (given == NULL)      /* lists that other workers open meanwhile are of no use */
-            head = t->next;
-        if (t->segment == SMEAR_POINT) {
-            if (at_once)
-                head = draw_points(&points, number, target_is_direct(target));
-            else
-                draw_point(frame, target, t, p.moved);
-            continue;
-        }
-        /* Where few are hidden, only some are looked at. */
-        if (SMEAR_FRONT_ORDER && given != NULL && given->narrow != NULL && (8 * hidden + 32 > i || (i & 3u) == 0)
-            && smear_front_hides(frame, target, t, least)) {
-            hidden++;
-            continue;
-        }
-        const struct smear_segment *const segment = &frame->bins->segment[t->segment];
-        const int32_t *const v[3] = { bins_vertex(frame->bins, segment, t->vertex[0]), bins_vertex(frame->bins, segment, t->vertex[1]),
-                                      bins_vertex(frame->bins, segment, t->vertex[2]) };
-        draw_triangle(&p, segment, t->color, number, v, NULL, (number & 3u) == 0);
+        between_triangles(between, i);
+        list_next(&list, t);
+        if (t->segment != SMEAR_POINT)
+            draw_listed(&p, t, number);
+        else if (!at_once)
+            draw_point(frame, target, t, p.moved);
+        else if (SMEAR_POOL_PARTS && list.number != NULL)       /* of a window's rows */
+            list.number = draw_numbered_points(&points, list.number - 1, list.end);
+        else
+            list.head = draw_points(&points, number, target_is_direct(target));
     }
 }
 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
-    const uint32_t ordered = SMEAR_FRONT_ORDER ? smear_front_order(frame, target, head) : 0;
-    if (ordered != 0) {
-        const struct numbers order = { front_order_of(&target->cache), NULL, ordered };
-        draw_list(frame, target, head, &order);
-    } else {
-        draw_list(frame, target, head, NULL);
-    }
+    draw_list(frame, target, (struct smear_list){ head, NULL, NULL }, NULL);
 }
 
-#if SMEAR_WITH_WORKERS && SMEAR_WITH_SUBFRAMES
+#if SMEAR_POOL_PARTS
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                          const uint32_t *number, uint32_t count)
+                          const uint32_t *number, uint32_t count, const struct smear_between *between)
 {
-    const struct numbers given = { NULL, number, count };
-    draw_list(frame, target, 0, &given);
+    draw_list(frame, target, (struct smear_list){ SMEAR_NO_TRIANGLE, number, number + count }, between);
 }
 #endif

@@ -15,9 +15,21 @@ struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache 
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                        uint32_t head);
 
+/* What else is done meanwhile: before every sixteenth triangle. */
+struct smear_between {
+    void (*call)(void *argument);
+    void *argument;
+};
+
+static inline void between_triangles(const struct smear_between *b, uint32_t i)
+{
+    if (SMEAR_POOL_PARTS && b != NULL && (i & 15u) == 0)
+        b->call(b->argument);
+}
+
 /* Draws these triangles of a list, which other rows' lists may have meanwhile. */
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                          const uint32_t *number, uint32_t count);
+                          const uint32_t *number, uint32_t count, const struct smear_between *between);
 
 /* What draws triangles of a target one after the other, and what those of the last one's segment have in common. */
 struct smear_raster_pass {
