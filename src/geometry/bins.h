@@ -194,13 +194,13 @@ struct smear_list {
 };
 
 /* Returns the first of a list; SMEAR_NO_TRIANGLE where there is none. */
-SMEAR_INLINE uint32_t list_first(const struct smear_list *l)
+SMEAR_INLINE_ALWAYS uint32_t list_first(const struct smear_list *l)
 {
     return !SMEAR_POOL_PARTS || l->number == NULL ? l->head : l->number != l->end ? *l->number : SMEAR_NO_TRIANGLE;
 }
 
 /* Goes on behind it. */
-SMEAR_INLINE void list_next(struct smear_list *l, const struct smear_triangle *first)
+SMEAR_INLINE_ALWAYS void list_next(struct smear_list *l, const struct smear_triangle *first)
 {
     if (SMEAR_POOL_PARTS && l->number != NULL)
         l->number++;

@@ -276,7 +276,7 @@ void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segme
 }
 
 /* Draws a triangle that is no point. */
-SMEAR_INLINE void draw_listed(struct smear_raster_pass *p, const struct smear_triangle *t, uint32_t number)
+SMEAR_INLINE_ALWAYS void draw_listed(struct smear_raster_pass *p, const struct smear_triangle *t, uint32_t number)
 {
     const struct smear_bins *const bins = p->frame->bins;
     const struct smear_segment *const segment = &bins->segment[t->segment];
@@ -302,8 +302,8 @@ static SMEAR_NOINLINE void draw_ordered(struct smear_raster_pass *p, uint32_t co
     smear_front_learn(p->frame, p->target, hidden, count);
 }
 
-SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list,
-                            const struct smear_between *between)
+SMEAR_INLINE_ALWAYS void draw_any_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
+                                       struct smear_list list, const struct smear_between *between)
 {
     struct smear_raster_pass p;
     struct points_plane points = { .depth = NULL };
@@ -330,15 +330,20 @@ SMEAR_INLINE void draw_list(const struct smear_raster_frame *frame, const struct
     }
 }
 
+static SMEAR_NOINLINE void draw_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
+{
+    draw_any_list(frame, target, (struct smear_list){ head, NULL, NULL }, NULL);
+}
+
 void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head)
 {
-    draw_list(frame, target, (struct smear_list){ head, NULL, NULL }, NULL);
+    draw_list(frame, target, head);
 }
 
 #if SMEAR_POOL_PARTS
 void smear_raster_numbers(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
                           const uint32_t *number, uint32_t count, const struct smear_between *between)
 {
-    draw_list(frame, target, (struct smear_list){ SMEAR_NO_TRIANGLE, number, number + count }, between);
+    draw_any_list(frame, target, (struct smear_list){ SMEAR_NO_TRIANGLE, number, number + count }, between);
 }
 #endif
