@@ -98,6 +98,19 @@ static inline uint32_t code_times_channel(uint32_t code, uint32_t channel, smear
     return transfer_is_linear(t) ? code_times_linear(code, channel >> 8 & 0xffffu) : code_times(code, channel >> 16 & 255u);
 }
 
+/* A texel in a light of these channels, or, white, of blue alone. */
+SMEAR_INLINE uint32_t shaded_pixel(uint32_t t, uint32_t r, uint32_t g, uint32_t b, bool white, bool linear)
+{
+    const smear_transfer transfer = linear ? TRANSFER_LINEAR : TRANSFER_CODES;
+    const uint32_t pair = 0xff00ffu, green = code_times_channel(pixel_green(t), white ? b : g, transfer);
+    if (white && !linear) {
+        const uint32_t rb = (t & pair) * (b >> 16 & 255u) + 0x800080u;
+        return ((rb + (rb >> 8 & pair)) >> 8 & pair) | green << 8;
+    }
+    return pixel_make(0, code_times_channel(pixel_red(t), white ? b : r, transfer), green,
+                      code_times_channel(pixel_blue(t), b, transfer));
+}
+
 /* Returns smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
  * of two codes' light; at three values that is off by one. */
 static inline uint32_t srgb_encode_searched(uint32_t light)

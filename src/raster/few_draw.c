@@ -10,7 +10,7 @@
 #include "raster/few_draw.h"
 
 #include "geometry/tiny.h"
-#include "kernels/texels_shade.h"
+#include "kernels/texel_light.h"
 #include "raster/fog.h"
 #include "raster/span.h"
 

@@ -3,7 +3,54 @@
  * that are polynomials. The same pixels as those of span.c. */
 #include "raster/span.h"
 
-#include "kernels/texels_shade.h"
+#include "kernels/texel_run.h"
+
+/* Light of the next pixel, red, green and blue in q16 codes (or linear light >> 8), and its steps. Where it has no colour,
+ * blue stands for all. */
+struct shaded_light {
+    uint32_t c[3], d[3];
+};
+
+/* Texels of a draw, and what they become. */
+struct shaded_texels {
+    const void *texels;
+    const uint32_t *palette;
+    int format, log2_width, log2_height;
+    bool narrow;
+};
+
+/* Draws n > 0 pixels of a run, where they are nearer, in a light that changes from pixel to pixel: white where blue stands for all. */
+SMEAR_INLINE void texels_shade(const struct shaded_texels *k, struct texel_run *run, const struct shaded_light *l, int32_t n, bool white,
+                               bool linear)
+{
+    struct texel_run r = *run;
+    uint32_t red = l->c[0], green = l->c[1], blue = l->c[2];
+    const uint32_t red_step = l->d[0], green_step = l->d[1], blue_step = l->d[2];
+    const int log2_width = k->log2_width, log2_height = k->log2_height, format = k->format;
+    const bool narrow = k->narrow;
+    for (; n > 0; n--) {
+        const uint32_t code = r.z >> 16;
+        if (code > *r.depth) {
+            SMEAR_KEEP_BRANCH();
+            const uint32_t t = texel_fetch(k->texels, k->palette, packed_index(texel_run_uv(&r), log2_width, log2_height),
+                                           format);
+            const uint32_t p = shaded_pixel(t, red, green, blue, white, linear);
+            *r.depth = (uint16_t)code;
+            if (narrow)
+                *(uint16_t *)r.color = (uint16_t)rgb565_nearest(p);
+            else
+                *(uint32_t *)r.color = p;
+        }
+        texel_run_advance(&r, 1, narrow);
+        texel_run_step(&r);
+        r.z += r.dz;
+        blue += blue_step;
+        if (!white) {
+            red += red_step;
+            green += green_step;
+        }
+    }
+}
 
 static bool is_white(const struct setup *s)
 {
