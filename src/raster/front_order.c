@@ -106,20 +106,45 @@ void smear_front_learn(const struct smear_raster_frame *frame, const struct smea
         ((struct front_memory *)target->cache.entry - 1)->rest = 16 * hidden < count ? SMALL_REST : 0;
 }
 
-/* Whether a list's order is worth finding: of small triangles not where little was hidden in one of the last lists. */
+/* Whether a list's triangles together are as large as its rows. Whole pixels do. */
+static bool is_covered(const struct smear_bins *bins, struct smear_list list, uint32_t pixels)
+{
+    uint32_t twice = 0;
+    for (uint32_t i; twice <= 2 * pixels && (i = list_first(&list)) != SMEAR_NO_TRIANGLE;) {
+        const struct smear_triangle *const t = bins_triangle(bins, i);
+        list_next(&list, t);
+        if (t->segment == SMEAR_POINT)
+            return true;
+        const struct smear_segment *const segment = &bins->segment[t->segment];
+        const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
+                      *const v2 = bins_vertex(bins, segment, t->vertex[2]);
+        const int32_t x = v0[VERTEX_X], y = v0[VERTEX_Y];
+        const int32_t x1 = (v1[VERTEX_X] - x) >> 8, y1 = (v1[VERTEX_Y] - y) >> 8;
+        twice += magnitude_i32(x1 * ((v2[VERTEX_Y] - y) >> 8) - ((v2[VERTEX_X] - x) >> 8) * y1);
+    }
+    return twice > 2 * pixels;
+}
+
+/* Whether a list's order is worth finding: not where little is hidden, or, of small triangles, was in one of the last lists. */
 static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
 {
     struct front_memory *const memory = (struct front_memory *)target->cache.entry - 1;
     const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * frame->bins->row_px);
     const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS);
+    struct smear_list all = list;
     uint32_t count = 0;
-    for (uint32_t i; count <= most && (i = list_first(&list)) != SMEAR_NO_TRIANGLE; count++)
-        list_next(&list, bins_triangle(frame->bins, i));
-    if (are_small(frame, target, count) && memory->rest != 0) {
+    for (uint32_t i; count <= most && (i = list_first(&all)) != SMEAR_NO_TRIANGLE; count++)
+        list_next(&all, bins_triangle(frame->bins, i));
+    const bool small = are_small(frame, target, count);
+    if (small && memory->rest != 0) {
         memory->rest--;
         return false;
     }
-    return count >= ORDER_LEAST && count <= most;
+    if (count < ORDER_LEAST || count > most || is_covered(frame->bins, list, pixels))
+        return count >= ORDER_LEAST && count <= most;
+    if (small)
+        memory->rest = SMALL_REST;
+    return false;
 }
 
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
