@@ -121,6 +121,19 @@ static inline bool few_weights_make(struct few_weights *w, int32_t x1, int32_t y
     return true;
 }
 
+/* Whether a sliver has no pixel, as most have none. */
+static SMEAR_RARE bool few_is_empty(const struct few *k)
+{
+    uint64_t first = k->box.at.edges;
+    for (int32_t y = 0; y != k->rows; y++, first += k->box.down.edges) {
+        uint64_t edges = first;
+        for (int32_t x = 0; x != k->columns; x++, edges += k->box.right.edges)
+            if (!few_outside(edges))
+                return false;
+    }
+    return true;
+}
+
 /* ------------------------------------------------------------------ planes */
 
 /* floor(a g / 2^15), for |a| <= 2^28 and |g| <= 2^17. */
@@ -502,8 +515,11 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     k.box.at.edges = few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8);
     k.box.right.edges = few_edges_word(y1 - y2, y2, -y1);
     k.box.down.edges = few_edges_word(x2 - x1, -x2, x1);
-    if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy) || !few_depth_make(&k, &w, q0, q, cx, cy)
-        || !few_coordinates_make(&k, &w, v, q))
+    k.columns = right - left;
+    k.rows = bottom - top;
+    if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy))
+        return few_is_empty(&k);
+    if (!few_depth_make(&k, &w, q0, q, cx, cy) || !few_coordinates_make(&k, &w, v, q))
         return false;
     if (segment_gouraud(l->segment)) {
         if (!few_light_make(&k, &w, v, q))
@@ -511,8 +527,6 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     } else if (l->segment->shade != SHADE_NONE) {
         few_flat_light(&k, color, frame_is_linear(l->frame));
     }
-    k.columns = right - left;
-    k.rows = bottom - top;
     const struct smear_plane_rows *const rows = &t->window_rows;
     int32_t ring_row = rows->ring_row + (top - t->y0);
     ring_row -= ring_row >= rows->ring ? rows->ring : 0;
