@@ -5,8 +5,8 @@
  * for so few pixels. What changes by d1 and d2 to these vertices has the slopes d1 g1 + d2 g2. All planes count in 32 bits that wrap,
  * from v[0] on: where a triangle is cut makes no difference.
  *
- * Perspective: where 1/w changes by a part c of that at v[0], and coordinates by t texels, planes are off by c t / 4. Up to 1/32 texel they
- * do; else they are divided by 1/w, which is a plane, too. Light is off by half a code at most, a quarter of its range times c. */
+ * Perspective: where 1/w changes by a part c of that at v[0], planes put what lies within n pixels c n / 4 pixels off at most. Up to 1/16
+ * they do; else they are divided by 1/w, which is a plane, too. Light is off by half a code at most, a quarter of its range times c. */
 #include "raster/few_draw.h"
 
 #include "geometry/tiny.h"
@@ -48,6 +48,7 @@ struct few {
     const struct smear_raster_target *target;
     const struct setup *setup;      /* or null */
     struct few_box box;
+    uint32_t across;                /* columns or rows, the more, before any are cut off */
     int32_t columns, rows;
     int32_t at, fits;               /* the first pixel, and how many rows there are before the ring's first one */
     int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
@@ -167,15 +168,16 @@ static inline struct beyond few_beyond(int32_t a, int32_t b, int32_t c) { return
  * instead, which is off by c^3 t, 1/16 texel at most; or more. */
 enum few_bend { FEW_STRAIGHT, FEW_BENT, FEW_CURLED };
 
-static inline enum few_bend few_bend_of(const struct few_look *l, int32_t q0, struct beyond q, struct beyond u, struct beyond v)
+static inline enum few_bend few_bend_of(const struct few *k, int32_t q0, struct beyond q, struct beyond u, struct beyond v)
 {
+    const struct few_look *const l = k->look;
     const uint32_t change = (beyond_range(q) >> 12) + 1u, whole = (uint32_t)q0 >> 12;       /* c = change / whole */
+    if (change * k->across * 4u <= whole)
+        return FEW_STRAIGHT;
     const uint32_t travel = max_u32(beyond_range(u) * l->width, beyond_range(v) * l->height);   /* mesh units */
     const uint32_t texels = min_u32((travel >> l->draw->sampler.uv_shift) + 1u, 1023u);
     if (change > whole >> 3)
         return FEW_CURLED;
-    if (change * (8u * texels) <= whole)        /* c t / 4 */
-        return FEW_STRAIGHT;
     return (change * texels >> 10) * (change >> 4) <= (whole >> 7) * (whole >> 8) ? FEW_BENT : FEW_CURLED;      /* c^2 t at most 1/2 */
 }
 
@@ -186,7 +188,7 @@ static inline bool few_coordinates_make(struct few *k, const struct few_weights 
     const int32_t a = r[0][at], b = r[1][at], c = r[2][at], q0 = r[0][VERTEX_DEPTH];
     struct beyond u = few_beyond((int16_t)(a & 0xffff), (int16_t)(b & 0xffff), (int16_t)(c & 0xffff));
     struct beyond v = few_beyond(a >> 16, b >> 16, c >> 16);
-    const enum few_bend bend = segment_flat_depth(l->segment) ? FEW_STRAIGHT : few_bend_of(l, q0, q, u, v);
+    const enum few_bend bend = segment_flat_depth(l->segment) ? FEW_STRAIGHT : few_bend_of(k, q0, q, u, v);
     k->bent = bend == FEW_BENT;
     if (bend == FEW_CURLED)
         return false;
@@ -496,6 +498,7 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     if (right - left > FEW_PX || bottom - top > FEW_PX)
         return false;
     k.cut = FEW_ROWS_LOOP && right > t->x1;
+    k.across = (uint32_t)max_i32(right - left, bottom - top);
     left = max_i32(left, t->x0);
     right = min_i32(right, t->x1);
     top = max_i32(top, t->y0);
