@@ -10,7 +10,7 @@
 #include "raster/few_draw.h"
 
 #include "geometry/tiny.h"
-#include "kernels/texel_light.h"
+#include "kernels/few_loops.h"
 #include "raster/fog.h"
 #include "raster/span.h"
 
@@ -27,16 +27,6 @@ enum light_kind {
 struct beyond {
     int32_t to1, to2;
 };
-
-/* In the upper word, or the lower one ten bits up. */
-#define FEW_OUTSIDE (1u << 9 | 1u << 30)
-
-static inline bool few_outside(uint64_t edges)
-{
-    if (SMEAR_ON_64)
-        return (edges & (1ull << 20 | 1ull << 41 | 1ull << 62)) != 0;
-    return (((uint32_t)(edges >> 32) | (uint32_t)edges << 10) & FEW_OUTSIDE) != 0;
-}
 
 static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
 {
@@ -288,11 +278,6 @@ static SMEAR_NOINLINE bool few_put(const struct few *k, int32_t at, uint32_t ind
     return true;
 }
 
-static inline void *few_after(void *pixel, int32_t n, enum few_kind kind, bool narrow)
-{
-    return kind == FEW_ANY ? NULL : pixel_after(pixel, n, kind == FEW_NARROW || (kind == FEW_WHITE && narrow));
-}
-
 static inline void few_put_white(void *to, uint32_t pixel, bool narrow)
 {
     if (narrow)
@@ -314,11 +299,8 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
     const bool linear = frame_is_linear(l->frame), narrow = target_is_direct(k->target);
     uint16_t *depth = k->target->depth + at;
     const uint16_t *const end = depth + n;
-    void *pixel = NULL;
-    if (kind == FEW_NARROW || (kind == FEW_WHITE && narrow))
-        pixel = k->target->direct + at;
-    else if (kind != FEW_ANY)
-        pixel = k->target->color + at;
+    const bool halves = kind == FEW_NARROW || (kind == FEW_WHITE && narrow);
+    void *pixel = kind == FEW_ANY ? NULL : halves ? (void *)(k->target->direct + at) : k->target->color + at;
     const int32_t *const step = k->box.right.plane, dz = step[FEW_DEPTH], du = step[FEW_U], dv = step[FEW_V];
     uint32_t z = (uint32_t)few_plane_at(k, FEW_DEPTH, skip, row);
     int32_t u = few_plane_at(k, FEW_U, skip, row), v = few_plane_at(k, FEW_V, skip, row);
@@ -337,15 +319,11 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
                 p.v = (uint32_t)add_wrap(k->v0, sub_wrap(v, mul_wrap(v >> 15, less))) << l->up;
             }
             const uint32_t index = (p.v >> l->from_v & l->mask_v) | p.u >> l->from_u;       /* without turns, of no use */
-            if (kind == FEW_NARROW)
-                *(uint16_t *)pixel = ((const uint16_t *)l->texels)[index];
-            else if (kind == FEW_WIDE)
-                *(uint32_t *)pixel = ((const uint32_t *)l->texels)[index] & 0xffffffu;
-            else if (kind == FEW_LINEAR)
-                *(uint32_t *)pixel = shaded_pixel(((const uint32_t *)l->texels)[index], 0, 0, p.light[2] >> 7, true, true);
-            else if (kind == FEW_WHITE)
+            if (kind == FEW_WHITE)
                 few_put_white(pixel, shaded_pixel(texel_fetch(l->texels, l->draw->sampler.palette, index, l->draw->sampler.format), 0, 0,
-                                              p.light[2] >> 7, true, linear), narrow);
+                                                  p.light[2] >> 7, true, linear), narrow);
+            else
+                few_pixel_draw(pixel, 0, l->texels, index, p.light[2], kind);
             if (kind != FEW_ANY || few_put(k, (int32_t)(depth - k->target->depth), index, &p))
                 *depth = (uint16_t)(z >> 16);
         }
@@ -356,7 +334,8 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
             e = add_wrap(e, step[FEW_BEND]);
         for (int c = first; c < end_light; c++)
             p.light[c] += (uint32_t)step[light_plane(c)];
-        pixel = few_after(pixel, 1, kind, narrow);
+        if (kind != FEW_ANY)
+            pixel = pixel_after(pixel, 1, halves);
     } while (++depth != end);
 }
 
@@ -394,8 +373,7 @@ SMEAR_INLINE void few_rows_of(const struct few *k, enum few_kind kind)
 }
 
 static SMEAR_NOINLINE void few_narrow(const struct few *k) { few_rows_of(k, FEW_NARROW); }
-static SMEAR_NOINLINE void few_wide(const struct few *k) { few_rows(k, FEW_WIDE, false); }
-static SMEAR_NOINLINE void few_wide_bent(const struct few *k) { few_rows(k, FEW_WIDE, true); }
+static SMEAR_NOINLINE void few_wide(const struct few *k) { few_rows_of(k, FEW_WIDE); }
 static SMEAR_NOINLINE void few_linear(const struct few *k) { few_rows_of(k, FEW_LINEAR); }
 static SMEAR_NOINLINE void few_white(const struct few *k) { few_rows_of(k, FEW_WHITE); }
 static SMEAR_NOINLINE void few_any(const struct few *k) { few_rows(k, FEW_ANY, k->bent); }
@@ -404,30 +382,32 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
 {
     const uint32_t depth = (uint32_t)(uintptr_t)t->depth, middle = l->height / 2 * l->width + l->width / 2;
     const bool narrow = l->kind == FEW_NARROW || l->kind == FEW_NARROW_LIT;
+    void *const pixels = narrow ? (void *)t->direct : (void *)t->color;
     l->rows = (struct few_texels){ l->width, l->height, (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u),
-                                   narrow ? (uint32_t)(uintptr_t)t->direct - depth - 2u : (uint32_t)(uintptr_t)t->color - 2u * depth - 4u,
-                                   FEW_OUTSIDE, smear_srgb_decode, smear_srgb_encode };
+                                   (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), FEW_OUTSIDE, smear_srgb_decode,
+                                   smear_srgb_encode, l->texels, t->depth, pixels };
 }
 
-/* Draws the box by the loop of this core, where that is one of its kind. */
-static inline bool few_rows_loop(struct few *k)
+/* Draws the box by a loop of this core, where one has all its kind. */
+static inline bool few_rows_kernel(struct few *k)
 {
     const struct few_look *const l = k->look;
     if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_NARROW_LIT || (l->kind >= FEW_LINEAR && k->light_kind != LIGHT_WHITE))
         return false;
-    const struct smear_raster_target *const t = k->target;
+    const struct smear_plane_rows *const rows = &k->target->window_rows;
+    const int32_t here = min_i32(k->rows, k->fits), others = k->rows - here;
     struct few_box *const r = &k->box;
     r->columns = (uint32_t)k->columns;
-    r->depth = (uint32_t)(uintptr_t)t->depth + (uint32_t)k->at * 2u;
-    r->depth_bytes = (uint32_t)t->window_rows.stride * 2u;
-    r->depth_end = r->depth + (uint32_t)min_i32(k->rows, k->fits) * r->depth_bytes;
-    r->at.plane[FEW_U] = add_wrap(r->at.plane[FEW_U], INT32_MIN);
-    r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], INT32_MIN);
-    few_rows_armv7em(r, &l->rows, l->kind);
-    if (k->rows > k->fits) {
-        r->depth -= (uint32_t)t->window_rows.ring * r->depth_bytes;
-        r->depth_end = r->depth + (uint32_t)(k->rows - k->fits) * r->depth_bytes;
-        few_rows_armv7em(r, &l->rows, l->kind);
+    r->depth = k->target->depth + k->at;
+    r->depth_bytes = (uint32_t)rows->stride * 2u;
+    r->depth_end = r->depth + here * rows->stride;
+    r->at.plane[FEW_U] = add_wrap(r->at.plane[FEW_U], FEW_TURN);
+    r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], FEW_TURN);
+    few_rows_loop(r, &l->rows, l->kind);
+    if (others > 0) {
+        r->depth -= rows->ring * rows->stride;
+        r->depth_end = r->depth + others * rows->stride;
+        few_rows_loop(r, &l->rows, l->kind);
     }
     return true;
 }
@@ -435,14 +415,12 @@ static inline bool few_rows_loop(struct few *k)
 static inline void few_rows_any(struct few *k)
 {
     const enum few_kind kind = k->look->kind;
-    if (few_rows_loop(k))
+    if (few_rows_kernel(k))
         return;
     if (FEW_COPIES && kind == FEW_NARROW)
         few_narrow(k);
-    else if (FEW_COPIES && kind == FEW_WIDE && !k->bent)
-        few_wide(k);
     else if (FEW_COPIES && kind == FEW_WIDE)
-        few_wide_bent(k);
+        few_wide(k);
     else if (FEW_COPIES && (kind == FEW_WHITE || kind == FEW_NARROW_LIT) && k->light_kind == LIGHT_WHITE)
         few_white(k);
     else if (FEW_COPIES && kind == FEW_LINEAR && k->light_kind == LIGHT_WHITE)
