@@ -31,46 +31,55 @@ SMEAR_INLINE void few_rows_lanes(struct few_box *box, const struct few_texels *t
 {
     const smear_v4u right = v4u_load((const uint32_t *)box->right.plane), down = v4u_load((const uint32_t *)box->down.plane);
     const smear_v4u turn = { 0, t->width << 16, t->height << 16, 0 };
-    const uint64_t right_edges = box->right.edges;
-    const uint32_t width = t->width;
+    const uint64_t right_edges = box->right.edges, down_edges = box->down.edges;
+    const uint32_t width = t->width, columns = box->columns;
+    const void *const texels = t->texels;
+    void *const pixels = t->pixels;
+    uint16_t *const depth = t->depth;
     smear_v4u first = v4u_load((const uint32_t *)box->at.plane);
-    for (; box->depth != box->depth_end; box->depth += box->depth_bytes / 2u) {
+    uint64_t first_edges = box->at.edges;
+    size_t row = (size_t)(box->depth - depth);
+    const size_t end = (size_t)(box->depth_end - depth), stride = box->depth_bytes / 2u;
+    for (; row != end; row += stride, first += down, first_edges += down_edges) {
         smear_v4u p = first;
-        uint64_t edges = box->at.edges;
-        uint32_t left = box->columns;
-        first += down;
-        box->at.edges += box->down.edges;
+        uint64_t edges = first_edges;
+        uint32_t left = columns;
         for (; few_outside(edges) && --left != 0; p += right)
             edges += right_edges;
         if (left == 0)
             continue;
-        uint16_t *depth = box->depth + (box->columns - left);
+        size_t i = row + (columns - left);
         do {
             const uint32_t code = ((smear_v8u)p)[2 * FEW_DEPTH + 1];
-            if (code > *depth) {
+            if (code > depth[i]) {
                 const smear_v8u texel = (smear_v8u)v4u_mulh16(p, turn);
-                *depth = (uint16_t)code;
-                const uint32_t index = texel[2 * FEW_V + 1] * width + texel[2 * FEW_U + 1];
-                few_pixel_draw(t->pixels, (size_t)(depth - t->depth), t->texels, index, p[FEW_BLUE], kind);
+                depth[i] = (uint16_t)code;
+                few_pixel_draw(pixels, i, texels, texel[2 * FEW_V + 1] * width + texel[2 * FEW_U + 1], p[FEW_BLUE], kind);
             }
             edges += right_edges;
             p += right;
-            depth++;
+            i++;
         } while (!few_outside(edges));
     }
+    box->at.edges = first_edges;
     v4u_store((uint32_t *)box->at.plane, first);
 }
 
-SMEAR_CALLED void few_rows_loop(struct few_box *box, const struct few_texels *t, enum few_kind kind)
+SMEAR_CALLED void few_rows_narrow(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_NARROW); }
+SMEAR_CALLED void few_rows_wide(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_WIDE); }
+SMEAR_CALLED void few_rows_linear(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_LINEAR); }
+SMEAR_CALLED void few_rows_narrow_lit(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_NARROW_LIT); }
+
+static inline void few_rows_loop(struct few_box *box, const struct few_texels *t, enum few_kind kind)
 {
     if (kind == FEW_NARROW)
-        few_rows_lanes(box, t, FEW_NARROW);
+        few_rows_narrow(box, t);
     else if (kind == FEW_WIDE)
-        few_rows_lanes(box, t, FEW_WIDE);
+        few_rows_wide(box, t);
     else if (kind == FEW_LINEAR)
-        few_rows_lanes(box, t, FEW_LINEAR);
+        few_rows_linear(box, t);
     else
-        few_rows_lanes(box, t, FEW_NARROW_LIT);
+        few_rows_narrow_lit(box, t);
 }
 #endif
 

@@ -24,7 +24,7 @@ struct few_box {
     uint32_t columns;                       /* the pixel behind them is outside */
     uint16_t *depth;                        /* of a row's first pixel */
     uint32_t depth_bytes;                   /* from row to row */
-    const uint16_t *depth_end;
+    uint16_t *depth_end;
 };
 
 /* What triangles of a segment have in common. */
@@ -36,7 +36,7 @@ struct few_texels {
     const uint16_t *decode;
     const uint8_t *encode;
     const void *texels;
-    const uint16_t *depth;          /* of the first pixel, and what is drawn there */
+    uint16_t *depth;                /* of the first pixel, and what is drawn there */
     void *pixels;
 };
 

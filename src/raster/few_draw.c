@@ -30,7 +30,10 @@ struct beyond {
 
 static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
 {
-    return (uint64_t)(int64_t)e0 + ((uint64_t)(int64_t)e1 << 21) + ((uint64_t)(int64_t)e2 << 42);
+    if (SMEAR_ON_64)
+        return (uint64_t)(int64_t)e0 + ((uint64_t)(int64_t)e1 << 21) + ((uint64_t)(int64_t)e2 << 42);
+    const uint32_t high = (uint32_t)(e1 >> 11) + ((uint32_t)e2 << 10);
+    return (uint64_t)(int64_t)e0 + ((uint64_t)high << 32 | (uint32_t)e1 << 21);
 }
 
 struct few {
@@ -127,28 +130,15 @@ static SMEAR_RARE bool few_is_empty(const struct few *k)
 
 /* ------------------------------------------------------------------ planes */
 
-/* floor(a g / 2^15), for |a| <= 2^28 and |g| <= 2^17. */
-static inline int32_t part_q15(int32_t a, int32_t g)
-{
-    return SMEAR_HAS_MUL64 ? mul_shift(a, g, 15) : ((a >> 14) * g + ((a & 0x3fff) * g >> 14)) >> 1;
-}
-
-/* floor(a c / 2^8), modulo 2^32, for c < 2^15. */
-static inline int32_t part_q8(int32_t a, int32_t c)
-{
-    return SMEAR_HAS_MUL64 ? mul_shift(a, c, 8) : add_wrap(mul_wrap(a >> 8, c), (a & 255) * c >> 8);
-}
-
 /* False where codes lie on both sides of their break. */
-static inline bool few_depth_make(struct few *k, const struct few_weights *w, int32_t q0, struct beyond q, int32_t cx, int32_t cy)
+static inline bool few_depth_make(struct few *k, const struct few_weights *w, int32_t q0, struct beyond q)
 {
     const int32_t low = q0 + min_i32(min_i32(q.to1, q.to2), 0), high = q0 + max_i32(max_i32(q.to1, q.to2), 0);
     const bool far = high < SLOPE_BREAK - 65536, near = low >= SLOPE_BREAK + 65536;     /* slopes are rounded */
-    const int32_t right = add_wrap(part_q15(q.to1, w->right1), part_q15(q.to2, w->right2));
-    const int32_t down = add_wrap(part_q15(q.to1, w->down1), part_q15(q.to2, w->down2));
-    const int32_t units = add_wrap(q0, add_wrap(part_q8(right, cx), part_q8(down, cy)));
-    const enum depth_slope slope = far ? SLOPE_FAR : SLOPE_NEAR;
-    few_plane_set(k, FEW_DEPTH, (int32_t)code_from_units(units, slope), step_from_units(right, slope), step_from_units(down, slope));
+    const int down = far ? 10 : 14, half = 1 << (down - 1);     /* to codes q1 */
+    const struct beyond codes = { (q.to1 + half) >> down, (q.to2 + half) >> down };
+    few_plane_set(k, FEW_DEPTH, add_wrap((int32_t)code_from_units(q0, far ? SLOPE_FAR : SLOPE_NEAR), weigh(codes, w->at1, w->at2)),
+                  weigh(codes, w->right1, w->right2), weigh(codes, w->down1, w->down2));
     return far || near;
 }
 
@@ -204,8 +194,7 @@ static inline bool few_coordinates_make(struct few *k, const struct few_weights 
 
 static inline bool is_white(const int32_t *color)
 {
-    const uint32_t word = (uint32_t)color[0];
-    return (word & 0xffffu) == word >> 16 && (word & 0xffffu) == ((uint32_t)color[1] & 0xffffu);
+    return (uint32_t)color[0] == ((uint32_t)color[1] & 0xffffu) * 0x10001u;
 }
 
 static void few_flat_light(struct few *k, uint32_t color, bool linear)
@@ -405,7 +394,7 @@ static inline bool few_rows_kernel(struct few *k)
     r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], FEW_TURN);
     few_rows_loop(r, &l->rows, l->kind);
     if (others > 0) {
-        r->depth -= rows->ring * rows->stride;
+        r->depth = r->depth_end - rows->ring * rows->stride;
         r->depth_end = r->depth + others * rows->stride;
         few_rows_loop(r, &l->rows, l->kind);
     }
@@ -500,7 +489,7 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     k.rows = bottom - top;
     if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy))
         return few_is_empty(&k);
-    if (!few_depth_make(&k, &w, q0, q, cx, cy) || !few_coordinates_make(&k, &w, v, q))
+    if (!few_depth_make(&k, &w, q0, q) || !few_coordinates_make(&k, &w, v, q))
         return false;
     if (segment_gouraud(l->segment)) {
         if (!few_light_make(&k, &w, v, q))
