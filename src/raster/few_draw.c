@@ -47,7 +47,6 @@ struct few {
     int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
     bool bent;
     enum light_kind light_kind;     /* white: planes of red and green are not set */
-    bool cut;                       /* columns on the right are beside the target */
 };
 
 /* The weights of v[1] and v[2], q15: at the box's first pixel, and their slopes. */
@@ -116,12 +115,12 @@ static inline bool few_weights_make(struct few_weights *w, int32_t x1, int32_t y
 }
 
 /* Whether a sliver has no pixel, as most have none. */
-static SMEAR_RARE bool few_is_empty(const struct few *k)
+static SMEAR_RARE bool few_is_empty(const struct few_box *box, int32_t columns, int32_t rows)
 {
-    uint64_t first = k->box.at.edges;
-    for (int32_t y = 0; y != k->rows; y++, first += k->box.down.edges) {
+    uint64_t first = box->at.edges;
+    for (int32_t y = 0; y != rows; y++, first += box->down.edges) {
         uint64_t edges = first;
-        for (int32_t x = 0; x != k->columns; x++, edges += k->box.right.edges)
+        for (int32_t x = 0; x != columns; x++, edges += box->right.edges)
             if (!few_outside(edges))
                 return false;
     }
@@ -377,35 +376,25 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
                                    smear_srgb_encode, l->texels, t->depth, pixels };
 }
 
-/* Draws the box by a loop of this core, where one has all its kind. */
-static inline bool few_rows_kernel(struct few *k)
+/* Draws the box by a loop of this core. */
+static inline void few_rows_kernel(struct few_box *r, const struct few_look *l, const struct smear_plane_rows *rows, int32_t n,
+                                   int32_t fits)
 {
-    const struct few_look *const l = k->look;
-    if (!FEW_ROWS_LOOP || k->bent || k->cut || l->kind > FEW_NARROW_LIT || (l->kind >= FEW_LINEAR && k->light_kind != LIGHT_WHITE))
-        return false;
-    const struct smear_plane_rows *const rows = &k->target->window_rows;
-    const int32_t here = min_i32(k->rows, k->fits), others = k->rows - here;
-    struct few_box *const r = &k->box;
-    r->columns = (uint32_t)k->columns;
-    r->depth = k->target->depth + k->at;
+    r->depth_end = r->depth + min_i32(n, fits) * rows->stride;
     r->depth_bytes = (uint32_t)rows->stride * 2u;
-    r->depth_end = r->depth + here * rows->stride;
     r->at.plane[FEW_U] = add_wrap(r->at.plane[FEW_U], FEW_TURN);
     r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], FEW_TURN);
     few_rows_loop(r, &l->rows, l->kind);
-    if (others > 0) {
+    if (n > fits) {
         r->depth = r->depth_end - rows->ring * rows->stride;
-        r->depth_end = r->depth + others * rows->stride;
+        r->depth_end = r->depth + (n - fits) * rows->stride;
         few_rows_loop(r, &l->rows, l->kind);
     }
-    return true;
 }
 
-static inline void few_rows_any(struct few *k)
+static inline void few_rows_any(const struct few *k)
 {
     const enum few_kind kind = k->look->kind;
-    if (few_rows_kernel(k))
-        return;
     if (FEW_COPIES && kind == FEW_NARROW)
         few_narrow(k);
     else if (FEW_COPIES && kind == FEW_WIDE)
@@ -464,7 +453,7 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     struct few k;
     if (right - left > FEW_PX || bottom - top > FEW_PX)
         return false;
-    k.cut = FEW_ROWS_LOOP && right > t->x1;
+    const bool cut = right > t->x1;
     k.across = (uint32_t)max_i32(right - left, bottom - top);
     left = max_i32(left, t->x0);
     right = min_i32(right, t->x1);
@@ -476,8 +465,6 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     const struct beyond q = few_beyond(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]);
     struct few_weights w;
     k.look = l;
-    k.target = t;
-    k.setup = setup;
     k.light_kind = LIGHT_NONE;
     const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
     const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
@@ -485,10 +472,8 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     k.box.at.edges = few_edges_word(e0 >> 8, e1 >> 8, e2 >> 8);
     k.box.right.edges = few_edges_word(y1 - y2, y2, -y1);
     k.box.down.edges = few_edges_word(x2 - x1, -x2, x1);
-    k.columns = right - left;
-    k.rows = bottom - top;
     if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy))
-        return few_is_empty(&k);
+        return few_is_empty(&k.box, right - left, bottom - top);
     if (!few_depth_make(&k, &w, q0, q) || !few_coordinates_make(&k, &w, v, q))
         return false;
     if (segment_gouraud(l->segment)) {
@@ -500,8 +485,19 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     const struct smear_plane_rows *const rows = &t->window_rows;
     int32_t ring_row = rows->ring_row + (top - t->y0);
     ring_row -= ring_row >= rows->ring ? rows->ring : 0;
-    k.at = ring_row * rows->stride - rows->x0 + left;
-    k.fits = rows->ring - ring_row;
+    const int32_t at = ring_row * rows->stride - rows->x0 + left, fits = rows->ring - ring_row;
+    if (FEW_ROWS_LOOP && !k.bent && !cut && l->kind <= (k.light_kind == LIGHT_WHITE ? FEW_NARROW_LIT : FEW_WIDE)) {
+        k.box.columns = (uint32_t)(right - left);
+        k.box.depth = t->depth + at;
+        few_rows_kernel(&k.box, l, rows, bottom - top, fits);
+        return true;
+    }
+    k.target = t;
+    k.setup = setup;
+    k.columns = right - left;
+    k.rows = bottom - top;
+    k.at = at;
+    k.fits = fits;
     few_rows_any(&k);
     return true;
 }
