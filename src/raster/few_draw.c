@@ -5,8 +5,9 @@
  * for so few pixels. What changes by d1 and d2 to these vertices has the slopes d1 g1 + d2 g2. All planes count in 32 bits that wrap,
  * from v[0] on: where a triangle is cut makes no difference.
  *
- * Perspective: where 1/w changes by a part c of that at v[0], planes put what lies within n pixels c n / 4 pixels off at most. Up to 1/16
- * they do; else they are divided by 1/w, which is a plane, too. Light is off by half a code at most, a quarter of its range times c. */
+ * Perspective: where 1/w changes by a part c of that at v[0], planes put what lies within n pixels c n / 4 pixels off at most, and t texels
+ * c t / 4. Up to 1/16 of either they do; else they are divided by 1/w, which is a plane, too. Light is off by half a code at most, a
+ * quarter of its range times c. */
 #include "raster/few_draw.h"
 
 #include "geometry/tiny.h"
@@ -155,6 +156,8 @@ static inline enum few_bend few_bend_of(const struct few *k, int32_t q0, struct 
         return FEW_STRAIGHT;
     const uint32_t travel = max_u32(beyond_range(u) * l->width, beyond_range(v) * l->height);   /* mesh units */
     const uint32_t texels = min_u32((travel >> l->draw->sampler.uv_shift) + 1u, 1023u);
+    if (change * (4u * texels) <= whole)        /* c t / 4 */
+        return FEW_STRAIGHT;
     if (change > whole >> 3)
         return FEW_CURLED;
     return (change * texels >> 10) * (change >> 4) <= (whole >> 7) * (whole >> 8) ? FEW_BENT : FEW_CURLED;      /* c^2 t at most 1/2 */
