@@ -27,6 +27,7 @@ static inline int32_t shl_wrap(int32_t a, int shift) { return (int32_t)((uint32_
 int32_t mulh_i32(int32_t a, int32_t b);
 uint32_t mulh_u32(uint32_t a, uint32_t b);
 int32_t scale_sat(int32_t a, int shift);
+int32_t narrow_sat(int64_t a);
 #else
 /* Returns the high word of the signed product: floor(a b / 2^32). */
 SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
@@ -51,6 +52,11 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
     int32_t limit = INT32_MAX >> shift;
     return a > limit ? INT32_MAX : a < -limit ? -INT32_MAX : shl_wrap(a, shift);
 }
+
+SMEAR_SHARED int32_t narrow_sat(int64_t a)
+{
+    return a > INT32_MAX ? INT32_MAX : a < -INT32_MAX ? -INT32_MAX : (int32_t)a;
+}
 #endif
 
 /* Returns floor(a b / 2^shift) for shift in 1 .. 31, modulo 2^32. */
@@ -63,10 +69,5 @@ static inline int32_t mul_shift(int32_t a, int32_t b, int shift)
 
 /* Returns |a|, also for the least number. */
 static inline uint64_t magnitude(int64_t a) { return a < 0 ? 0u - (uint64_t)a : (uint64_t)a; }
-
-static inline int32_t narrow_sat(int64_t a)
-{
-    return a > INT32_MAX ? INT32_MAX : a < -INT32_MAX ? -INT32_MAX : (int32_t)a;
-}
 
 #endif

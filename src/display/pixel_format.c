@@ -44,44 +44,30 @@ uint32_t smear_format_size(int32_t width, int32_t rows, smear_format format)
     return smear_format_stride(width, format) * lines;
 }
 
-/* Returns the threshold at a pixel, 0 .. 255, in 1/256 of a level. */
-static inline uint32_t threshold_at(int32_t x, int32_t y, smear_dither dither)
-{
-    return !HAS_BLUE || dither == SMEAR_DITHER_ORDERED
-             ? smear_dither_ordered[(y & 7) << 3 | (x & 7)]
-             : smear_dither_blue[(y & 31) << 5 | (x & 31)];
-}
-
-static inline bool is_dithered(smear_dither dither)
-{
-    return SMEAR_WITH_DITHER && dither != SMEAR_DITHER_NONE;
-}
-
-static void rgb_levels(uint32_t p, int32_t x, int32_t y, smear_dither dither, uint32_t out[3],
-                       const uint32_t levels[3])
-{
-    const uint32_t code[3] = { pixel_red(p), pixel_green(p), pixel_blue(p) };
-    uint32_t t = is_dithered(dither) ? threshold_at(x, y, dither) : 0;
-    for (int i = 0; i < 3; i++)
-        out[i] = is_dithered(dither) ? level_dithered(code[i], levels[i], t)
-                                     : level_nearest(code[i], levels[i]);
-}
-
 void smear_format_swap(uint16_t *pixels, int32_t n)
 {
     for (; n > 0; n--, pixels++)
         *pixels = (uint16_t)(*pixels >> 8 | *pixels << 8);
 }
 
-/* Returns the thresholds of row y in 1/256 of a level: column x has threshold[x & mask]. */
-static inline const uint8_t *thresholds_of(int32_t y, smear_dither dither, int32_t *mask)
+/* A row of thresholds, in 1/256 of a level: column x has value[x & mask]; null where levels are the nearest. */
+struct thresholds {
+    const uint8_t *value;
+    int32_t mask;
+};
+
+static inline struct thresholds thresholds_of(int32_t y, smear_dither dither)
 {
-    if (HAS_BLUE && dither == SMEAR_DITHER_BLUE) {
-        *mask = 31;
-        return smear_dither_blue + ((y & 31) << 5);
-    }
-    *mask = 7;
-    return smear_dither_ordered + ((y & 7) << 3);
+    if (!SMEAR_WITH_DITHER || dither == SMEAR_DITHER_NONE)
+        return (struct thresholds){ NULL, 7 };
+    if (HAS_BLUE && dither == SMEAR_DITHER_BLUE)
+        return (struct thresholds){ smear_dither_blue + ((y & 31) << 5), 31 };
+    return (struct thresholds){ smear_dither_ordered + ((y & 7) << 3), 7 };
+}
+
+static inline uint32_t level_at(uint32_t code, uint32_t levels, int32_t x, const struct thresholds *t)
+{
+    return SMEAR_WITH_DITHER && t->value != NULL ? level_dithered(code, levels, t->value[x & t->mask]) : level_nearest(code, levels);
 }
 
 static inline enum row_16bit layout_of(smear_format format)
@@ -95,42 +81,19 @@ static inline bool format_is_16bit(smear_format format)
         || (SMEAR_WITH_RGB && format == SMEAR_RGB555);
 }
 
-static void row_rgb16(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_format format,
-                      smear_dither dither)
+static void row_rgb16(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, enum row_16bit layout, const struct thresholds *t)
 {
-    const enum row_16bit layout = layout_of(format);
-    if (!is_dithered(dither)) {
+    if (SMEAR_WITH_DITHER && t->value != NULL)
+        row_dithered(out, in, n, x, t->value, t->mask, layout);
+    else
         row_nearest(out, in, n, layout);
-        return;
-    }
-    int32_t mask;
-    const uint8_t *threshold = thresholds_of(y, dither, &mask);
-    row_dithered(out, in, n, x, threshold, mask, layout);
 }
 
-static void row_l4(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
+static void row_rgb332(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, const struct thresholds *t)
 {
-    int32_t mask;
-    const uint8_t *threshold = thresholds_of(y, dither, &mask);
-    if (!is_dithered(dither))
-        threshold = NULL;
-    row_l4_from_eights(row, in, n, x, threshold, mask);
-}
-
-static uint32_t grey_level(uint32_t p, int32_t x, int32_t y, uint32_t levels, smear_dither dither)
-{
-    return is_dithered(dither) ? level_dithered(pixel_luma(p), levels, threshold_at(x, y, dither))
-                               : level_nearest(pixel_luma(p), levels);
-}
-
-static void row_rgb332(uint8_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
-{
-    static const uint32_t levels[3] = { 7, 7, 3 };
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t c[3];
-        rgb_levels(in[i], x + i, y, dither, c, levels);
-        out[i] = (uint8_t)(c[0] << 5 | c[1] << 2 | c[2]);
-    }
+    for (; n > 0; n--, in++, x++)
+        *out++ = (uint8_t)(level_at(pixel_red(*in), 7, x, t) << 5 | level_at(pixel_green(*in), 7, x, t) << 2
+                           | level_at(pixel_blue(*in), 3, x, t));
 }
 
 static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
@@ -139,43 +102,36 @@ static void row_l8(uint8_t *out, const uint32_t *in, int32_t n)
         out[i] = (uint8_t)pixel_luma(in[i]);
 }
 
-static void row_l1(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int32_t y, smear_dither dither)
+/* Sets bits where pixels are white: eight columns share a byte, which is cleared before, or each has its own, whose bit is `page`. */
+static void row_bits(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, int page, const struct thresholds *t)
 {
-    for (int32_t i = 0; i < n; i++) {
-        uint8_t *byte = row + (x + i) / 8;
-        if (((x + i) & 7) == 0)
+    for (const int32_t end = x + n; x < end; x++, in++) {
+        uint8_t *byte = row + (page < 0 ? x >> 3 : x);
+        if (page < 0 && (x & 7) == 0)
             *byte = 0;
-        if (grey_level(in[i], x + i, y, 1, dither) != 0)
-            *byte = (uint8_t)(*byte | 0x80 >> ((x + i) & 7));
+        *byte = (uint8_t)(*byte | level_at(pixel_luma(*in), 1, x, t) << (page < 0 ? 7 - (x & 7) : page));
     }
-}
-
-static void row_page(uint8_t *page, const uint32_t *in, int32_t n, int32_t x, int32_t y, int bit,
-                     smear_dither dither)
-{
-    for (int32_t i = 0; i < n; i++)
-        if (grey_level(in[i], x + i, y, 1, dither) != 0)
-            page[x + i] = (uint8_t)(page[x + i] | 1 << bit);
 }
 
 void smear_format_row(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t n, int32_t x, int32_t y,
                       int32_t y0, smear_format format, smear_dither dither)
 {
+    const struct thresholds t = thresholds_of(y, dither);
     uint8_t *row = band + (uint32_t)(y - y0) * stride;
     if (SMEAR_WITH_RGB && format == SMEAR_XRGB8888)
         row_xrgb8888((uint32_t *)(void *)row + x, in, n);
     else if (format_is_16bit(format))
-        row_rgb16((uint16_t *)(void *)row + x, in, n, x, y, format, dither);
+        row_rgb16((uint16_t *)(void *)row + x, in, n, x, layout_of(format), &t);
     else if (SMEAR_WITH_RGB && format == SMEAR_RGB332)
-        row_rgb332(row + x, in, n, x, y, dither);
+        row_rgb332(row + x, in, n, x, &t);
     else if (SMEAR_WITH_GREY && format == SMEAR_L8)
         row_l8(row + x, in, n);
     else if (SMEAR_WITH_GREY && format == SMEAR_L4)
-        row_l4(row, in, n, x, y, dither);
+        row_l4_from_eights(row, in, n, x, t.value, t.mask);
     else if (SMEAR_WITH_GREY && format == SMEAR_L1)
-        row_l1(row, in, n, x, y, dither);
+        row_bits(row, in, n, x, -1, &t);
     else if (SMEAR_WITH_GREY && format == SMEAR_L1_PAGES)
-        row_page(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, y, (y - y0) & 7, dither);
+        row_bits(band + (uint32_t)((y - y0) / 8) * stride, in, n, x, (y - y0) & 7, &t);
 }
 
 bool smear_format_rows(uint8_t *band, uint32_t stride, const uint32_t *in, int32_t in_stride, int32_t rows, int32_t n, int32_t x,

@@ -101,10 +101,6 @@ static struct vector stretch(struct vector v, int32_t length, int32_t speed)
 static void direction_make(struct direction *d, const struct gathering *g,
                            const struct smear_tile_neighborhood *around)
 {
-    static const uint16_t inverse[33] = {       /* 2^12 / pairs */
-        0, 4096, 2048, 1365, 1024, 819, 683, 585, 512, 455, 410, 372, 341, 315, 293, 273, 256, 241,
-        228, 216, 205, 195, 186, 178, 171, 164, 158, 152, 146, 141, 137, 132, 128
-    };
     d->v = (struct vector){ around->x, around->y };
     d->length = length_of(around->x, around->y);
     /* All taps lie in the table of rows: the reach is passed by less than the half pixel from a centre to the
@@ -115,7 +111,7 @@ static void direction_make(struct direction *d, const struct gathering *g,
     if (around->x * around->x + around->y * around->y < pairs * pairs << 18)
         pairs--;
     d->pairs = min_i32(g->wanted, pairs);
-    d->spacing = inverse[d->pairs];
+    d->spacing = d->pairs != 0 ? (4096 + (d->pairs >> 1)) / d->pairs : 0;
     d->center = (g->box ? 2048u : 2458u) * (uint32_t)d->spacing >> 12;
 }
 
@@ -140,8 +136,8 @@ static struct vector second_direction(struct vector own, int32_t speed, const st
     return stretch(mixed, top->length, max_i32(length_of(mixed.x, mixed.y), 32));
 }
 
-static SMEAR_NOINLINE void own_motion_make(struct gathering *g, const struct direction *around, uint32_t at,
-                                           uint32_t word)
+static SMEAR_RARE void own_motion_make(struct gathering *g, const struct direction *around, uint32_t at,
+                                       uint32_t word)
 {
     struct own_motion *m = &g->motion;
     struct smear_pixel_velocity v = window_velocity(g->w, at);
@@ -168,7 +164,7 @@ static inline uint32_t part_of(uint32_t units, uint32_t share_q20)
 
 /* Finds where taps are fully in front: 5 % nearer, z_q = 0.95 z_p; and likewise behind. For a perspective, units are 1 / z; for an
  * orthographic view, z is far_units - units. */
-static SMEAR_NOINLINE void own_depth_make(struct gathering *g, uint16_t code)
+static SMEAR_RARE void own_depth_make(struct gathering *g, uint16_t code)
 {
     struct own_depth *d = &g->depth;
     const uint32_t units = smear_depth_units(code);
@@ -236,7 +232,7 @@ static inline uint32_t weight_of(uint32_t inverse, uint32_t shape, int32_t cover
     return ((inverse >> 6) * shape >> 10) * (uint32_t)min_i32(cover, 256) >> 12;
 }
 
-static SMEAR_NOINLINE void front_speed_update(struct gathering *g, uint32_t at, uint32_t word)
+static SMEAR_RARE void front_speed_update(struct gathering *g, uint32_t at, uint32_t word)
 {
     g->front_word = word;
     g->front_speed = speed_of(window_velocity(g->w, at));
@@ -244,8 +240,8 @@ static SMEAR_NOINLINE void front_speed_update(struct gathering *g, uint32_t at, 
 
 /* Returns the weight of a tap that is in front, at least in part: its own speed decides, and raises the
  * background's. */
-static SMEAR_NOINLINE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
-                                            int32_t distance)
+static SMEAR_RARE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
+                                        int32_t distance)
 {
     int32_t speed = g->front_speed;
     uint32_t front = front_share(g, code);

@@ -43,25 +43,22 @@ static uint32_t find_ratios(const struct setup *s, int32_t *low, int32_t *high)
     return size;
 }
 
-/* Displacement close - open (or now - before) of vertex i, q8. */
-static void find_displacement(const struct setup *s, int i, int32_t *dx, int32_t *dy)
-{
-    *dx = *dy = 0;
-    for (int pose = 0; pose < s->poses; pose++) {
-        const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
-        int32_t sign = pose == 0 ? -1 : 1;
-        *dx += sign * over_ratio(m[MOTION_DX], m[MOTION_RATIO]);
-        *dy += sign * over_ratio(m[MOTION_DY], m[MOTION_RATIO]);
-    }
-}
-
-/* Finds them per vertex. Returns the longest, |dx| + |dy|. */
-static uint32_t find_displacements(const struct setup *s, int32_t dx[3], int32_t dy[3])
+/* Finds the displacement close - open (or now - before) of each vertex, q8. Returns the longest, |dx| + |dy|. */
+static uint32_t find_displacements(const struct setup *s, int32_t d[2][3])
 {
     uint32_t longest = 0;
     for (int i = 0; i < 3; i++) {
-        find_displacement(s, i, &dx[i], &dy[i]);
-        longest = max_u32(longest, magnitude_i32(dx[i]) + magnitude_i32(dy[i]));
+        uint32_t length = 0;
+        for (int axis = 0; axis < 2; axis++) {
+            const int32_t *m = s->v[i] + s->segment->motion;
+            d[axis][i] = 0;
+            for (int pose = 0; pose < s->poses; pose++, m += MOTION_WORDS) {
+                const int32_t part = over_ratio(m[MOTION_DX + axis], m[MOTION_RATIO]);
+                d[axis][i] += pose == 0 ? -part : part;
+            }
+            length += magnitude_i32(d[axis][i]);
+        }
+        longest = max_u32(longest, length);
     }
     return longest;
 }
@@ -75,29 +72,28 @@ static void setup_poses(struct setup *s, uint32_t largest)
     while (largest >> down > 0xffff)
         down++;
     for (int pose = 0; pose < s->poses; pose++) {
-        int32_t x[3], y[3], r[3];
-        for (int i = 0; i < 3; i++) {
-            const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
-            int32_t ratio = m[MOTION_RATIO] >> down;
-            x[i] = place_term(s->v[i][VERTEX_X] - s->v[0][VERTEX_X], ratio, m[MOTION_DX], down);
-            y[i] = place_term(s->v[i][VERTEX_Y] - s->v[0][VERTEX_Y], ratio, m[MOTION_DY], down);
-            r[i] = ratio * 8192;                                /* 29 bits */
+        for (int axis = 0; axis <= 2; axis++) {
+            int32_t value[3];
+            for (int i = 0; i < 3; i++) {
+                const int32_t *m = s->v[i] + s->segment->motion + pose * MOTION_WORDS;
+                const int32_t ratio = m[MOTION_RATIO] >> down;
+                value[i] = axis == 2 ? ratio * 8192             /* 29 bits */
+                                     : place_term(s->v[i][VERTEX_X + axis] - s->v[0][VERTEX_X + axis], ratio, m[MOTION_DX + axis], down);
+            }
+            smear_plane_make(s, axis == 2 ? &s->ratio[pose] : &s->place[pose][axis], value[0], value[1], value[2]);
         }
-        smear_plane_make(s, &s->px[pose], x[0], x[1], x[2]);
-        smear_plane_make(s, &s->py[pose], y[0], y[1], y[2]);
-        smear_plane_make(s, &s->ratio[pose], r[0], r[1], r[2]);
     }
 }
 
 void smear_setup_velocity(struct setup *s)
 {
-    int32_t low, high, dx[3] = { 0, 0, 0 }, dy[3] = { 0, 0, 0 };
+    int32_t low, high, d[2][3];
     s->poses = s->segment->moves;
     if (s->poses == 0)
         return;
     const uint32_t size = find_ratios(s, &low, &high);
     const bool in_front = low > 1 << 10;
-    const uint32_t longest = in_front ? find_displacements(s, dx, dy) : 0;
+    const uint32_t longest = in_front ? find_displacements(s, d) : 0;
     /* Interpolating displacements on the screen is off by at most (size + displacement) x change / 4. */
     s->velocity_affine = in_front
                       && smear_times_over(size + longest, (uint32_t)(high - low), (uint32_t)low) >> 2 <= 8;   /* 1/32 px */
@@ -106,12 +102,11 @@ void smear_setup_velocity(struct setup *s)
         return;
     }
     const int32_t limit = (1 << 20) - 1;
-    for (int i = 0; i < 3; i++) {
-        dx[i] = clamp_i32(dx[i], -limit, limit) * 1024;
-        dy[i] = clamp_i32(dy[i], -limit, limit) * 1024;
+    for (int axis = 0; axis < 2; axis++) {
+        for (int i = 0; i < 3; i++)
+            d[axis][i] = clamp_i32(d[axis][i], -limit, limit) * 1024;
+        smear_plane_make(s, &s->displacement[axis], d[axis][0], d[axis][1], d[axis][2]);
     }
-    smear_plane_make(s, &s->vx, dx[0], dx[1], dx[2]);
-    smear_plane_make(s, &s->vy, dy[0], dy[1], dy[2]);
 }
 
 /* How far a pixel's point is displaced in a pose, q8: its place there less its place here, (n - d X) / d of
@@ -125,7 +120,7 @@ static void pose_displacement(const struct setup *s, int pose, int32_t x, int32_
     int32_t r = (int32_t)recip_norm(d << zeros);
     const int32_t here[2] = { x * 256 + 128 - s->v[0][VERTEX_X], y * 256 + 128 - s->v[0][VERTEX_Y] };
     for (int i = 0; i < 2; i++) {
-        int32_t n = plane_at(i == 0 ? &s->px[pose] : &s->py[pose], x, y);
+        int32_t n = plane_at(&s->place[pose][i], x, y);
         n = narrow_sat((int64_t)n - mul_shift(ratio, here[i], 20));      /* 32 and 20 bits */
         /* n r / 2^32 = n / d 2^(29 - zeros), and q8 is 2^20 n / d. */
         out[i] = scale_sat(mulh_i32(n, r), zeros - 9);
@@ -145,19 +140,18 @@ static void shorten(int32_t v[2], int bits)
 static void displacement_between(const struct setup *s, int32_t x, int32_t y, int32_t out[2])
 {
     if (s->velocity_affine) {
-        out[0] = (plane_at(&s->vx, x, y) + 512) >> 10;
-        out[1] = (plane_at(&s->vy, x, y) + 512) >> 10;
+        for (int i = 0; i < 2; i++)
+            out[i] = (plane_at(&s->displacement[i], x, y) + 512) >> 10;
         return;
     }
-    int32_t open[2], close[2] = { 0, 0 };
-    pose_displacement(s, 0, x, y, open);
-    shorten(open, 29);
-    if (s->poses == 2) {
-        pose_displacement(s, 1, x, y, close);
-        shorten(close, 29);
+    out[0] = out[1] = 0;
+    for (int pose = 0; pose < s->poses; pose++) {
+        int32_t d[2];
+        pose_displacement(s, pose, x, y, d);
+        shorten(d, 29);
+        for (int i = 0; i < 2; i++)
+            out[i] += pose == 0 ? -d[i] : d[i];
     }
-    out[0] = close[0] - open[0];
-    out[1] = close[1] - open[1];
     shorten(out, 22);
 }
 
@@ -241,7 +235,6 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
     }
     span_mark_tiles(t, p);
     /* Exact at multiples of 8 and at the span's ends; linear between. */
-    static const int32_t inverse[9] = { 0, 65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192 };
     int32_t x = p->a, at = p->at;
     int32_t here[2], next[2], stored[2], stored_next[2];
     displacement_between(s, x, p->y, here);
@@ -252,11 +245,12 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
         if (n > 0) {
             displacement_between(s, end, p->y, next);
             stored_velocity(s, next, stored_next);
+            const int32_t inverse = n == 8 ? 8192 : 65536 / n;
             for (int i = 0; i < 2; i++) {
                 int32_t change = stored_next[i] - stored[i];
-                step[i] = n == 8 ? (change + 4) >> 3 : (mul_shift(change, inverse[n], 15) + 1) >> 1;
+                step[i] = n == 8 ? (change + 4) >> 3 : (mul_shift(change, inverse, 15) + 1) >> 1;
                 if (target_is_inspected(t))
-                    wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse[n] >> 10);
+                    wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse >> 10);
             }
         }
         int32_t stop = min_i32(n > 0 ? end : x + 1, p->b);

@@ -5,14 +5,21 @@
 #include "base/fixmath.h"
 #include "base/pixel.h"
 
-static int32_t dot_q(const int32_t a[3], const int32_t b[3], int shift)
+static SMEAR_PRODUCT_CALL int64_t dot(const int32_t a[3], const int32_t b[3])
 {
-    return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> shift);
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
-static uint64_t square_sum(int32_t a, int32_t b, int32_t c)
+/* Finds a vector at right angles to two others, and returns the bits that any of its magnitudes has. */
+static SMEAR_PRODUCT_CALL uint64_t cross_product(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
-    return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b) + (uint64_t)((int64_t)c * c);
+    uint64_t bits = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        out[i] = (int64_t)a[j] * b[k] - (int64_t)a[k] * b[j];
+        bits |= magnitude(out[i]);
+    }
+    return bits;
 }
 
 /* Returns floor(sqrt(x)), exactly, of 33 to 48 bits: as sqrt_floor_64, in half of the precision. Normals have so many. */
@@ -49,10 +56,12 @@ static SMEAR_RARE uint32_t length_from(uint64_t square)
     return SMEAR_LIGHT_IS_DEAR ? length_of_any(square) : sqrt_floor_64(square);
 }
 
-/* Returns by how much to shift right for `largest` to have that many bits; negative: left. */
-static int shift_to(uint64_t largest, int bits)
+/* Shifts numbers so that the largest, whose magnitude has the highest bit of `largest`, has that many bits. */
+static void shift_to(int32_t *out, const int64_t *in, int count, uint64_t largest, int bits)
 {
-    return 64 - count_leading_zeros_64(largest) - bits;
+    const int shift = 64 - count_leading_zeros_64(largest | 1) - bits;
+    for (int i = 0; i < count; i++)
+        out[i] = (int32_t)(shift >= 0 ? in[i] >> shift : (int64_t)((uint64_t)in[i] << -shift));
 }
 
 void smear_sun_make(struct smear_sun *sun, const smear_light *light)
@@ -80,17 +89,11 @@ void smear_sun_make(struct smear_sun *sun, const smear_light *light)
 }
 
 /* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
-static bool keeps_lengths(int32_t m[3][3])
+static bool keeps_lengths(int32_t column[3][3], int64_t length)
 {
-    int64_t length = 0;
-    for (int i = 0; i < 3; i++)
-        length += (int64_t)m[i][0] * m[i][0];
     for (int j = 0; j < 3; j++)
         for (int k = j; k < 3; k++) {
-            int64_t dot = 0;
-            for (int i = 0; i < 3; i++)
-                dot += (int64_t)m[i][j] * m[i][k];
-            int64_t off = j == k ? dot - length : dot;
+            const int64_t off = dot(column[j], column[k]) - (j == k ? length : 0);
             if (off > length >> 8 || off < -(length >> 8))
                 return false;
         }
@@ -102,27 +105,19 @@ static bool keeps_lengths(int32_t m[3][3])
 static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 {
     int32_t b[9];
-    int64_t cofactor[9];
-    uint32_t largest = 1;
-    uint64_t largest_cofactor = 1;
-    for (int i = 0; i < 9; i++)
-        largest |= basis[i] < 0 ? 0u - (uint32_t)basis[i] : (uint32_t)basis[i];
-    int shift = shift_to(largest, 28);
-    for (int i = 0; i < 9; i++)
-        b[i] = shift >= 0 ? basis[i] >> shift : shl_wrap(basis[i], -shift);
+    int64_t wide[9];
+    uint64_t largest = 0;
+    for (int i = 0; i < 9; i++) {
+        wide[i] = basis[i];
+        largest |= magnitude(basis[i]);
+    }
+    shift_to(b, wide, 9, largest, 28);
+    largest = 0;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const int32_t *b1 = b + (i == 2 ? 0 : 3 * i + 3), *b2 = b + (i == 0 ? 6 : 3 * i - 3);
-            int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
-            int64_t c = (int64_t)b1[j1] * b2[j2] - (int64_t)b1[j2] * b2[j1];
-            cofactor[3 * i + j] = c;
-            largest_cofactor |= magnitude(c);
-        }
-    shift = shift_to(largest_cofactor, 15);
+        largest |= cross_product(wide + 3 * i, b + (i == 2 ? 0 : 3 * i + 3), b + (i == 0 ? 6 : 3 * i - 3));
     const int32_t row[3] = { b[0] >> 8, b[1] >> 8, b[2] >> 8 };
-    for (int i = 0; i < 9; i++)
-        b[i] = (int32_t)(shift >= 0 ? cofactor[i] >> shift : (int64_t)((uint64_t)cofactor[i] << -shift));
-    const bool mirrored = dot_q(row, b, 8) < 0;
+    shift_to(b, wide, 9, largest, 15);
+    const bool mirrored = dot(row, b) < 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             m[i][j] = mirrored ? -b[3 * i + j] : b[3 * i + j];
@@ -147,16 +142,16 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     make_normal_matrix(s->normal_matrix, object->basis);
     if (!has_normals)
         return;
-    s->even = keeps_lengths(s->normal_matrix);
+    int32_t column[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            column[j][i] = s->normal_matrix[i][j];
+    const int64_t square = dot(column[0], column[0]);
+    s->even = keeps_lengths(column, square);
     if (s->even) {
-        uint32_t length = length_from(square_sum(s->normal_matrix[0][0], s->normal_matrix[1][0],
-                                                 s->normal_matrix[2][0]));
-        for (int j = 0; j < 3; j++) {
-            int32_t column[3] = { s->normal_matrix[0][j], s->normal_matrix[1][j],
-                                  s->normal_matrix[2][j] };
-            s->direction[j] = dot_q(column, sun->direction, 0) / (int32_t)max_u32(length, 1)
-                            * 512 / 127;                        /* q14 to q23 / 127 */
-        }
+        const int32_t length = (int32_t)max_u32(length_from((uint64_t)square), 1);
+        for (int j = 0; j < 3; j++)
+            s->direction[j] = (int32_t)dot(column[j], sun->direction) / length * 512 / 127;     /* q14 to q23 / 127 */
     }
 }
 
@@ -164,8 +159,8 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
 static inline int32_t along_light(uint64_t *square, const int32_t world[3], const int32_t direction[3])
 {
     if (SMEAR_ON_64 && SMEAR_HAS_MUL64) {
-        *square = square_sum(world[0], world[1], world[2]);
-        return dot_q(world, direction, 8);
+        *square = (uint64_t)dot(world, world);
+        return (int32_t)(dot(world, direction) >> 8);
     }
     /* h 2^12 + l: sums of products of the halves fit into 32 bits. */
     int32_t along_high = 0, along_low = 0, high = 0, cross = 0, low = 0;
@@ -230,22 +225,13 @@ static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32
     return cosine;
 }
 
-static inline int next_axis(int i) { return i == 2 ? 0 : i + 1; }
-
 /* Returns the light of a face with edges of any length. */
 static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
 {
     int32_t n[3];
-    int64_t cross[3];
-    uint64_t largest = 1;
-    for (int i = 0; i < 3; i++) {
-        int j = next_axis(i), k = next_axis(j);
-        cross[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
-        largest |= magnitude(cross[i]);
-    }
-    int shift = shift_to(largest, 14);
-    for (int i = 0; i < 3; i++)
-        n[i] = (int32_t)(shift >= 0 ? cross[i] >> shift : cross[i] * ((int64_t)1 << -shift));
+    int64_t normal[3];
+    const uint64_t largest = cross_product(normal, u, v);
+    shift_to(n, normal, 3, largest, 14);
     return cosine_of_face(s, n);
 }
 

@@ -8,19 +8,20 @@
 
 bool smear_transform_is_mirrored(const smear_transform *t)
 {
-    uint32_t all = 0;
+    uint32_t all = 1u << 14;
     int32_t e[9];
+    int64_t d = 0;
     for (int i = 0; i < 9; i++) {
-        e[i] = t->basis[i] >> 11;       /* 20 bits */
+        e[i] = t->basis[i] >> 11;
         all |= (uint32_t)(e[i] ^ e[i] >> 31);
     }
-    if (!SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY && all < 1u << 15) {       /* scaled by less than 4: most products have 32 bits */
-        const int32_t x = e[4] * e[8] - e[5] * e[7], y = e[3] * e[8] - e[5] * e[6], z = e[3] * e[7] - e[4] * e[6];
-        return (int64_t)e[0] * x - (int64_t)e[1] * y + (int64_t)e[2] * z < 0;
+    const int down = 17 - count_leading_zeros(all);     /* products have 32 bits: all is told where scales are below 4 */
+    for (int i = 0; i < 9; i++)
+        e[i] >>= down;
+    for (int i = 0; i < 3; i++) {
+        const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        d += (int64_t)e[i] * (e[3 + j] * e[6 + k] - e[3 + k] * e[6 + j]);
     }
-    const int64_t b[9] = { e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8] };
-    int64_t d = b[0] * (b[4] * b[8] - b[5] * b[7]) - b[1] * (b[3] * b[8] - b[5] * b[6])
-              + b[2] * (b[3] * b[7] - b[4] * b[6]);
     return d < 0;
 }
 

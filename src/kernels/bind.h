@@ -200,6 +200,7 @@
 #define mulh_i32 smear_mulh_i32
 #define mulh_u32 smear_mulh_u32
 #define scale_sat smear_scale_sat
+#define narrow_sat smear_narrow_sat
 #define count_leading_zeros smear_count_leading_zeros
 #define count_leading_zeros_64 smear_count_leading_zeros_64
 #define recip_norm smear_recip_norm

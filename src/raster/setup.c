@@ -418,12 +418,14 @@ static void setup_divided(struct setup *s, const struct corners *k)
     uint32_t seen_q = (uint32_t)seen.low_q << up;
     uint32_t worst = 0;             /* texels per pixel, q6 */
     for (int i = 0; i < 2; i++) {
-        const int32_t u[3] = { shl_wrap(k->uv[i][0], spare), shl_wrap(k->uv[i][1], spare), shl_wrap(k->uv[i][2], spare) };
+        int32_t over_w[3];
+        for (int j = 0; j < 3; j++)
+            over_w[j] = times_q15(shl_wrap(k->uv[i][j], spare), q[j]);
         struct plane *p = &t->uv[i];
-        smear_plane_make(s, p, times_q15(u[0], q[0]), times_q15(u[1], q[1]), times_q15(u[2], q[2]));
+        smear_plane_make(s, p, over_w[0], over_w[1], over_w[2]);
         uint32_t change[3];
         for (int j = 0; j < 3; j++)
-            change[j] = magnitude_i32(sub_wrap(p->dx, times_q15(u[j], t->q.dx)));
+            change[j] = magnitude_i32(sub_wrap(p->dx, times_q15(shl_wrap(k->uv[i][j], spare), t->q.dx)));
         worst = max_u32(worst, texels_most(s, i, change, seen_q) >> spare);
     }
     uint32_t slope_q = min_u32(magnitude_i32(t->q.dx), 1u << 27);

@@ -120,8 +120,8 @@ struct setup {
                                      * linear >> 8) in q16, see channel_value */
     uint32_t area_recip;            /* 1 / (twice the area), which is positive: 2^61 / normalised area */
     int area_zeros;                 /* area << zeros is normalised to 64 bits */
-    struct plane vx, vy;            /* affine: displacement q18 px */
-    struct plane px[2], py[2], ratio[2];    /* else: numerators and denominator per pose */
+    struct plane displacement[2];           /* along x and y; affine: q18 px */
+    struct plane place[2][2], ratio[2];     /* else: numerators and denominator per pose */
 };
 
 /* Pixels [left, right) of rows [top, bottom). */
