@@ -84,6 +84,7 @@ static inline int32_t max_i32(int32_t a, int32_t b) { return a > b ? a : b; }
 static inline uint32_t min_u32(uint32_t a, uint32_t b) { return a < b ? a : b; }
 static inline uint32_t max_u32(uint32_t a, uint32_t b) { return a > b ? a : b; }
 static inline int32_t abs_i32(int32_t a) { return a < 0 ? -a : a; }      /* not INT32_MIN */
+static inline uint32_t magnitude_i32(int32_t a) { return a < 0 ? 0u - (uint32_t)a : (uint32_t)a; }
 
 static inline int32_t clamp_i32(int32_t a, int32_t low, int32_t high)
 {

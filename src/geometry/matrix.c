@@ -30,12 +30,13 @@ static int32_t scale_to_i32(int64_t a, int shift)
     return narrow_sat((int64_t)((uint64_t)a << shift));
 }
 
-/* Does what scale_to_i32 does, without a call where the number shrinks, as it mostly does. */
-static inline int32_t scale_inline(int64_t a, int shift)
+/* Returns the same where it has 31 bits: mostly without shifts of 64 bits, which are calls on small cores. */
+static inline int32_t scale_narrow(int64_t a, int shift)
 {
-    if (!SMEAR_SMALL_FILE && shift < 0 && shift >= -62)
-        return narrow_sat(scale_down(a, -shift));
-    return scale_to_i32(a, shift);
+    if (SMEAR_HAS_MUL64 || shift > -2 || shift < -32)
+        return scale_to_i32(a, shift);
+    const int32_t twice = (int32_t)((uint32_t)((uint64_t)a >> 32) << (33 + shift) | (uint32_t)a >> (-shift - 1));
+    return (twice >> 1) + (twice & 1);
 }
 
 /* Returns a 2^shift, clamped to +-2^52 so that sums of a few stay exact. */
@@ -56,59 +57,9 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
     for (int i = 0; i < 9; i++)
         all |= magnitude(in[i]);
     const int bits = bit_length((int64_t)all), shift = bits == 0 ? 0 : 30 - bits;
-    if (shift < 0)
-        for (int i = 0; i < 9; i++)
-            out[i] = (int32_t)scale_down(in[i], -shift);
-    else
-        for (int i = 0; i < 9; i++)
-            out[i] = (int32_t)((uint32_t)in[i] << shift);
+    for (int i = 0; i < 9; i++)
+        out[i] = scale_narrow(in[i], shift);
     return -shift;
-}
-
-/* Where products of 64 bits are calls, or shifts of them take many instructions, and size does not count, much is found without them. */
-#define PRODUCTS_ARE_DEAR (!(SMEAR_HAS_MUL64 && SMEAR_HAS_CLZ) && !SMEAR_ONE_COPY)
-
-/* Returns a b 2^-down to nearest, down 2 .. 32, where it has 32 bits. */
-static inline int32_t product_down(int32_t a, int32_t b, int down)
-{
-    const int32_t twice = mul_shift(a, b, down - 1);
-    return (twice >> 1) + (twice & 1);
-}
-
-/* Finds the camera's basis, transposed, as normalize_block would that times the object's, where the latter does not turn. Returns
- * false where it does. */
-static bool take_block(int32_t unit[3][3], int *exponent, const int32_t camera[9], const int32_t object[9])
-{
-    uint32_t all = 0;
-    for (int i = 0; i < 9; i++) {
-        if (object[i] != (i % 4 == 0 ? 1 << 24 : 0))
-            return false;
-        all |= (uint32_t)abs_i32(camera[i]);
-    }
-    const int bits = bit_length(all);
-    if (bits < 8 || bits > 30)
-        return false;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            unit[i][j] = camera[3 * j + i] * (1 << (30 - bits));
-    *exponent = bits - 54;
-    return true;
-}
-
-/* Finds what normalize_block would of a block times `scale`. Returns false where products are short. */
-static bool scale_block(int32_t out[3][3], int *exponent, int32_t unit[3][3], int32_t scale)
-{
-    const int32_t *in = &unit[0][0];
-    int32_t *to = &out[0][0], largest = 0;
-    for (int i = 0; i < 9; i++)
-        largest = max_i32(largest, abs_i32(in[i]));
-    const int down = bit_length((int64_t)largest * scale) - 30;
-    if (down < 2 || down > 32)
-        return false;
-    for (int i = 0; i < 9; i++)
-        to[i] = product_down(in[i], scale, down);
-    *exponent = down;
-    return true;
 }
 
 void smear_view_compose(struct smear_view *view, const smear_transform *object,
@@ -116,36 +67,35 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
 {
     /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 1 and a 64th in
      * magnitude (smear_begin checks), so a product of them and any 32 bits has 56 bits and three fit. */
-    int64_t turned[9], scaled[9];
+    int64_t turned[9] = { 0 }, scaled[9];
     int64_t offset[3];
     int32_t unit[3][3];
-    int exponent = 0, scaled_exponent = 0;
-    const bool is_straight = PRODUCTS_ARE_DEAR && take_block(unit, &exponent, camera->basis, object->basis);
+    for (int k = 0; k < 9; k += 3)
+        for (int j = 0; j < 3; j++) {       /* q48; most objects do not turn, or about one axis */
+            const int32_t by = object->basis[k + j];
+            for (int i = 0; i < 3 && by != 0; i++)
+                turned[3 * i + j] += (int64_t)camera->basis[k + i] * by;
+        }
     for (int j = 0; j < 3; j++)
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
     for (int i = 0; i < 3; i++) {
         const int64_t x = camera->basis[i], y = camera->basis[3 + i], z = camera->basis[6 + i];
-        for (int j = 0; j < 3 && !is_straight; j++)     /* q48 */
-            turned[3 * i + j] = x * object->basis[j] + y * object->basis[3 + j] + z * object->basis[6 + j];
-        view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32 */
+        view->origin[i] = (x * offset[0] + y * offset[1] + z * offset[2]) >> 8;     /* q40 to q32, of 51 bits */
     }
-    if (!is_straight)
-        exponent = normalize_block(unit, turned) - 48;
+    const int exponent = normalize_block(unit, turned) - 48;
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
-    if (!PRODUCTS_ARE_DEAR || !scale_block(view->basis, &scaled_exponent, unit, scale)) {
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
-        scaled_exponent = normalize_block(view->basis, scaled);
-    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
+    const int scaled_exponent = normalize_block(view->basis, scaled);
     view->basis_exp = scaled_exponent + exponent - mesh->shift;
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;
         for (int j = 0; j < 3; j++)
-            if (!PRODUCTS_ARE_DEAR || mesh->offset[j] != 0)
+            if (mesh->offset[j] != 0)
                 sum += (int64_t)view->basis[i][j] * mesh->offset[j];
-        view->origin[i] = scale_to_i52(view->origin[i], 0)
-                        + (PRODUCTS_ARE_DEAR && sum == 0 ? 0 : scale_to_i52(sum, view->basis_exp + 32));
+        if (sum != 0)
+            view->origin[i] += scale_to_i52(sum, view->basis_exp + 32);
     }
 }
 
@@ -161,20 +111,12 @@ static struct factor factor_from(int64_t value, int exponent)
 /* Returns the log2 of a bound on |row| for every int16 vertex, where the row is the view's times `by`. */
 static int row_bits(const struct smear_view *view, int row, struct factor by)
 {
-    uint64_t sum = 0;
+    uint32_t sum = 0;           /* each is at most 2^30 */
     for (int j = 0; j < 3; j++)
-        sum += magnitude(view->basis[row][j]);
-    int bits = max_i32(bit_length((int64_t)sum) + view->basis_exp + 15,
-                       bit_length(view->origin[row]) - 32);
+        sum += magnitude_i32(view->basis[row][j]);
+    const int length = sum == 0 ? 0 : 32 - count_leading_zeros(sum);
+    const int bits = max_i32(length + view->basis_exp + 15, bit_length(view->origin[row]) - 32);
     return bits + 1 + 30 + by.exponent;
-}
-
-/* Returns a b 2^shift to nearest, where it has 31 bits. */
-static inline int32_t product_scaled(int32_t a, int32_t b, int shift)
-{
-    if (PRODUCTS_ARE_DEAR && shift <= -2 && shift >= -32)
-        return product_down(a, b, -shift);
-    return scale_inline((int64_t)a * b, shift);
 }
 
 /* Fills a row of the projection: the view's row times `by`, scaled by 2^scale, which keeps factors below 2^30. */
@@ -184,7 +126,7 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
     const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
     const int shift = view->basis_exp + by.exponent + scale + 16;
     for (int j = 0; j < 3; j++)
-        m[j] = product_scaled(view->basis[row][j], factor, shift) & ~3;
+        m[j] = scale_narrow((int64_t)view->basis[row][j] * factor, shift) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
@@ -286,7 +228,7 @@ void smear_projection_weigh(struct smear_projection *const out[], const struct s
                 int64_t term = (int64_t)in[i]->m[row][j] * weight[i] >> min_i32(down, 62);
                 if (out[i] == out[0])
                     term = sum += term;
-                const int32_t m = scale_inline(term, -24 - room);
+                const int32_t m = scale_narrow(term, -24 - room);
                 out[i]->m[row][j] = j < 3 ? m & ~3 : m;
             }
         }

@@ -72,11 +72,6 @@ bool smear_pose_is_attached(const smear_transform *object, const smear_camera *c
 
 /* ------------------------------------------------------------------ other poses */
 
-static uint32_t magnitude_of(int32_t a)
-{
-    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
-}
-
 static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
 {
     return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
@@ -109,8 +104,8 @@ static void upright_basis(int32_t turn[9], const int32_t camera[9])
     const uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
     int32_t x = 1 << 24, z = 0;
     if (length > 1u << 16) {
-        x = ratio_q30((int64_t)min_u32(magnitude_of(camera[0]), length), length) >> 6;
-        z = ratio_q30((int64_t)min_u32(magnitude_of(camera[6]), length), length) >> 6;
+        x = ratio_q30((int64_t)min_u32(magnitude_i32(camera[0]), length), length) >> 6;
+        z = ratio_q30((int64_t)min_u32(magnitude_i32(camera[6]), length), length) >> 6;
         x = camera[0] < 0 ? -x : x;
         z = camera[6] < 0 ? -z : z;
     }

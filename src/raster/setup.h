@@ -184,11 +184,6 @@ static inline int32_t setup_mesh_v(const struct setup *s, int i)
     return s->v[i][s->segment->uv] >> 16;
 }
 
-static inline uint32_t magnitude_i32(int32_t a)
-{
-    return a < 0 ? 0u - (uint32_t)a : (uint32_t)a;
-}
-
 static inline bool setup_writes_velocity(const struct setup *s)
 {
     return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
