@@ -75,10 +75,10 @@ struct tiny_box {
     int32_t code_shift;
 #if SMEAR_ASM_ARMV7EM
     int32_t twice1, twice2; /* units of v[1] and of v[2] less those of v[0], below 2^30, times two */
+    uint32_t to_pixel;      /* for assembly: pixels - depth, or where pixels are wide - 2 depth */
 #else
     int32_t to1_low, to1_high, to2_low, to2_high; /* units of v[1] and of v[2] less those of v[0]: 16 bits each */
 #endif
-    uint32_t to_pixel;                            /* for assembly: pixels - depth, or where pixels are wide - 2 depth */
     uint32_t color;                               /* where it is not shaded */
     struct tiny_channel channel[3];               /* red, blue, green */
     int32_t right1, right2, sum;                  /* one column further right */
