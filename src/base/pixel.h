@@ -27,6 +27,17 @@ static inline uint32_t code_of_value(uint32_t value, smear_transfer t)
     return transfer_is_linear(t) ? smear_srgb_encode[value >> 4] : value;
 }
 
+/* Codes as they are, or light of 12 bits; and the code of that, which may be more than one. */
+static inline uint32_t short_of_code(uint32_t code, smear_transfer t)
+{
+    return transfer_is_linear(t) ? smear_srgb_decode[code] >> 4 : code;
+}
+
+static inline uint32_t code_of_short(uint32_t value, smear_transfer t)
+{
+    return transfer_is_linear(t) ? smear_srgb_encode[min_u32(value, 4095u)] : min_u32(value, 255u);
+}
+
 /* The code of a sum of values, which may be more than one. */
 static inline uint32_t code_of_sum(uint32_t value, smear_transfer t)
 {
@@ -111,6 +122,12 @@ SMEAR_INLINE uint32_t shaded_pixel(uint32_t t, uint32_t r, uint32_t g, uint32_t 
                       code_times_channel(pixel_blue(t), b, transfer));
 }
 
+/* Multiplies a value by what is interpolated. */
+static inline uint32_t value_times_channel(uint32_t value, uint32_t channel, smear_transfer t)
+{
+    return transfer_is_linear(t) ? (value * ((channel >> 8) + (channel >> 23)) + 0x8000u) >> 16 : code_times(value, channel >> 16);
+}
+
 /* Returns smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
  * of two codes' light; at three values that is off by one. */
 static inline uint32_t srgb_encode_searched(uint32_t light)
@@ -150,6 +167,25 @@ static inline uint32_t pixel_blend(uint32_t dst, uint32_t src, uint32_t alpha, s
         return dst;
     return pixel_make(0, code_mix(pixel_red(dst), pixel_red(src), a, t), code_mix(pixel_green(dst), pixel_green(src), a, t),
                       code_mix(pixel_blue(dst), pixel_blue(src), a, t));
+}
+
+static inline uint32_t light_mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+{
+    const uint32_t sum = (uint32_t)smear_srgb_decode[a & 255u] + smear_srgb_decode[b & 255u] + smear_srgb_decode[c & 255u]
+                       + smear_srgb_decode[d & 255u];
+    return smear_srgb_encode[(sum + 2u) >> 6];
+}
+
+/* Returns the mean of four pixels, to nearest. */
+static inline uint32_t pixel_mean(uint32_t a, uint32_t b, uint32_t c, uint32_t d, smear_transfer t)
+{
+    if (transfer_is_linear(t))
+        return light_mean_of(a >> 16, b >> 16, c >> 16, d >> 16) << 16 | light_mean_of(a >> 8, b >> 8, c >> 8, d >> 8) << 8
+             | light_mean_of(a, b, c, d);
+    const uint32_t low = 0xff00ffu;         /* red and blue at once: sums have 10 bits */
+    const uint32_t red_blue = (a & low) + (b & low) + (c & low) + (d & low) + 0x20002u;
+    const uint32_t green = (a >> 8 & 255u) + (b >> 8 & 255u) + (c >> 8 & 255u) + (d >> 8 & 255u) + 2u;
+    return (red_blue >> 2 & low) | (green >> 2) << 8;
 }
 
 /* Mixes `over` into a pixel by a part of 65536 and keeps the pixel's alpha. Dark pixels in linear light show less than a

@@ -36,6 +36,37 @@ SMEAR_INLINE void weighed_add(struct weighed_sum *s, uint32_t pixel, uint32_t we
     s->weight += weight;
 }
 
+/* Returns the mean. Weights are q12: the taps of a pixel weigh less than 8 in all (spaced 2 px, each at most 1.2 /
+ * its distance), so sums of 16-bit values fit 32 bits. */
+static inline uint32_t weighed_mean(const struct weighed_sum *s, smear_transfer transfer)
+{
+    int zeros = count_leading_zeros(s->weight);
+    uint32_t r = recip_norm(s->weight << zeros);            /* 2^(61 - zeros) / weight */
+    if (transfer_is_linear(transfer)) {
+        /* Sums use 16 bits more than the weight: their quotients come out in q13. */
+        int up = zeros - 16;
+        uint32_t red = mulh_u32(s->r << up, r) >> 17, green = mulh_u32(s->g << up, r) >> 17;
+        uint32_t blue = mulh_u32(s->b << up, r) >> 17;
+        return pixel_make(0, smear_srgb_encode[min_u32(red, 4095u)],
+                          smear_srgb_encode[min_u32(green, 4095u)],
+                          smear_srgb_encode[min_u32(blue, 4095u)]);
+    }
+    /* 8 bits more: brought to 20 bits, times 12 bits, in q23. */
+    int down = 20 - zeros;
+    uint32_t r12 = r >> 18, half = 1u << 22;
+    uint32_t red, green, blue;
+    if (down >= 0) {
+        red = s->r >> down;
+        green = s->g >> down;
+        blue = s->b >> down;
+    } else {
+        red = s->r << -down;
+        green = s->g << -down;
+        blue = s->b << -down;
+    }
+    return pixel_make(0, (red * r12 + half) >> 23, (green * r12 + half) >> 23, (blue * r12 + half) >> 23);
+}
+
 /* ------------------------------------------------------------------ even sums */
 
 /* Sums of pixels of equal weight. Of codes, red_blue has red and blue side by side and `all` the three channels, so

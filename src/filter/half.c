@@ -13,7 +13,7 @@ static uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, smear_tr
         uint32_t sum = 0;
         for (int i = 0; i < 4; i++)
             sum += value_of_code(pixel[i] >> shift & 255u, transfer);
-        out |= code_of_value((sum + (transfer_is_linear(transfer) ? 0 : 2u)) >> 2, transfer) << shift;
+        out |= code_of_value((sum + (channel_round(transfer) >> 14)) >> 2, transfer) << shift;
     }
     return out;
 }

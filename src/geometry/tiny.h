@@ -59,11 +59,8 @@ static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w
  * they are the upper byte, so they are at most 0xff00 and stay below 2^30. */
 static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, smear_transfer transfer)
 {
-    if (transfer_is_linear(transfer))
-        return pixel_make(0, smear_srgb_encode[red >> 18], smear_srgb_encode[green >> 18],
-                          smear_srgb_encode[blue >> 18]);
-    const uint32_t half = 1u << 21;
-    return pixel_make(0, (red + half) >> 22, (green + half) >> 22, (blue + half) >> 22);
+    const uint32_t half = channel_round(transfer) << 6;
+    return pixel_of_channels((red + half) >> 6, (green + half) >> 6, (blue + half) >> 6, transfer);
 }
 
 /* Makes a pixel of the colour words of three vertices (struct smear_segment) at weights w1 and w2. */

@@ -14,18 +14,7 @@ static inline int64_t product(int32_t a, int32_t b)
     return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
 }
 
-/* a b - c d for edges b and d: those shorter than 128 px take products of 16 bits. */
-static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d)
-{
-#if !SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
-    if ((((uint32_t)b + 32768u) | ((uint32_t)d + 32768u)) < 65536u) {
-        int32_t high = (int32_t)((uint32_t)((a >> 16) * b) - (uint32_t)((c >> 16) * d));
-        int32_t low1 = (int32_t)((uint32_t)a & 0xffffu) * b, low2 = (int32_t)((uint32_t)c & 0xffffu) * d;
-        return ((int64_t)low1 - low2) + (int64_t)((uint64_t)(int64_t)high << 16);
-    }
-#endif
-    return product(a, b) - product(c, d);
-}
+static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d) { return product(a, b) - product(c, d); }
 
 /* n 256 / area with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1 and a2 along the two
  * edges; to nearest, clamped. recip: 2^61 / area, whose highest bit was shifted up by so many zeros. */

@@ -63,11 +63,11 @@ static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, s
 
 static uint32_t sum_mean(const struct weighed_sum *s, smear_transfer transfer)
 {
-    const int zeros = count_leading_zeros(s->weight), up = transfer_is_linear(transfer) ? 4 : 0;
+    const int zeros = count_leading_zeros(s->weight);
     uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
     uint32_t half = s->weight >> 1, c[3] = { s->r + half, s->g + half, s->b + half };
     for (int i = 0; i < 3; i++)
-        c[i] = code_of_sum(mulh_u32(c[i], r) >> (29 - zeros) << up, transfer);
+        c[i] = code_of_short(mulh_u32(c[i], r) >> (29 - zeros), transfer);
     return pixel_make(0, c[0], c[1], c[2]);
 }
 
@@ -240,9 +240,7 @@ static int32_t look(struct gathering *g, struct seen *seen, int32_t here, uint32
 /* Returns a + (b - a) part / WHOLE, in codes or their light. */
 static uint32_t mixed_channel(uint32_t a, uint32_t b, uint32_t part, smear_transfer transfer)
 {
-    const int down = transfer_is_linear(transfer) ? 4 : 0;
-    const uint32_t before = value_of_code(a, transfer) >> down, after = value_of_code(b, transfer) >> down;
-    return code_of_value((before * (WHOLE - part) + after * part + WHOLE / 2) >> 12 << down, transfer);
+    return code_of_short((short_of_code(a, transfer) * (WHOLE - part) + short_of_code(b, transfer) * part + WHOLE / 2) >> 12, transfer);
 }
 
 static uint32_t mixed_pixel(uint32_t a, uint32_t b, uint32_t part, smear_transfer transfer)

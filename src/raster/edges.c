@@ -216,26 +216,9 @@ void smear_edges_draw(const struct smear_edge_units *e, const struct smear_raste
 
 /* ------------------------------------------------------------------ means */
 
-static inline uint32_t linear_mean(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
-{
-    const uint32_t sum = (uint32_t)smear_srgb_decode[a & 255u] + smear_srgb_decode[b & 255u] + smear_srgb_decode[c & 255u]
-                       + smear_srgb_decode[d & 255u];
-    return smear_srgb_encode[(sum + 2u) >> 6];
-}
-
-static inline uint32_t mean_of(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool linear)
-{
-    if (linear)
-        return linear_mean(a >> 16, b >> 16, c >> 16, d >> 16) << 16 | linear_mean(a >> 8, b >> 8, c >> 8, d >> 8) << 8
-             | linear_mean(a, b, c, d);
-    const uint32_t low = 0xff00ffu;         /* red and blue at once: sums have 10 bits */
-    const uint32_t red_blue = (a & low) + (b & low) + (c & low) + (d & low) + 0x20002u;
-    const uint32_t green = (a >> 8 & 255u) + (b >> 8 & 255u) + (c >> 8 & 255u) + (d >> 8 & 255u) + 2u;
-    return (red_blue >> 2 & low) | (green >> 2) << 8;
-}
-
 /* Takes the mean of pixels of a row, of which other places begin at `at` of their planes. */
-static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_planes *planes, int32_t at, bool linear)
+static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_planes *planes, int32_t at,
+                            smear_transfer transfer)
 {
     const uint32_t *other[3];
     int32_t next[3];
@@ -247,7 +230,7 @@ static inline void mean_row(uint32_t *row, int32_t n, const struct smear_edge_pl
         for (int i = 0; i < 3; i++)         /* of pixels that are not taken yet */
             if (next[i] == x)
                 next[i] = next_step(row, other[i], x + 1, n, LEAST_CHANGE);
-        row[x] = mean_of(row[x], other[0][x], other[1][x], other[2][x], linear);
+        row[x] = pixel_mean(row[x], other[0][x], other[1][x], other[2][x], transfer);
     }
 }
 
@@ -258,7 +241,7 @@ void smear_edges_mean(const struct smear_edge_units *e, const struct smear_raste
         uint32_t *row = t->color + target_row(&t->color_rows, t, y);
         const int32_t at = (y - t->y0) * (t->x1 - t->x0) - t->x0;
         for (struct run r = { 0, t->x0 }; next_run(e, &r, (y - t->y0) >> EDGE_BAND_LOG2, t->x1);)
-            mean_row(row + r.x0, r.x1 - r.x0, planes, at + r.x0, transfer_is_linear(transfer));
+            mean_row(row + r.x0, r.x1 - r.x0, planes, at + r.x0, transfer);
     }
 }
 

@@ -16,13 +16,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct setup, y1) == offsetof(struct setup, x1) + 4
                         && offsetof(struct setup, y2) == offsetof(struct setup, x1) + 12,
                     "kernels know the edges");
 
-static inline uint64_t product_u32(uint32_t a, uint32_t b)
-{
-    if (SMEAR_HAS_MUL64)
-        return (uint64_t)a * b;
-    return (uint64_t)mulh_u32(a, b) << 32 | a * b;
-}
-
 /* Slopes from the differences along the two edges; none beyond `steep`: a plane so steep has no exact pixels, its triangle is a
  * sliver. */
 static void plane_slopes(const struct setup *s, struct plane *p, int32_t d1, int32_t d2, int32_t steep)
@@ -135,7 +128,7 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
 {
     int zeros = count_leading_zeros(c);
     uint32_t over = mulh_u32(a, recip_norm(c << zeros));        /* a / c 2^(29 - zeros) */
-    uint64_t r = product_u32(over, b);
+    uint64_t r = (uint64_t)over * b;
     int shift = 29 - zeros;
     r = shift >= 0 ? r >> shift : r << -shift;
     return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
@@ -459,7 +452,7 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
         k.width[i] = high - low;
     }
     const bool flat = segment_flat_depth(s->segment)
-                   || product_u32((uint32_t)(k.high_q - k.low_q), travel)
+                   || (uint64_t)(uint32_t)(k.high_q - k.low_q) * travel
                           <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
     if (!setup_curved(s, &k, travel, flat)) {
         if (flat)

@@ -454,10 +454,8 @@ static uint32_t texture_mean(const struct timemask_shade *s, int32_t x, int32_t 
     uint32_t out[3];
     for (int c = 0; c < 3; c++) {
         uint32_t mean = (sum[c] + ((1u << log2) >> 1)) >> log2;
-        if (light != NULL) {
-            uint32_t l = (uint32_t)light[c];
-            mean = transfer_is_linear(transfer) ? (mean * ((l >> 8) + (l >> 23)) + 0x8000u) >> 16 : code_times(mean, l >> 16);
-        }
+        if (light != NULL)
+            mean = value_times_channel(mean, (uint32_t)light[c], transfer);
         out[c] = code_of_value(mean, transfer);
     }
     return pixel_make(0, out[0], out[1], out[2]);
