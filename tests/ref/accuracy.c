@@ -389,16 +389,10 @@ static bool draw_presented(const struct presented *p, smear_desc *desc, struct t
     return result == SMEAR_OK || fail(f, "the library refuses the frame: %s", smear_error_text(result));
 }
 
-bool shot_take(struct subject *s, const struct present_options *present,
-               const struct shot_options *o, struct shot *out)
+bool shot_draw(struct subject *s, const struct presented *p, const struct shot_options *o, struct shot *out)
 {
     struct failure f = {{0}};
-    int width = o->width != 0 ? o->width : s->width,
-        height = o->height != 0 ? o->height : s->height;
-    *out = (struct shot){0};
-    const struct presented *p = presenter_frame(s->presenter, s->time, present, &f);
-    if (p == NULL)
-        return broken(s, &f);
+    const int width = o->width != 0 ? o->width : s->width, height = o->height != 0 ? o->height : s->height;
     struct taking taking = {.shot = out, .presented = p};
     smear_desc desc = presented_desc(p, width, height);
     desc.reach = (int16_t)o->reach;
@@ -408,7 +402,7 @@ bool shot_take(struct subject *s, const struct present_options *present,
     desc.format = SMEAR_XRGB8888;
     desc.debug.crc = 1;
     desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
-    if (present->method == SMEAR_AUTO && present->target >= SMEAR_DRAFT)
+    if (p->frame.method == SMEAR_AUTO && p->frame.target >= SMEAR_DRAFT)
         desc.methods |= SMEAR_SET_SKETCH;
     desc.flush = take_band;
     desc.debug.inspect = o->look ? look_at_row : NULL;
@@ -426,6 +420,14 @@ bool shot_take(struct subject *s, const struct present_options *present,
         return true;
     shot_free(out);
     return broken(s, &f);
+}
+
+bool shot_take(struct subject *s, const struct present_options *present, const struct shot_options *o, struct shot *out)
+{
+    struct failure f = {{0}};
+    const struct presented *p = presenter_frame(s->presenter, s->time, present, &f);
+    *out = (struct shot){0};
+    return p != NULL ? shot_draw(s, p, o, out) : broken(s, &f);
 }
 
 struct present_options subject_options(const struct subject *s)
@@ -494,28 +496,32 @@ int picture_difference(const uint8_t *a, const uint8_t *b, int pixels, int *diff
 
 struct remembered {
     char name[80];
-    bool encoded;
-    int instants, width, height;
-    double degrees;
+    struct ref_truth_options by;
     struct ref_truth truth;
     struct remembered *next;
 };
 
 static struct remembered *memory;
 
-const struct ref_truth *truth_of(struct subject *s, const struct present_options *present,
-                                 int instants)
+static bool is_same(const struct ref_truth_options *a, const struct ref_truth_options *b)
 {
+    return a->width == b->width && a->height == b->height && fabs(a->time - b->time) < 1e-9 && fabs(a->fps - b->fps) < 1e-9
+        && fabs(a->shutter_degrees - b->shutter_degrees) < 1e-9 && a->exposure == b->exposure && a->instants == b->instants
+        && a->encoded == b->encoded;
+}
+
+const struct ref_truth *truth_of(struct subject *s, const struct present_options *present, int instants)
+{
+    static const enum ref_exposure exposure[] = {
+        [SMEAR_CENTRED] = REF_CENTRED, [SMEAR_TRAILING] = REF_TRAILING, [SMEAR_LEADING] = REF_LEADING
+    };
     struct failure f = {{0}};
-    bool encoded = present->light == SMEAR_LIGHT_ENCODED;
+    const struct ref_truth_options o = {.width = s->width, .height = s->height, .time = s->time, .fps = present->fps,
+                                        .shutter_degrees = present->shutter_degrees, .exposure = exposure[present->exposure],
+                                        .instants = instants, .encoded = present->light == SMEAR_LIGHT_ENCODED, .threads = 1};
     for (struct remembered *r = memory; r != NULL; r = r->next)
-        if (strcmp(r->name, s->name) == 0 && r->encoded == encoded && r->instants == instants
-            && r->width == s->width && r->height == s->height
-            && fabs(r->degrees - present->shutter_degrees) < 1e-9)
+        if (strcmp(r->name, s->name) == 0 && is_same(&r->by, &o))
             return &r->truth;
-    struct ref_truth_options o = {.width = s->width, .height = s->height, .time = s->time,
-                                  .fps = s->fps, .shutter_degrees = present->shutter_degrees,
-                                  .instants = instants, .encoded = encoded, .threads = 1};
     struct remembered *r = calloc(1, sizeof *r);
     if (r == NULL || !ref_truth(&s->scene, &o, &r->truth, &f)) {
         free(r);
@@ -523,11 +529,7 @@ const struct ref_truth *truth_of(struct subject *s, const struct present_options
         return NULL;
     }
     memcpy(r->name, s->name, sizeof r->name);
-    r->encoded = encoded;
-    r->instants = instants;
-    r->width = s->width;
-    r->height = s->height;
-    r->degrees = present->shutter_degrees;
+    r->by = o;
     r->next = memory;
     memory = r;
     return &r->truth;

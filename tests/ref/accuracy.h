@@ -84,9 +84,9 @@ struct shot {
     smear_stats stats;
 };
 
-/* Draws the subject at its time. */
-bool shot_take(struct subject *s, const struct present_options *present,
-               const struct shot_options *options, struct shot *out);
+/* Draws the subject at its time; or what was made of that. */
+bool shot_take(struct subject *s, const struct present_options *present, const struct shot_options *options, struct shot *out);
+bool shot_draw(struct subject *s, const struct presented *presented, const struct shot_options *options, struct shot *out);
 void shot_free(struct shot *shot);
 
 /* Options that hold for a subject: its rate and clear colour, half a frame open. */

@@ -87,22 +87,6 @@ static int draw(const struct presented *p, smear_context *ctx)
     return result == SMEAR_OK ? smear_render(ctx) : result;
 }
 
-static uint8_t *draw_once(struct subject *s, const struct presented *p, int width, int height)
-{
-    struct canvas canvas = {.width = width, .rgb = malloc((size_t)width * (size_t)height * 3)};
-    void *memory = NULL;
-    smear_context *ctx = NULL;
-    if (canvas.rgb != NULL)
-        ctx = context_for(p, width, height, &canvas, &memory);
-    if (ctx == NULL || draw(p, ctx) != SMEAR_OK) {
-        broken(s, "the library does not draw the frame");
-        free(canvas.rgb);
-        canvas.rgb = NULL;
-    }
-    free(memory);
-    return canvas.rgb;
-}
-
 static const struct presented *present(struct subject *s, const struct present_options *options)
 {
     struct failure f = {{0}};
@@ -114,10 +98,9 @@ static const struct presented *present(struct subject *s, const struct present_o
 
 uint8_t *fail_take(struct subject *s, const struct present_options *options, int width, int height)
 {
-    const struct presented *p = present(s, options);
-    if (p == NULL)
-        return NULL;
-    return draw_once(s, p, width != 0 ? width : s->width, height != 0 ? height : s->height);
+    struct shot shot;
+    const struct shot_options o = {.width = width, .height = height, .reach = FAIL_REACH, .tile = FAIL_TILE};
+    return shot_take(s, options, &o, &shot) ? shot.rgb : NULL;
 }
 
 uint8_t *fail_sharp(struct subject *s, const struct present_options *options)
@@ -160,7 +143,8 @@ static uint8_t *draw_moved(struct subject *s, const struct presented *p, const i
     moved.frame.open = p->frame.open != NULL ? &moved.camera[1] : NULL;
     moved.frame.close = p->frame.close != NULL ? &moved.camera[2] : NULL;
     moved.draw = draw;
-    return draw_once(s, &moved, s->width, s->height);
+    struct shot shot;
+    return shot_draw(s, &moved, &(struct shot_options){.reach = FAIL_REACH, .tile = FAIL_TILE}, &shot) ? shot.rgb : NULL;
 }
 
 uint8_t *fail_take_away(struct subject *s, const struct present_options *options,
@@ -187,72 +171,6 @@ bool fail_look(struct subject *s, const struct present_options *options, struct 
     return shot_take(s, options,
                      &(struct shot_options){.reach = FAIL_REACH, .tile = FAIL_TILE, .look = true},
                      out);
-}
-
-/* ------------------------------------------------------------------ truth */
-
-struct remembered {
-    char name[80];
-    double time, degrees;
-    bool encoded;
-    smear_exposure exposure;
-    int width, height, instants;
-    struct ref_truth truth;
-    struct remembered *next;
-};
-
-static struct remembered *memory;
-
-static bool is_same(const struct remembered *r, const struct remembered *wanted)
-{
-    return strcmp(r->name, wanted->name) == 0 && fabs(r->time - wanted->time) < 1e-9
-        && fabs(r->degrees - wanted->degrees) < 1e-9 && r->encoded == wanted->encoded
-        && r->exposure == wanted->exposure && r->width == wanted->width
-        && r->height == wanted->height && r->instants == wanted->instants;
-}
-
-const struct ref_truth *fail_truth(struct subject *s, const struct present_options *options,
-                                   int width, int height, int instants)
-{
-    struct remembered wanted = {
-        .time = s->time, .degrees = options->shutter_degrees, .exposure = options->exposure,
-        .encoded = options->light == SMEAR_LIGHT_ENCODED, .instants = instants,
-        .width = width != 0 ? width : s->width, .height = height != 0 ? height : s->height,
-    };
-    memcpy(wanted.name, s->name, sizeof wanted.name);
-    for (struct remembered *r = memory; r != NULL; r = r->next)
-        if (is_same(r, &wanted))
-            return &r->truth;
-    static const enum ref_exposure exposure[] = {
-        [SMEAR_CENTRED] = REF_CENTRED, [SMEAR_TRAILING] = REF_TRAILING,
-        [SMEAR_LEADING] = REF_LEADING,
-    };
-    struct ref_truth_options o = {
-        .width = wanted.width, .height = wanted.height, .time = s->time, .fps = options->fps,
-        .shutter_degrees = wanted.degrees, .exposure = exposure[wanted.exposure],
-        .instants = instants, .encoded = wanted.encoded, .threads = 1,
-    };
-    struct failure f = {{0}};
-    struct remembered *r = malloc(sizeof *r);
-    if (r == NULL || !ref_truth(&s->scene, &o, &wanted.truth, &f)) {
-        free(r);
-        broken(s, f.text);
-        return NULL;
-    }
-    *r = wanted;
-    r->next = memory;
-    memory = r;
-    return &r->truth;
-}
-
-void fail_forget(void)
-{
-    while (memory != NULL) {
-        struct remembered *r = memory;
-        memory = r->next;
-        ref_truth_free(&r->truth);
-        free(r);
-    }
 }
 
 /* ------------------------------------------------------------------ frames in turn */

@@ -93,11 +93,6 @@ uint8_t *fail_take_aside(struct subject *s, const struct present_options *presen
 /* What a filter reads. Free with shot_free. */
 bool fail_look(struct subject *s, const struct present_options *present, struct shot *out);
 
-/* The truth at the subject's time, remembered until fail_forget. Null after a failed check. */
-const struct ref_truth *fail_truth(struct subject *s, const struct present_options *present,
-                                   int width, int height, int instants);
-void fail_forget(void);
-
 enum { FAIL_INSTANTS = 256 };
 
 /* Where the library's bands go. */

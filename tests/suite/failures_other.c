@@ -17,7 +17,7 @@ static double scene_rmse(const char *scene, const struct fail_method *method)
         return NAN;
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0);
-    const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, FAIL_INSTANTS);
+    const struct ref_truth *truth = truth_of(&s, &present, FAIL_INSTANTS);
     if (rgb != NULL && truth != NULL)
         error = fail_rmse(&s, rgb, truth, fail_whole(&s));
     free(rgb);
@@ -200,7 +200,7 @@ static void ground(const struct fail_method *method, double number[])
     END_UNLESS(subject_open(&s, "fail/ground"));
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0);
-    const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, FAIL_INSTANTS);
+    const struct ref_truth *truth = truth_of(&s, &present, FAIL_INSTANTS);
     if (rgb != NULL && truth != NULL) {
         number[0] = 0.0;
         for (int y = 0; y < ROWS; y++) {
@@ -292,7 +292,7 @@ static void tiny(const struct fail_method *method, double number[])
     s.height = 5;
     struct present_options present = fail_options(&s, method);
     uint8_t *rgb = fail_take(&s, &present, 0, 0);
-    const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, FAIL_INSTANTS);
+    const struct ref_truth *truth = truth_of(&s, &present, FAIL_INSTANTS);
     if (rgb != NULL && truth != NULL)
         number[2] = fail_rmse(&s, rgb, truth, fail_whole(&s));
     free(rgb);
@@ -379,7 +379,7 @@ static void exposures(const struct fail_method *method, double number[])
             present.shutter_poses = i == 1;
             present.exposure = k == 0 ? SMEAR_TRAILING : SMEAR_LEADING;
             uint8_t *rgb = fail_take(&s, &present, 0, 0);
-            const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, FAIL_INSTANTS);
+            const struct ref_truth *truth = truth_of(&s, &present, FAIL_INSTANTS);
             worst = rgb != NULL && truth != NULL
                 ? fmax(worst, fail_rmse(&s, rgb, truth, fail_whole(&s))) : NAN;
             free(rgb);

@@ -32,7 +32,7 @@ static void put_away(struct taken *t)
 static bool taken_draw(struct taken *t)
 {
     t->rgb = fail_take(&t->s, &t->present, 0, 0);
-    t->truth = t->rgb != NULL ? fail_truth(&t->s, &t->present, 0, 0, FAIL_INSTANTS) : NULL;
+    t->truth = t->rgb != NULL ? truth_of(&t->s, &t->present, FAIL_INSTANTS) : NULL;
     if (t->truth != NULL)
         return true;
     put_away(t);

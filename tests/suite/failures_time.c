@@ -168,7 +168,7 @@ static void seams(const struct fail_method *method, double number[])
         struct present_options present = fail_options(&s, method);
         s.time = FAIL_TIME + i / FAIL_FPS;
         uint8_t *rgb = fail_take(&s, &present, 0, 0);
-        const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, SEAM_INSTANTS);
+        const struct ref_truth *truth = truth_of(&s, &present, SEAM_INSTANTS);
         ok = rgb != NULL && truth != NULL;
         if (ok)
             fail_seams(&s, rgb, truth, fail_whole(&s), &got, &want);
@@ -217,7 +217,7 @@ static void jitter(const struct fail_method *method, double number[])
         struct present_options present = fail_options(&s, method);
         s.time = FAIL_TIME + i / FAIL_FPS;
         uint8_t *rgb = fail_take(&s, &present, 0, 0);
-        const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, JITTER_INSTANTS);
+        const struct ref_truth *truth = truth_of(&s, &present, JITTER_INSTANTS);
         ok = rgb != NULL && truth != NULL && CHECK(before != NULL);
         if (ok)
             noise += column_noise(&s, rgb, truth) / JITTER_FRAMES;
@@ -343,7 +343,7 @@ static bool sweep(const char *scene, const struct fail_method *method, double *p
         struct present_options present = fail_options(&s, method);
         present.shutter_degrees = 360.0 * k / SWEEP_STEPS;
         uint8_t *rgb = fail_take(&s, &present, 0, 0);
-        const struct ref_truth *truth = fail_truth(&s, &present, 0, 0, SWEEP_INSTANTS);
+        const struct ref_truth *truth = truth_of(&s, &present, SWEEP_INSTANTS);
         double step = 0.0, error = 0.0;
         ok = rgb != NULL && truth != NULL;
         for (size_t i = 0; i < values && ok; i++) {

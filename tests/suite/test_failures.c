@@ -126,7 +126,7 @@ static void test_row(void)
             number[k][i] = NAN;
         the_row->take(&fail_method[k], number[k]);
     }
-    fail_forget();
+    truth_forget();
     for (int i = 0; i < FAIL_MEASURES && the_row->measure[i].what != NULL; i++) {
         print_measure(the_row, i, (const double(*)[FAIL_MEASURES])number);
         for (int k = 0; k < METHODS; k++)
