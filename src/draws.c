@@ -76,7 +76,7 @@ static void place(struct smear_assembly *a, const struct smear_context *c, struc
 }
 
 /* Assembles a draw; that which is drawn over what lines have blurred into a list of its own. */
-static SMEAR_NOINLINE bool assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a)
+static SMEAR_RARE bool assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a)
 {
     struct smear_bins *g = as->bins;
     uint32_t *const opaque = g->opaque_last;
@@ -522,7 +522,7 @@ static SMEAR_NOINLINE bool assemble_parts(struct smear_context *c, const struct 
 }
 
 /* Assembles all draws for the tile rows [first, end) on one core. False when the store is full. */
-static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int end, const struct smear_instant *instant)
+static SMEAR_RARE bool assemble_rows(struct smear_context *c, int first, int end, const struct smear_instant *instant)
 {
     smear_bins_reset(&c->rows.bins, first, end);
     c->assembler.path_x0 = 0;
@@ -534,7 +534,7 @@ static SMEAR_NOINLINE bool assemble_rows(struct smear_context *c, int first, int
 }
 
 /* Assembles the draws of a fill. The stack is deep where one is wanted: nothing is kept on it. False when the store is full. */
-static SMEAR_NOINLINE bool assemble_fill(struct smear_context *c, struct smear_refill *f)
+static SMEAR_RARE bool assemble_fill(struct smear_context *c, struct smear_refill *f)
 {
     smear_bins_reset(&c->rows.bins, f->row, f->row + 1);
     c->assembler.path_x0 = (int16_t)f->path_x0;

@@ -103,7 +103,7 @@ static inline int32_t skip_to_streak(int32_t n, int32_t d, int32_t reach, int32_
 }
 
 /* Returns what a pixel that sees both ends of a streak gets of a chord's light, less the gain. */
-static SMEAR_NOINLINE uint32_t between_ends(uint32_t chord, int32_t near, int32_t far)
+static SMEAR_RARE uint32_t between_ends(uint32_t chord, int32_t near, int32_t far)
 {
     const int32_t per_chord = (int32_t)(chord >> 16);
     const int32_t k = ((near >> 4) * per_chord >> 10) + 128, m = ((far >> 4) * per_chord >> 10) + 128;
@@ -192,9 +192,9 @@ SMEAR_INLINE int32_t weigh(struct brush *b, bool is_long)
     return (int32_t)(run - b->run);
 }
 
-static SMEAR_NOINLINE int32_t weigh_long(struct brush *b) { return weigh(b, true); }
+static SMEAR_RARE int32_t weigh_long(struct brush *b) { return weigh(b, true); }
 
-static SMEAR_NOINLINE int32_t weigh_short(struct brush *b) { return weigh(b, false); }
+static SMEAR_RARE int32_t weigh_short(struct brush *b) { return weigh(b, false); }
 
 static inline uint32_t lit_linear(uint32_t code, uint32_t light, uint32_t weight, bool blends)
 {

@@ -218,7 +218,7 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
 /* ------------------------------------------------------------------ the screen */
 
 /* By a part (q30, at most one) of the way: between the two, however far apart they are. */
-static int32_t go_towards(int32_t from, int32_t to, int32_t part)
+static SMEAR_PRODUCT_CALL int32_t go_towards(int32_t from, int32_t to, int32_t part)
 {
     return (int32_t)(from + (((int64_t)to - from) * part >> 30));
 }

@@ -14,7 +14,7 @@
 
 /* ------------------------------------------------------------------ records of vertices */
 
-static SMEAR_NOINLINE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
+static SMEAR_RARE uint32_t shade_face(const struct batch *b, uint32_t triangle, bool back)
 {
     struct smear_face face = smear_face_of(b->d, triangle, back);
     return smear_face_color(b->d, b->segment, &face);
@@ -30,8 +30,8 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
 }
 
 /* Stores a vertex; returns the first word of its record. */
-static SMEAR_NOINLINE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle,
-                                            bool back)
+static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle,
+                                        bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;

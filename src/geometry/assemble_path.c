@@ -210,7 +210,7 @@ static const struct smear_homogeneous *places_of(const struct path_batch *b, con
 }
 
 /* Stores the path in space of a vertex and, where it has one on the screen, that behind the record. */
-static SMEAR_NOINLINE void store_in_space(uint32_t *record, struct path_batch *b, const struct path_vertex *v)
+static SMEAR_RARE void store_in_space(uint32_t *record, struct path_batch *b, const struct path_vertex *v)
 {
     const struct smear_homogeneous *const place = places_of(b, v);
     b->segment->scale = b->scale;
@@ -405,8 +405,8 @@ static inline int32_t meeting(int32_t open, int32_t middle, int32_t close, int32
 }
 
 /* Finds the bounds of a triangle of which a vertex has a path in space. Returns false where it is never seen. */
-static SMEAR_NOINLINE bool find_bounds_in_space(struct smear_path_bounds *b, const struct path_batch *batch,
-                                                const struct path_vertex *v0, const struct path_vertex *v1, const struct path_vertex *v2)
+static SMEAR_RARE bool find_bounds_in_space(struct smear_path_bounds *b, const struct path_batch *batch,
+                                            const struct path_vertex *v0, const struct path_vertex *v1, const struct path_vertex *v2)
 {
     const struct smear_assembler *a = batch->a;
     const struct smear_homogeneous *const place[3] = { places_of(batch, v0), places_of(batch, v1), places_of(batch, v2) };

@@ -75,7 +75,7 @@ struct map {
 static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
                                        { 0, 0, 0 } };
 
-static int64_t clamp_i64(int64_t a, int64_t limit)
+static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
 {
     return a > limit ? limit : a < -limit ? -limit : a;
 }

@@ -60,7 +60,7 @@ static void draw_mover_picture(struct smear_temporal *self, struct smear_finish 
 }
 
 /* Draws what moves by itself over what lines have blurred, and blurs both: of two pictures the mean. */
-static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct smear_finish *f)
+static SMEAR_RARE void draw_movers(struct smear_temporal *self, struct smear_finish *f)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_lines *lines = self->lines;
@@ -93,7 +93,7 @@ static SMEAR_NOINLINE void draw_movers(struct smear_temporal *self, struct smear
 }
 
 /* Blurs a row whose tiles are listed along lines, as far as it stands still, and finishes it. */
-static SMEAR_NOINLINE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+static SMEAR_RARE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     const struct smear_window *w = &rows->window;
     const struct smear_damage_run all = { 0, (int)w->columns };
@@ -182,7 +182,7 @@ static void draw_further(struct smear_temporal *self, struct smear_finish *f)
 }
 
 /* Draws a row's pictures. Not part of what calls it: what it keeps is gone before the row above is finished. */
-static SMEAR_NOINLINE void draw_pictures(struct smear_temporal *self, struct smear_rows *rows, int row)
+static SMEAR_RARE void draw_pictures(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     struct smear_finish finish = { .row = { .rows = rows, .row = row }, .self = self };
     struct smear_lines *lines = self->lines;
@@ -217,7 +217,7 @@ static int finish_rows(struct smear_temporal *self, struct smear_rows *rows, int
 }
 
 /* From here on there are so many pictures, or none, and instants: what is known of where the first one has triangles holds no more. */
-static SMEAR_NOINLINE void go_on_with(struct smear_temporal *self, struct smear_rows *rows, int pictures)
+static SMEAR_RARE void go_on_with(struct smear_temporal *self, struct smear_rows *rows, int pictures)
 {
     rows->bins.kept_words = 0;
     if (pictures <= self->lines->most) {

@@ -202,7 +202,7 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
     return next;
 }
 
-static SMEAR_NOINLINE void finish_tile(const struct smear_finish *f, int column, const struct smear_tile_choice *choice, int worker)
+static SMEAR_RARE void finish_tile(const struct smear_finish *f, int column, const struct smear_tile_choice *choice, int worker)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
@@ -447,7 +447,7 @@ void smear_temporal_end_row(struct smear_temporal *self, const struct smear_rows
 }
 
 /* Draws and finishes a row whose tiles are listed. Not part of what calls it: listing needs the stack, too. */
-static SMEAR_NOINLINE int draw_listed(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+static SMEAR_RARE int draw_listed(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
 {
     struct smear_damage_run run = { 0, 0 };
     if (rows->refill == NULL)
@@ -479,7 +479,7 @@ static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int ro
 /* ------------------------------------------------------------------ parts of a frame */
 
 /* Returns the error that tile rows [first, end) may have, for their share of the frame's budget. */
-static SMEAR_NOINLINE int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
+static SMEAR_RARE int32_t target_within_budget(const struct smear_temporal *self, struct smear_rows *rows, int first, int end)
 {
     const uint32_t part = (uint32_t)(end - first), all = (uint32_t)rows->window.rows, budget = self->budget;
     struct smear_travel_areas areas = { { 0 } };

@@ -81,8 +81,8 @@ static inline void find_steps(int32_t step[3], int32_t from[3], const int32_t to
 }
 
 /* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
-static SMEAR_NOINLINE void draw_blocks(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
-                                       int32_t left, int32_t right)
+static SMEAR_RARE void draw_blocks(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
+                                   int32_t left, int32_t right)
 {
     const int32_t last = right - 1;
     int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3];

@@ -90,8 +90,8 @@ static inline void draw_run(const struct setup *s, struct span *p, const struct 
 }
 
 /* The depth code's break lies within the span: draws up to the first pixel beyond it. Returns that pixel. */
-static SMEAR_NOINLINE int32_t draw_to_break(const struct setup *s, struct span *p, const struct row *r,
-                                            int32_t units, smear_span_fn *write)
+static SMEAR_RARE int32_t draw_to_break(const struct setup *s, struct span *p, const struct row *r,
+                                        int32_t units, smear_span_fn *write)
 {
     enum depth_slope slope = units < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
     int32_t a = p->a, b = p->b;
