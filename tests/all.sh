@@ -182,7 +182,7 @@ objects() {
     needs arm-none-eabi-gcc "gcc-arm-none-eabi" || return 0
     # 45.8 kB of code for the renderer and its filter: all surfaces and formats, SMEAR_RECONSTRUCT and SMEAR_ACCUMULATE. (40 kB
     # is the aim; small textured triangles, rows drawn from several fills, fields told apart, poses that are copied take the rest.)
-    suite objects-core env CODE_LIMIT=46900 NOT_CALLED="smear_filter_begin smear_filter_row" \
+    suite objects-core env CODE_LIMIT=47104 NOT_CALLED="smear_filter_begin smear_filter_row" \
         SWITCHES="$(sh tests/shell/core_switches.sh)" sh tests/shell/target_objects.sh build/objects-core
 }
 
