@@ -16,6 +16,7 @@ BEGIN {
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
+    reach["src/raster/raster.h"] = "(^|:)flush_ready(\\.|$)"   # sharp.c: between triangles of a row
     if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
     is_callback["src/display/row.h"] = is_callback["src/display/band.c"] = is_callback["src/methods/sharp.c"] = 1

@@ -405,8 +405,10 @@ static void assemble_job(void *argument, int job, int worker)
 static size_t room_apart(const struct smear_context *c)
 {
     const uint32_t n = (uint32_t)c->rows.jobs.workers;
-    const uintptr_t start = (uintptr_t)c->rows.scratch, end = (uintptr_t)c->temporal.work + n * c->temporal.work_bytes;
-    return c->temporal.work == NULL || end - start < PARTS_WORDS * 4u ? 0 : (end - start - PARTS_WORDS * 4u) / (n - 1) & ~(size_t)7;
+    const uintptr_t start = (uintptr_t)c->rows.scratch, end = (uintptr_t)c->rows.scratch_end;
+    if (c->temporal.work == NULL || end == 0 || end - start < PARTS_WORDS * 4u)
+        return 0;
+    return (end - start - PARTS_WORDS * 4u) / (n - 1) & ~(size_t)7;
 }
 
 /* Whether parts lie there: where their triangles are likely to find room, or tiles are kept, which parts of the pool don't do. */

@@ -80,7 +80,11 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
-    c->rows.scratch_end = t->work != NULL ? t->work + (size_t)d->workers * t->work_bytes : NULL;
+    /* Both lie in the arena, or nothing else works in them. */
+    const uintptr_t scratch = (uintptr_t)c->rows.scratch, from = (uintptr_t)a->memory;
+    const bool beside = t->work != NULL && t->work + d->workers * (size_t)t->work_bytes == a->memory + a->used && scratch >= from
+                     && scratch < (uintptr_t)t->work;
+    c->rows.scratch_end = beside ? a->memory + a->used : NULL;
     if (has_lines(d))               /* not among what cores assemble parts in */
         lay_out_lines(t, a, d);
 }

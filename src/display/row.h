@@ -65,7 +65,7 @@ struct smear_rows {
     uint16_t points;            /* the first listed point of the overlay's, or SMEAR_NO_POINT: points.h */
     uint32_t clear;             /* 0x00RRGGBB */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */
-    uint32_t *scratch;          /* finished pixels of a tile or strip per worker */
+    uint32_t *scratch;          /* finished pixels of a tile or strip per worker, or what cores draw sharp rows of their own in */
     uint8_t *scratch_end;       /* of that and all that temporal methods work in behind it, which other methods may use; or null */
     int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
     uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */

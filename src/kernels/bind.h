@@ -34,7 +34,7 @@
 
 /* Four words or eight halves at once. */
 #ifndef SMEAR_VECTORS
-#if SMEAR_GNU && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
+#if SMEAR_GNU && !SMEAR_BIG_ENDIAN && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__wasm_simd128__))
 #define SMEAR_VECTORS 1
 #else
 #define SMEAR_VECTORS 0

@@ -356,8 +356,10 @@ void smear_line_means(const struct line_block *b, bool linear)
 {
     if (b->log == 0)
         copy_rows(b);
+    else if (b->sparse && SMEAR_WITH_LINEAR && linear)
+        sparse_light_means(b);
     else if (b->sparse)
-        (SMEAR_WITH_LINEAR && linear ? sparse_light_means : sparse_code_means)(b);
+        sparse_code_means(b);
     else if (SMEAR_WITH_LINEAR && linear)
         light_means(b);
     else if (b->log == 3)

@@ -70,7 +70,7 @@ static inline void leave_kept(struct kept *k, bool goes_on)
 /* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
 struct front_memory {
     uint32_t bytes;         /* of both */
-    uint32_t rest;          /* lists of small triangles that are not ordered, as little was hidden in the last one */
+    uint32_t rest;          /* lists of small triangles that are not ordered, as little was or could be hidden in the last one */
 };
 
 /* Returns how many triangles of a list find room: each has a number of 16 bits and a level. */

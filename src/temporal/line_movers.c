@@ -7,9 +7,11 @@
 /* ------------------------------------------------------------------ draws */
 
 /* Whether a draw deforms, or turns by more than some nine degrees: what it shows goes many ways. */
-static bool turns(const struct smear_draw_poses *p)
+static bool turns(const struct smear_draw_poses *p, const struct smear_shot *shot)
 {
-    return p->position[1] != p->position[0] || p->position[2] != p->position[0] || smear_lines_turn(p->object[1], p->object[2], 128, 1);
+    const struct smear_shutter_order at = smear_shot_order(shot);
+    return p->position[1] != p->position[0] || p->position[2] != p->position[0]
+        || smear_lines_turn(shot, p->object[at.open], p->object[at.middle], 128, 1);
 }
 
 /* Finds where a camera is seen from an object, without its scales. */
@@ -72,7 +74,7 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
 {
     smear_camera camera[3];
     struct smear_placement place;
-    if (turns(p))
+    if (turns(p, shot))
         return false;
     for (int i = 0; i < 3; i++) {
         camera[i] = *p->camera[i];

@@ -20,14 +20,15 @@ struct taps {
     bool sparse;                    /* every fourth pixel tells what lies between, as the line is long and level */
 };
 
-bool smear_lines_turn(const smear_transform *from, const smear_transform *to, int32_t parts, int32_t of)
+bool smear_lines_turn(const struct smear_shot *shot, const smear_transform *open, const smear_transform *middle, int32_t parts, int32_t of)
 {
+    const int32_t times = shot_spans_exposure(shot) ? 2 << 4 : shot->half_exposure >> 19;       /* q4 */
     int64_t square = 0, product = 0;
     for (int i = 0; i < 9; i++) {
-        square += (int64_t)from->basis[i] * from->basis[i] >> 18;
-        product += (int64_t)from->basis[i] * to->basis[i] >> 18;
+        square += ((int64_t)open->basis[i] * open->basis[i] + (int64_t)middle->basis[i] * middle->basis[i]) >> 22;
+        product += (int64_t)open->basis[i] * middle->basis[i] >> 21;
     }
-    return (square - product) * parts > square * of;
+    return ((square - product) * (times * times) >> 8) * parts > square * of;
 }
 
 void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
@@ -58,12 +59,12 @@ enum { VALUES = 6 };                    /* per block: two pixels' three channels
  * picture, which is some 17 degrees at most for 4 codes. */
 static int least_pictures(const struct smear_shot *shot, int32_t target, int most)
 {
-    enum { PARTS = 8192,                /* of a target, 1/64 codes, for a third of that angle's square */
-           COARSEST = 1024 };
+    enum { PARTS = 512,                 /* of a target, 1/4 codes, for a third of that angle's square */
+           COARSEST = 64 };
     const struct smear_shutter_order at = smear_shot_order(shot);
-    const smear_transform *open = &shot->camera[at.open].pose, *close = &shot->camera[at.close].pose;
+    const int32_t part = min_i32(target >> 4, COARSEST);
     int k = target_is_sketch(target) ? 1 : 2;
-    while (k <= most && smear_lines_turn(open, close, PARTS, min_i32(target, COARSEST) * k * k))
+    while (k <= most && smear_lines_turn(shot, &shot->camera[at.open].pose, &shot->camera[at.middle].pose, PARTS, part * k * k))
         k++;
     return k;
 }
@@ -103,8 +104,10 @@ bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
     lines->takes_movers = !smooth;
     lines->goes_far = false;
     const int least = least_pictures(shot, target, lines->most), pictures = min_i32(pictures_for(lines, target, least), lines->most);
-    if (least > lines->most)
+    if (least > lines->most) {
+        lines_forget(lines);
         return false;
+    }
     lines->transfer = transfer;
     lines->movers = lines->behind = 0;
     lines->drawn = lines->finished = 0;

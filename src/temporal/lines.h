@@ -34,7 +34,8 @@ static inline int line_movers_list(int picture) { return LINE_BEHIND + picture; 
 /* What a block of pixels shows. */
 struct smear_line_seen {
     uint16_t depth;                 /* the nearest of some pixels */
-    uint16_t contrast;              /* between some and those beside and below them: sum of squares of codes / 16 */
+    uint16_t contrast;              /* between some and those beside and below them: sum of squares of codes / 16. Of one that is bare, once
+                                     * it is blurred, the depth of what passes it */
     int16_t x, y;                   /* displacement from picture to picture, px */
 };
 
@@ -89,9 +90,9 @@ struct smear_line_block {
 
 static inline int32_t line_blocks(int32_t pixels) { return (pixels + LINE_BLOCK - 1) >> LINE_BLOCK_LOG2; }
 
-/* Whether what two transforms turn into differs by an angle of which a third of the square is more than of / parts: about, up to 90
- * degrees. */
-bool smear_lines_turn(const smear_transform *from, const smear_transform *to, int32_t parts, int32_t of);
+/* Whether what has these transforms at the shot's first pose and in its middle turns over the exposure by an angle of which a third of the
+ * square is more than of / parts, about. What grows or shrinks counts, too. */
+bool smear_lines_turn(const struct smear_shot *shot, const smear_transform *open, const smear_transform *middle, int32_t parts, int32_t of);
 
 /* Begins a frame whose camera moves, of which an error of `target` is asked, 1/64 codes. Smoothed edges have one picture. Returns false
  * where it turns too far for lines. */
