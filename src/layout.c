@@ -80,7 +80,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
         t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
-    /* Both lie in the arena, or nothing else works in them. */
+    /* Other methods work in both where one lies behind the other: SMEAR_PLACE may have moved either. */
     const uintptr_t scratch = (uintptr_t)c->rows.scratch, from = (uintptr_t)a->memory;
     const bool beside = t->work != NULL && t->work + d->workers * (size_t)t->work_bytes == a->memory + a->used && scratch >= from
                      && scratch < (uintptr_t)t->work;

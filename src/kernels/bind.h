@@ -183,7 +183,7 @@
 #define SMEAR_CALLED static inline
 #endif
 
-/* SMEAR_RARE: what is rarely called is not inlined into what is called often, unless size counts. */
+/* SMEAR_RARE: a function of its own unless size counts: what is rarely called, or once and would keep on the stack what others need. */
 #if SMEAR_SMALL_FILE
 #define SMEAR_INLINE static inline
 #define SMEAR_RARE
