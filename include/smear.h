@@ -232,10 +232,8 @@ typedef struct smear_shutter {
     uint8_t mode;               /* smear_shutter_mode. With `poses` the application's poses say it all */
     uint8_t path;               /* smear_path of cameras, and of draws that do not say; with `poses` it is of no use */
     uint16_t reference_hz;      /* 1..1000; 0 means 30 */
-    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; needed by `us` and by modes
-                                 * other than native */
-    uint32_t us;                /* exposure in microseconds, in place of `degrees`; 0: by those. CAPPED: at most a
-                                 * frame */
+    uint32_t frame_us;          /* microseconds since the pose a frame ago, up to 1000000; `us` and modes need it */
+    uint32_t us;                /* exposure in microseconds; 0: by `degrees`. CAPPED: at most a frame */
     const uint8_t *curve;       /* openness at SMEAR_SHUTTER_POINTS even steps from open to close, not all 0; null: a
                                  * box. Copied. Filters take it for a box */
 } smear_shutter;
@@ -279,6 +277,7 @@ typedef struct smear_fog {
 typedef enum smear_edges { SMEAR_EDGES_HARD, SMEAR_EDGES_SMOOTH } smear_edges;
 
 typedef struct smear_overlay smear_overlay;
+typedef struct smear_scene smear_scene;
 
 typedef struct smear_frame {
     const smear_camera *camera;         /* now; required */
@@ -307,6 +306,7 @@ typedef struct smear_frame {
     uint8_t layer_count;
     uint8_t edges;              /* smear_edges */
     const smear_overlay *overlay;       /* text and sprites over the frame, points in the world: smear_overlay.h */
+    const smear_scene *scene;           /* a sky, more lights: smear_scene.h. Copied; null: none */
 } smear_frame;
 
 /* ------------------------------------------------------------------ where it is shown */

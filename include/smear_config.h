@@ -92,6 +92,12 @@
 #ifndef SMEAR_WITH_OVERLAY              /* smear_overlay.h: boxes, sprites, text, points */
 #define SMEAR_WITH_OVERLAY SMEAR_WITH_ALL
 #endif
+#ifndef SMEAR_WITH_SKY                  /* smear_scene.h: its sky */
+#define SMEAR_WITH_SKY SMEAR_WITH_ALL
+#endif
+#ifndef SMEAR_WITH_LIGHTS               /* its lights beside frame.light */
+#define SMEAR_WITH_LIGHTS SMEAR_WITH_ALL
+#endif
 #ifndef SMEAR_WITH_DEBUG                /* what smear_error_text says; desc.debug.inspect, which
                                          * tests and tools look at */
 #define SMEAR_WITH_DEBUG SMEAR_WITH_ALL

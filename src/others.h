@@ -23,6 +23,11 @@ int smear_accumulate_render(struct smear_context *c);
 int smear_filtered_render(struct smear_context *c);
 int smear_layers_render(struct smear_context *c);
 
+/* ------------------------------------------------------------------ scene/ */
+
+/* Returns SMEAR_OK or the number of what is wrong. */
+int smear_scene_check(const smear_scene *scene);
+
 /* ------------------------------------------------------------------ filter/ */
 
 /* Fills in what zeros of frame.filter mean. Returns SMEAR_OK or what is wrong with it. */

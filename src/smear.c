@@ -81,6 +81,8 @@ static int resolve(struct smear_context *c, smear_frame *f)
         result = smear_check_layers(f);
     if (result == SMEAR_OK)
         result = smear_check_overlay(f->overlay);
+    if (result == SMEAR_OK && f->scene != NULL)
+        result = SMEAR_HAS_SCENE ? smear_scene_check(f->scene) : FAULT(FRAME_SCENE);
     if (result == SMEAR_OK && SMEAR_WITH_SUBFRAMES && !smear_shutter_make(&c->temporal.shutter, f->shutter.curve))
         result = FAULT(FRAME_CURVE);
     return result;
@@ -94,6 +96,7 @@ void smear_frame_keep(struct smear_context *c, const smear_frame *f)
     c->frame.light = NULL;
     c->frame.fog = NULL;
     c->frame.layer = NULL;
+    c->frame.scene = NULL;
     c->rows.overlay = f->overlay;
 }
 

@@ -8,6 +8,9 @@
 /* smear_frame.edges may be SMEAR_EDGES_SMOOTH. */
 #define SMEAR_EDGES (SMEAR_WITH_FOG && SMEAR_WITH_SUBFRAMES)
 
+/* frame.scene may be there. */
+#define SMEAR_HAS_SCENE (SMEAR_WITH_SKY || SMEAR_WITH_LIGHTS)
+
 /* desc.methods */
 #define SMEAR_SET_SUMS (SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_ACCUMULATE_BANDS)
 enum {

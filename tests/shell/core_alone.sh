@@ -7,7 +7,7 @@ set -eu
 library=$1
 shift
 base=build/test/core-alone
-off='-DSMEAR_WITH_ACCUMULATE=0 -DSMEAR_WITH_RECONSTRUCT=0 -DSMEAR_WITH_TIMEMASK=0'
+off='-DSMEAR_WITH_ACCUMULATE=0 -DSMEAR_WITH_RECONSTRUCT=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_SKY=0 -DSMEAR_WITH_LIGHTS=0'
 rm -rf "$base"
 mkdir -p "$base"
 for room; do

@@ -43,7 +43,7 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
     N(smear_frame, cut, 1, ANY) N(smear_frame, refresh, 1, ANY) N(smear_frame, samples, 2, ANY) N(smear_frame, target, 2, ANY) \
     N(smear_frame, budget, 4, ANY) N(smear_frame, clear, 4, ANY) P(smear_frame, light) P(smear_frame, fog) S(smear_frame, shutter) \
     S(smear_frame, filter) A(smear_frame, scale, 2, ANY) P(smear_frame, layer) N(smear_frame, layer_count, 1, NONE) \
-                    N(smear_frame, edges, 1, REFUSED) P(smear_frame, overlay)
+                    N(smear_frame, edges, 1, REFUSED) P(smear_frame, overlay) P(smear_frame, scene)
 #define IMAGE(N, A, P, S) \
     P(smear_image, pixels) P(smear_image, palette) N(smear_image, width, 2, 64) N(smear_image, height, 2, 64) N(smear_image, cells, 2, 4) \
         N(smear_image, format, 1, ANY)

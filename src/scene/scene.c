@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* scene.c - what a frame's scene may have. */
+#include "others.h"
+#include "smear_scene.h"
+#include "validate.h"
+
+#if SMEAR_WITH_SKY || SMEAR_WITH_LIGHTS
+
+int smear_scene_check(const smear_scene *scene)
+{
+    const bool missing = (!SMEAR_WITH_SKY && scene->sky != NULL) || (!SMEAR_WITH_LIGHTS && scene->lights != NULL);
+    return missing ? FAULT(FRAME_SCENE) : SMEAR_OK;
+}
+
+#endif
