@@ -322,15 +322,15 @@ static int32_t shift_of(int32_t k, int32_t n, int32_t g)
 
 static bool has_shifts(const struct subframes *f) { return SMEAR_EDGES && bins_margin(f->t->frame->bins) != 0; }
 
-/* Draws and sums all instants after `samples` have been taken, but the middle one where that has been `drawn`. Returns how many samples
- * have been taken then. */
-static uint32_t draw_others(struct subframes *f, bool drawn, uint32_t samples, struct subframe_box *all)
+/* Draws and sums all instants after `samples` have been taken, but those that have been: the middle one of every `drawn`; 0: none.
+ * Returns how many samples have been taken then. */
+static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
     const bool smooths = has_shifts(f);
     const int32_t instants = (int32_t)f->instants;
     const int32_t step[2] = { smooths ? coprime(instants, 70) : 0, smooths ? coprime(instants, 98) : 0 };
     for (int32_t k = 0; k < instants; k++) {
-        if (drawn && k == instants / 2)
+        if (drawn != 0 && k % drawn == drawn / 2)
             continue;
         if (smooths) {
             f->shift[VERTEX_X] = shift_of(k, instants, step[VERTEX_X]);
@@ -347,7 +347,7 @@ static uint32_t draw_others(struct subframes *f, bool drawn, uint32_t samples, s
 /* Does so for tiles whose triangles come in several fills, and are not blended: by columns of pixels of which the store has all at
  * once, so that it is not filled again for each instant. Where it has not all of the narrowest it is, for ever more of what is left
  * of the tiles. */
-static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, bool drawn, uint32_t samples, struct subframe_box *all)
+static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
     enum { COLUMN = 8 };        /* what rounds of vectors take */
     struct smear_tile_run *const run = f->refilled;
@@ -378,7 +378,7 @@ static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, bool drawn, ui
     return samples;
 }
 
-static uint32_t draw_rest(struct subframes *f, bool drawn, uint32_t samples, struct subframe_box *all)
+static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
 {
     return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
 }
@@ -400,7 +400,7 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
     f->space->seen = 0;
-    const uint32_t samples = draw_rest(f, true, add_instant(f, middle, first / 2, 0, all), all);
+    const uint32_t samples = draw_rest(f, first, add_instant(f, middle, first / 2, 0, all), all);
     if (f->changes == NULL)
         return samples;
     f->changes = NULL;
@@ -411,8 +411,9 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
         wanted = max_i32(wanted, 3 * first);
     if (2 * wanted <= 3 * first)
         return samples;
+    const bool adds = wanted == 3 * first && !sums_light(f) && !has_shifts(f) && wanted <= PACKED_INSTANTS_MAX;
     f->instants = (uint32_t)wanted;
-    return draw_rest(f, false, 0, all);
+    return adds ? draw_rest(f, 3, samples, all) : draw_rest(f, 0, 0, all);
 }
 
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
@@ -464,7 +465,7 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
         }
         if (f.plans && f.refilled == NULL)
             middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
-        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, false, 0, &all);
+        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
