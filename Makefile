@@ -70,7 +70,7 @@ OTHER_ROOMS := $(addprefix src/,scene model filter layers accumulate timemask)
 SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal methods) src $(OTHER_ROOMS)
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
-PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game
+PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game platform/lessons
 TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz proofs target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
@@ -234,7 +234,7 @@ layers:
 
 # All C sources but what tools write.
 NO_ROOMS := platform/examples $(patsubst %/,%,$(sort $(dir $(shell find tests/examples/stand_ins -name "*.h"))))
-FORMATTED = $(filter-out src/base/tables.c,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
+FORMATTED = $(filter-out src/base/tables.c platform/lessons/bird.h,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
 
 .PHONY: core-alone
 ## the core links without models and the rooms of other systems' methods, and draws the same
@@ -488,7 +488,7 @@ README_LINES := 130
 README_WORDS := 1100
 test-readme: $(LIB) $(BUILD)/methods $(BIN)/smear-demo $(BUILD)/readme.ppm
 	@mkdir -p $(BUILD)
-	sh tests/shell/links.sh README.md include/README.md platform/README.md platform/tables.md src/README.md src/CHANGES.md \
+	sh tests/shell/links.sh README.md include/README.md platform/README.md platform/tables.md platform/lessons/README.md src/README.md src/CHANGES.md \
 	    tests/README.md tools/README.md
 	grep -q "^## [0-9.]*, .*headers say $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//')$$\|^## $$(sh tools/dist/version.sh | sed 's/\.[0-9]*$$//'), " src/CHANGES.md
 	[ $$(wc -l < README.md) -le $(README_LINES) ] && [ $$(wc -w < README.md) -le $(README_WORDS) ]
@@ -581,6 +581,7 @@ faults-injected: $(BUILD)/faults-injected
 
 include platform/programs.mk
 include platform/game/game.mk
+include platform/lessons/lessons.mk
 include tools/web/web.mk
 include tests/fuzz/fuzz.mk
 

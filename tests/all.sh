@@ -71,6 +71,7 @@ documents() {
     suite manual $make -s test-manual
     suite examples $make -s test-examples
     suite flush $make -s test-flush
+    suite lessons $make -s test-lessons
 }
 
 host() {
@@ -145,7 +146,7 @@ sanitized() {
     suite view-sanitized sh tests/shell/view.sh build/host-san-check/smear
 }
 
-cortex_m0plus() { ! arm || on cortex-m0plus target demo symbols stack game; }
+cortex_m0plus() { ! arm || on cortex-m0plus target demo symbols stack game lessons; }
 
 gba() {
     needs arm-none-eabi-gcc "gcc-arm-none-eabi" || return 0
