@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* smear_overlay.h - what lies over a frame: boxes, sprites and text, as a lap time, a bar, a crosshair; and points in the
+/* smear_overlay.h - what lies over a frame: boxes, sprites, text and lines, as a lap time, a bar, a needle; and points in the
  * world, as sparks, rain, snow, dust.
  *
  *     smear_overlay_item item[2] = { { 0 }, { 0 } };          // zero: white, opaque, 1:1
@@ -48,7 +48,10 @@ typedef struct smear_font {
  * none has none. */
 extern const smear_font smear_font_8x8, smear_font_6x8;
 
-/* Text where `text` is not null, else a cell of `image` where that is not null, else a box. */
+/* What `shape` draws, where it is not null; else text where `text` is not null, else a cell of `image` where that is not null,
+ * else a box. */
+typedef struct smear_shape smear_shape;
+
 typedef struct smear_overlay_item {
     int16_t x, y;               /* top left, pixels of the frame; may lie beyond it */
     uint16_t width, height;     /* of a box */
@@ -59,7 +62,39 @@ typedef struct smear_overlay_item {
     const smear_image *image;
     const smear_font *font;     /* required with text */
     const char *text;           /* one line, up to its NUL */
+    const smear_shape *shape;
+    int16_t to_x, to_y;         /* of smear_shape_line */
+    uint16_t turn, zoom;        /* of smear_shape_turned */
 } smear_overlay_item;
+
+/* ------------------------------------------------------------------ shapes */
+
+/* A cell of `image`, turned about its middle by `turn` 65536ths of a turn, counter-clockwise, and enlarged by `zoom` 256ths (0 means
+ * 256); `scale` does not count. x, y is its top left as it is unturned at 1:1, so that its middle stays where it is. A pixel shows
+ * the texel in which its own middle lies, to a 64th of a texel. */
+extern const smear_shape smear_shape_turned;
+
+/* A line with smooth edges and square ends, from the middle of pixel x, y to to_x, to_y 16ths of a pixel from there; `width` is how
+ * thick it is, in 16ths of a pixel (0 means 16), and by half of that it goes on beyond both of its ends, so lines join. A pixel is
+ * covered by how far its middle lies within: from not at all, half a pixel beyond the nearest side, to all of it, half a pixel within. */
+extern const smear_shape smear_shape_line;
+
+/* What a shape draws into: columns x0 .. x1 - 1 of row y of the finished frame. */
+typedef struct smear_shape_row {
+    uint32_t *pixel;            /* of column x0 on; 0x00RRGGBB, sRGB-encoded */
+    int32_t x0, x1, y;
+    uint8_t transfer;           /* how colours are blended; of no use to others */
+} smear_shape_row;
+
+/* Constant functions of an item, called once or more often for each row, by any core. A program may have shapes of its own; those
+ * above are linked where they are named, as fonts are. */
+struct smear_shape {
+    void (*find_box)(const smear_overlay_item *item, int32_t box[4]);   /* the pixels that it may touch: x0, y0, and the ends x1, y1 */
+    void (*draw_row)(const smear_overlay_item *item, const smear_shape_row *row);
+};
+
+/* Blends 0xAARRGGBB, straight alpha, over columns x0 .. x1 - 1 of a row, as far as it has them. */
+void smear_shape_cover(const smear_shape_row *row, int32_t x0, int32_t x1, uint32_t color);
 
 /* ------------------------------------------------------------------ points */
 

@@ -363,7 +363,9 @@ static int check_item(const smear_overlay_item *item)
     const smear_image *m = item->image;
     if (item->scale > 8)
         return FAULT(ITEM_SCALE);
-    if (item->text != NULL)
+    if (item->shape != NULL && (item->shape->find_box == NULL || item->shape->draw_row == NULL))
+        return FAULT(ITEM_SHAPE);
+    if (item->shape == NULL && item->text != NULL)
         return item->font != NULL && is_image(&item->font->glyph) ? SMEAR_OK : FAULT(ITEM_FONT);
     if (m != NULL && !is_image(m))
         return FAULT(ITEM_IMAGE);

@@ -66,6 +66,7 @@
     X(ITEM_IMAGE, "overlay.item.image: without pixels or palette, or out of range") \
     X(ITEM_CELL, "overlay.item.cell: not below image.cells") \
     X(ITEM_FONT, "overlay.item.font: missing, or as image") \
+    X(ITEM_SHAPE, "overlay.item.shape: without its functions") \
     X(FRAME_POINTS, "overlay.points: without points, or with smear_filter_begin") \
     X(POINT_SIZE, "overlay.point.size: negative") \
     X(POINT_MODE, "overlay.point.mode: unknown") \

@@ -181,15 +181,17 @@ void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc 
 static void mix_item(uint32_t h[2], const smear_overlay_item *item, int32_t i)
 {
     static const smear_image none = { 0 };
-    const smear_image *m = item->text != NULL ? &item->font->glyph : item->image != NULL ? item->image : &none;
-    const bool is_text = item->text != NULL;
-    int32_t word[9 + 2 * POINTER_WORDS] = {
+    const bool is_text = item->text != NULL && item->shape == NULL;
+    const smear_image *m = is_text ? &item->font->glyph : item->image != NULL ? item->image : &none;
+    int32_t word[11 + 3 * POINTER_WORDS] = {
         i, bytes(item->color[0], item->color[1], item->color[2], item->color[3]), item->x, item->y,
         (int32_t)((uint32_t)item->width << 16 | item->height), (int32_t)((uint32_t)item->scale << 16 | item->cell),
-        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, is_text, is_text ? item->font->first : 0), m->cells
+        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, is_text, is_text ? item->font->first : 0), m->cells,
+        (int32_t)((uint32_t)item->turn << 16 | item->zoom), (int32_t)((uint32_t)(uint16_t)item->to_x << 16 | (uint16_t)item->to_y)
     };
-    put_pointer(word + 9, m->pixels);
-    put_pointer(word + 9 + POINTER_WORDS, m->palette);
+    put_pointer(word + 11, m->pixels);
+    put_pointer(word + 11 + POINTER_WORDS, m->palette);
+    put_pointer(word + 11 + 2 * POINTER_WORDS, item->shape);
     h[0] = h[1] = 0;
     mix(h, word, (int)(sizeof word / sizeof *word));
 }
@@ -210,7 +212,7 @@ static void add_items(uint32_t *over, const smear_overlay *overlay, const struct
         const smear_overlay_item *item = &overlay->item[i];
         uint32_t h[2];
         mix_item(h, item, i);
-        if (item->text == NULL) {
+        if (item->shape != NULL || item->text == NULL) {
             const struct overlay_box box = smear_overlay_box(item);
             add_box(over, w, &box, sign * (h[0] + h[1]));
             continue;

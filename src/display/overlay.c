@@ -37,7 +37,7 @@ struct overlay_box smear_overlay_letter(const smear_overlay_item *item)
     return (struct overlay_box){ item->x, item->y, item->x + m->width * scale, item->y + m->height * scale };
 }
 
-static uint32_t color_of(const smear_overlay_item *item)
+uint32_t smear_overlay_color(const smear_overlay_item *item)
 {
     const uint8_t *c = item->color;
     return c[3] == 0 ? 0xffffffffu : pixel_make(c[3], c[0], c[1], c[2]);
@@ -59,6 +59,11 @@ struct overlay_box smear_overlay_box(const smear_overlay_item *item)
 {
     const int32_t scale = scale_of(item);
     int32_t width = item->width, height = item->height;
+    if (item->shape != NULL) {
+        int32_t box[4];
+        item->shape->find_box(item, box);
+        return (struct overlay_box){ box[0], box[1], box[2], box[3] };
+    }
     if (item->text != NULL) {
         width = text_width(item);
         height = item->font->glyph.height;
@@ -93,6 +98,13 @@ static inline void cover(const struct part *p, int32_t x0, int32_t x1, uint32_t 
         out[i] = pixel_blend(out[i], argb, alpha, p->transfer);
 }
 
+void smear_shape_cover(const smear_shape_row *row, int32_t x0, int32_t x1, uint32_t color)
+{
+    const struct part p = { row->pixel, NULL, row->x0, row->x1, row->transfer, true };
+    if (max_i32(x0, row->x0) < min_i32(x1, row->x1))
+        cover(&p, x0, x1, color);
+}
+
 /* Copies the part, once, where columns [x0, x1) lie in it. */
 static bool reaches(struct part *p, int32_t x0, int32_t x1)
 {
@@ -118,6 +130,16 @@ static uint32_t pixel_of(const smear_image *m, const uint8_t *row, int32_t i, ui
                          : m->format == SMEAR_IMAGE_PALETTE4 ? m->palette[nibble]
                                                              : m->palette[row[i]];
     return (color & 0xffffffu) | code_times(pixel_alpha(color), pixel_alpha(argb)) << 24;
+}
+
+uint32_t smear_overlay_texel(const smear_overlay_item *item, int32_t x, int32_t y)
+{
+    const smear_image *m = item->image;
+    const uint8_t *row = m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)y) * row_bytes(m);
+    const uint32_t argb = smear_overlay_color(item);
+    if (m->format != SMEAR_IMAGE_MASK1)
+        return pixel_of(m, row, x, argb);
+    return (row[x >> 3] & 0x80 >> (x & 7)) != 0 ? argb : 0;
 }
 
 /* Most letters are opaque bits, 1:1. */
@@ -179,6 +201,10 @@ static void draw_text(struct part *p, const smear_overlay_item *item, int32_t li
 /* Returns the line of an item that row y shows, in its own pixels, or -1. */
 static int32_t line_at(const smear_overlay_item *item, int32_t y)
 {
+    if (item->shape != NULL) {
+        const struct overlay_box box = smear_overlay_box(item);
+        return y < box.y0 || y >= box.y1 ? -1 : y - box.y0;
+    }
     const int32_t scale = scale_of(item), line = y - item->y;
     const int32_t lines = item->text != NULL ? item->font->glyph.height : item->image != NULL ? item->image->height : item->height;
     return line < 0 || line >= lines * scale ? -1 : scale == 1 ? line : line / scale;
@@ -196,6 +222,15 @@ struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y)
     return all;
 }
 
+static void draw_shape(struct part *p, const smear_overlay_item *item, int32_t y)
+{
+    const struct overlay_box box = smear_overlay_box(item);
+    if (reaches(p, box.x0, box.x1)) {
+        const smear_shape_row row = { p->out, p->x0, p->x1, y, p->transfer };
+        item->shape->draw_row(item, &row);
+    }
+}
+
 bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
                         smear_transfer transfer)
 {
@@ -204,10 +239,12 @@ bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint3
         const smear_overlay_item *item = &overlay->item[i];
         const smear_image *m = item->image;
         const int32_t scale = scale_of(item), line = line_at(item, y);
-        const uint32_t argb = color_of(item);
-        if (line < 0 || item->x >= x1)
+        const uint32_t argb = smear_overlay_color(item);
+        if (line < 0 || (item->x >= x1 && item->shape == NULL))
             continue;
-        if (item->text != NULL)
+        if (item->shape != NULL)
+            draw_shape(&p, item, y);
+        else if (item->text != NULL)
             draw_text(&p, item, line, scale, argb);
         else if (m != NULL)
             draw_row(&p, m, m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)line) * row_bytes(m), item->x, scale, argb);

@@ -28,6 +28,10 @@ struct overlay_box {
 
 struct overlay_box smear_overlay_box(const smear_overlay_item *item);
 
+/* Return an item's colour, and a pixel of its image, straight alpha. */
+uint32_t smear_overlay_color(const smear_overlay_item *item);
+uint32_t smear_overlay_texel(const smear_overlay_item *item, int32_t x, int32_t y);
+
 /* Return the pixels of a text's first letter, and the columns from one letter to the next. */
 struct overlay_box smear_overlay_letter(const smear_overlay_item *item);
 int32_t smear_overlay_advance(const smear_overlay_item *item);

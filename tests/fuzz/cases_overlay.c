@@ -37,6 +37,13 @@ static void make_item(struct fuzz_case *c, smear_overlay_item *item)
         item->image = &c->image;
         item->cell = (uint16_t)source_range(s, 0, c->image.cells != 0 ? c->image.cells - 1 : 0);
     }
+    if (source_chance(s, 4)) {
+        item->shape = source_chance(s, 2) ? &smear_shape_line : &smear_shape_turned;
+        item->turn = (uint16_t)source_word(s);
+        item->zoom = (uint16_t)(far ? source_word(s) : (uint32_t)source_range(s, 0, 1024));
+        item->to_x = (int16_t)source_range(s, far ? INT16_MIN : -900, far ? INT16_MAX : 900);
+        item->to_y = (int16_t)source_range(s, far ? INT16_MIN : -900, far ? INT16_MAX : 900);
+    }
 }
 
 /* Anywhere near the camera, mostly, and where it was before: a little elsewhere. */

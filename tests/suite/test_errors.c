@@ -297,6 +297,10 @@ static void test_the_text_of_a_bad_item_or_point_names_the_field(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         names(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &bad[i] }), "overlay.item.image");
     CHECK_EQ(begin_with_item(r.ctx, &(smear_overlay_item){ .image = &sprite }), SMEAR_OK);
+    const smear_shape half = { smear_shape_line.find_box, NULL };
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .shape = &half }), "overlay.item.shape");
+    names(begin_with_item(r.ctx, &(smear_overlay_item){ .shape = &smear_shape_turned, .image = &bad[0] }), "overlay.item.image");
+    CHECK_EQ(begin_with_item(r.ctx, &(smear_overlay_item){ .shape = &smear_shape_turned }), SMEAR_OK);
     names(begin_with_points(r.ctx, &(smear_points){ NULL, 1 }), "overlay.points");
     smear_point point = { .size = -1 };
     names(begin_with_points(r.ctx, &(smear_points){ &point, 1 }), "overlay.point.size");

@@ -51,7 +51,9 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 #define ITEM(N, A, P, S) \
     N(smear_overlay_item, x, 2, ANY) N(smear_overlay_item, y, 2, ANY) N(smear_overlay_item, width, 2, ANY) \
     N(smear_overlay_item, height, 2, ANY) A(smear_overlay_item, color, 1, ANY) N(smear_overlay_item, scale, 1, ANY) \
-            N(smear_overlay_item, cell, 2, ANY) P(smear_overlay_item, image) P(smear_overlay_item, font) P(smear_overlay_item, text)
+            N(smear_overlay_item, cell, 2, ANY) P(smear_overlay_item, image) P(smear_overlay_item, font) P(smear_overlay_item, text) \
+            P(smear_overlay_item, shape) N(smear_overlay_item, to_x, 2, ANY) N(smear_overlay_item, to_y, 2, ANY) \
+                    N(smear_overlay_item, turn, 2, ANY) N(smear_overlay_item, zoom, 2, ANY)
 #define POINT(N, A, P, S) \
     A(smear_point, now, 4, ANY) A(smear_point, before, 4, ANY) N(smear_point, size, 4, ANY) A(smear_point, color, 1, ANY) \
         N(smear_point, fade, 1, ANY) N(smear_point, mode, 1, ANY) S(smear_point, place)
@@ -114,7 +116,7 @@ struct scene_of_all {
     smear_fog fog;
     smear_image image;
     smear_font font;
-    smear_overlay_item item[3];
+    smear_overlay_item item[5];
     smear_point point[2];
     smear_points points;
     smear_overlay overlay;
@@ -173,6 +175,8 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->item[0] = (smear_overlay_item){ .x = 3, .y = 2, .color = { 250, 240, 20, 255 }, .font = &s->font, .text = s->text };
     s->item[1] = (smear_overlay_item){ .x = 40, .y = 20, .cell = 1, .image = &s->image };
     s->item[2] = (smear_overlay_item){ .x = 20, .y = 26, .width = 9, .height = 3, .color = { 20, 240, 20, 200 } };
+    s->item[3] = (smear_overlay_item){ .x = 9, .y = 20, .image = &s->image, .shape = &smear_shape_turned, .turn = 5000, .zoom = 300 };
+    s->item[4] = (smear_overlay_item){ .x = 9, .y = 9, .width = 40, .to_x = 180, .to_y = -70, .shape = &smear_shape_line };
     for (int i = 0; i < 2; i++)
         s->point[i] = (smear_point){ .now = { q16(i - 0.4), q16(0.5), q16(-3) }, .before = { q16(i - 0.4), q16(0.5), q16(-3) },
                                      .size = q16(0.2), .color = { 250, 90, 80 }, .fade = 20, .mode = SMEAR_POINT_BLEND };
@@ -313,7 +317,7 @@ static void turn_all(void)
     TURN(smear_image, &scene.image);
     TURN(smear_image, &scene.font.glyph);
     TURN(smear_font, &scene.font);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 5; i++)
         TURN(smear_overlay_item, &scene.item[i]);
     TURN(smear_point, &scene.point[1]);
     TURN(smear_points, &scene.points);

@@ -8,6 +8,8 @@
 
 #include "tests/rig.h"
 
+#include <math.h>
+
 enum { WIDTH = 104, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, ITEMS = 11 };
 
 /* ------------------------------------------------------------------ items of every kind */
@@ -184,7 +186,164 @@ static void test_frames_of_the_displays_own_pixels_have_items(void)
         }
 }
 
+/* ------------------------------------------------------------------ shapes */
+
+enum { SHAPES = 9 };
+
+/* Lines of no length, thin, thick, flat, upright, and beyond the frame; sprites small, large, turned, in every format. */
+static void make_shapes(smear_overlay_item item[SHAPES])
+{
+    static const smear_overlay_item all[SHAPES] = {
+        { .shape = &smear_shape_line, .x = 10, .y = 60, .to_x = 1201, .to_y = -713, .color = { 255, 220, 40, 255 } },
+        { .shape = &smear_shape_line, .x = 90, .y = 6, .to_x = -37, .to_y = 411, .width = 61, .color = { 20, 90, 255, 170 } },
+        { .shape = &smear_shape_line, .x = 20, .y = 10, .to_x = 700, .width = 7 },
+        { .shape = &smear_shape_line, .x = 40, .y = 40, .width = 90, .color = { 200, 20, 90, 255 } },
+        { .shape = &smear_shape_line, .x = -200, .y = 90, .to_x = 32767, .to_y = -9001, .width = 40, .color = { 0, 0, 0, 90 } },
+        { .shape = &smear_shape_turned, .x = 30, .y = 30, .image = &images[0], .turn = 5461, .zoom = 2100, .color = { 255, 0, 90, 200 } },
+        { .shape = &smear_shape_turned, .x = 60, .y = 20, .image = &images[1], .cell = 1, .turn = 40000, .zoom = 1800 },
+        { .shape = &smear_shape_turned, .x = 99, .y = 66, .image = &images[2], .turn = 16384, .zoom = 3000, .text = "no text" },
+        { .shape = &smear_shape_turned, .x = 70, .y = 50, .image = &smear_font_8x8.glyph, .cell = 33, .turn = 60000, .zoom = 517 }
+    };
+    memcpy(item, all, sizeof all);
+}
+
+/* How much of a pixel a line covers. */
+static double line_at(const smear_overlay_item *item, int x, int y)
+{
+    const double tx = item->to_x / 16.0, ty = item->to_y / 16.0, length = hypot(tx, ty);
+    const double ux = length > 0 ? tx / length : 1, uy = length > 0 ? ty / length : 0, dx = x - item->x, dy = y - item->y;
+    const double across = fabs(dx * uy - dy * ux), beyond = fabs(dx * ux + dy * uy - length / 2) - length / 2;
+    const double within = (item->width != 0 ? item->width : 16) / 32.0 + 0.5 - fmax(across, beyond);
+    return fmin(fmax(within, 0), 1);
+}
+
+/* The texel that a pixel shows, 0xAARRGGBB. False where its place is within a 64th of another one. */
+static bool turned_at(const smear_overlay_item *item, int x, int y, uint32_t *argb)
+{
+    const smear_image *m = item->image;
+    const double angle = item->turn * (2 * 3.14159265358979323846 / 65536), zoom = item->zoom / 256.0;
+    const double dx = x + 0.5 - (item->x + m->width / 2.0), dy = y + 0.5 - (item->y + m->height / 2.0);
+    const double u = (dx * cos(angle) - dy * sin(angle)) / zoom + m->width / 2.0;
+    const double v = (dx * sin(angle) + dy * cos(angle)) / zoom + m->height / 2.0;
+    const bool inside = u >= 0 && v >= 0 && u < m->width && v < m->height;
+    *argb = inside ? image_at(m, item->cell, (int)u, (int)v, color_of(item)) : 0;
+    return fabs(u - round(u)) >= 1.0 / 64 && fabs(v - round(v)) >= 1.0 / 64;
+}
+
+static double light_of(double code) { return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4); }
+
+static double code_of(double light) { return light <= 0.0031308 ? light * 12.92 : 1.055 * pow(light, 1 / 2.4) - 0.055; }
+
+/* A code once it is blended: at least, or at most, in codes. In linear light the steps of alpha are those of what light is. */
+static double blended(double code, double own, double alpha, bool linear)
+{
+    if (!linear)
+        return code + (own - code) * alpha;
+    const double was = light_of(code / 255), light = was + (light_of(own / 255) - was) * alpha;
+    return 255 * code_of(light);
+}
+
+/* Checks each item alone over a picture, channel by channel: within 1.5 codes; in linear light of what an alpha of 8 bits may be. */
+static void check_shape(const smear_overlay_item *item, const uint32_t *without, const uint32_t *with, bool linear)
+{
+    int unsure = 0, seen = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        uint32_t argb = color_of(item);
+        double alpha = (argb >> 24) / 255.0, step = 0;
+        if (item->shape == &smear_shape_line) {
+            alpha *= line_at(item, i % WIDTH, i / WIDTH);
+            step = linear && alpha > 0 && alpha < 1 ? 0.6 / 255 : 0;
+        } else if (turned_at(item, i % WIDTH, i / WIDTH, &argb)) {
+            alpha = (argb >> 24) / 255.0;
+        } else {
+            unsure++;
+            continue;
+        }
+        seen += alpha > 0;
+        for (int k = 0; k < 24; k += 8) {
+            const double was = without[i] >> k & 255u, own = argb >> k & 255u, is = with[i] >> k & 255u;
+            const double a = blended(was, own, fmax(alpha - step, 0), linear), b = blended(was, own, fmin(alpha + step, 1), linear);
+            CHECK(is >= fmin(a, b) - 1.5 && is <= fmax(a, b) + 1.5);
+        }
+    }
+    CHECK(seen > 4 && unsure < PIXELS / 12);
+}
+
+static void test_shapes_are_those_of_a_double_precision_reference(void)
+{
+    smear_overlay_item item[SHAPES];
+    make_shapes(item);
+    const smear_desc desc = desc_of(SMEAR_XRGB8888, SMEAR_DITHER_NONE);
+    for (int linear = 0; linear < 2; linear++)
+        for (int i = 0; i < SHAPES; i++) {
+            const smear_overlay one = { &item[i], 1, NULL };
+            uint8_t *without = picture_of(&desc, SMEAR_NONE, NULL, linear != 0), *with = picture_of(&desc, SMEAR_NONE, &one, linear != 0);
+            if (CHECK(without != NULL && with != NULL))
+                check_shape(&item[i], (uint32_t *)(void *)without, (uint32_t *)(void *)with, linear != 0);
+            free(without);
+            free(with);
+        }
+}
+
+/* Draws the shapes over a whole picture, a row at a time, by the functions that a program may call, too. */
+static void draw_shapes(uint32_t *picture, const smear_overlay_item *item, int count, bool linear)
+{
+    for (int i = 0; i < count; i++) {
+        int32_t box[4];
+        item[i].shape->find_box(&item[i], box);
+        for (int32_t y = 0; y < HEIGHT; y++) {
+            const smear_shape_row row = { picture + y * WIDTH, 0, WIDTH, y, linear ? TRANSFER_LINEAR : TRANSFER_CODES };
+            if (y >= box[1] && y < box[3])
+                item[i].shape->draw_row(&item[i], &row);
+        }
+    }
+}
+
+static void test_shapes_lie_over_the_picture_of_every_method(void)
+{
+    smear_overlay_item item[SHAPES];
+    const smear_overlay overlay = { item, SHAPES, NULL };
+    make_shapes(item);
+    const smear_desc desc = desc_of(SMEAR_XRGB8888, SMEAR_DITHER_NONE);
+    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
+        for (int linear = 0; linear < 2; linear++) {
+            uint8_t *want = picture_of(&desc, method, NULL, linear != 0), *got = picture_of(&desc, method, &overlay, linear != 0);
+            if (CHECK(want != NULL && got != NULL)) {
+                draw_shapes((uint32_t *)(void *)want, item, SHAPES, linear != 0);
+                CHECK(memcmp(want, got, PIXELS * 4) == 0);
+            }
+            free(want);
+            free(got);
+        }
+}
+
 /* ------------------------------------------------------------------ a display that keeps what it is sent */
+
+static void test_a_panel_is_sent_the_tiles_of_shapes_that_turn(void)
+{
+    smear_overlay_item item[2] = {
+        { .shape = &smear_shape_line, .x = 30, .y = 30, .to_x = 200, .to_y = 9, .color = { 200, 20, 90, 255 } },
+        { .shape = &smear_shape_turned, .x = 80, .y = 40, .image = &images[1], .zoom = 1400 }
+    };
+    const smear_overlay overlay = { item, 2, NULL };
+    smear_desc desc = { .width = WIDTH, .height = HEIGHT, .tile = 8, .flush = place_band };
+    RIG(whole, &desc, false);
+    desc.reuse.buffer_age = 1;
+    RIG(kept, &desc, false);
+    for (int i = 0; i < 10; i++) {
+        struct scene s;
+        make_scene(&s, 0, SMEAR_AUTO);
+        item[0].to_y = (int16_t)(i < 4 ? 9 : 9 - 30 * i);
+        item[1].turn = (uint16_t)(i < 6 ? 0 : 4000 * i);
+        item[1].zoom = (uint16_t)(i < 8 ? 1400 : 1300);
+        s.frame.overlay = &overlay;
+        kept.sent = 0;
+        CHECK_EQ(rig_frame(&whole, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK_EQ(rig_frame(&kept, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        CHECK(memcmp(kept.picture, whole.picture, PIXELS * 4) == 0);
+        CHECK(i < 2 || (kept.sent != 0) == (i >= 4));
+    }
+}
 
 /* What changes in frame `i`: nothing in most; a text in place, a cell, a colour, the order, a place, a number of items. */
 static void change(smear_overlay_item item[ITEMS], smear_overlay *overlay, char text[8], int i)

@@ -340,7 +340,7 @@ static void spoil(void *record, size_t size)
     (r).position = (b).position, (r).normal = (b).normal, (r).uv = (b).uv, (r).color = (b).color, (r).face_color = (b).face_color, \
     (r).index = (b).index;
 #define KEEP_LAYER(r, b) (r).camera = (b).camera, (r).open = (b).open, (r).close = (b).close;
-#define KEEP_ITEM(r, b) (r).image = (b).image, (r).font = (b).font, (r).text = (b).text;
+#define KEEP_ITEM(r, b) (r).image = (b).image, (r).font = (b).font, (r).text = (b).text, (r).shape = (b).shape;
 #define KEEP_DESC(r, b) (r).flush = (b).flush, (r).idle = (b).idle, (r).user = (b).user, (r).debug = (b).debug;
 
 struct wild {
