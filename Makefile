@@ -325,7 +325,7 @@ SUITES     := $(ALL_SUITES)
 UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster tables texture,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
 SAN_SUITES := $(filter anim apart api bins bounds budget clip convert convert_tool curve fixed fixmath flow foreign inputs jobs jpeg jumps kernels light math math_error matrix motion overlay \
-              path points present raster sight sketch space states still tables texture transform view x11,$(ALL_SUITES))
+              path points present raster ribbon sight sketch space states still tables texture transform view x11,$(ALL_SUITES))
 # With sanitizers no other is compiled, unless SUITE names it.
 ifeq ($(SAN),1)
 SUITES := $(SAN_SUITES) $(filter-out $(SAN_SUITES),$(filter $(SUITE),$(SUITES)))
@@ -531,7 +531,7 @@ $(BUILD)/methods: tests/examples/memory.c $(LIB)
 .PHONY: readme-figures rates-readme failures-readme manual-names
 ## again: the manual's table of names
 manual-names:
-	for header in smear smear_math smear_overlay smear_model smear_memory smear_methods smear_stats; do \
+	for header in smear smear_math smear_overlay smear_ribbon smear_model smear_memory smear_methods smear_stats; do \
 	    sed 's://.*::' include/$$header.h | awk -f tests/shell/header_names.awk; done > build/header_names.txt
 	awk -f tests/shell/manual_names.awk build/header_names.txt include/README.md > build/names.md
 	awk -f platform/footprint_readme.awk include/README.md > build/readme.md && mv build/readme.md include/README.md

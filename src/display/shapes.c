@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shapes.c - sprites that are turned and lines, of smear_overlay.h. Nothing else in the library calls them, so that they are linked
  * where a program names them. */
-#include "smear_math.h"
-
 #include "base/fixmath.h"
 #include "display/points.h"
 
@@ -13,6 +11,21 @@
 static int32_t zoom_of(const smear_overlay_item *item)
 {
     return item->zoom != 0 ? item->zoom : 256;
+}
+
+/* Returns the sine of 65536ths of a turn, q24, as smear_math.h does, whose polynomial it is. */
+static int32_t sine_of(uint32_t turn)
+{
+    uint32_t t = turn & 0x7fffu, square, p;
+    if (t > 0x4000u)
+        t = 0x8000u - t;
+    square = t * t << 2;
+    p = 321073058u - mulh_u32(41457241u, square);
+    p = 1369037671u - mulh_u32(p, square);
+    p = 2774391505u - mulh_u32(p, square);
+    p = 1686629674u - mulh_u32(p, square);
+    t = mulh_u32(p << 1, t << 17) >> 6;
+    return (turn & 0x8000u) != 0 ? -(int32_t)t : (int32_t)t;
 }
 
 /* A box around the circle that the corners of the image turn on. */
@@ -35,8 +48,8 @@ static void turned_draw_row(const smear_overlay_item *item, const smear_shape_ro
     if (box[1] + 1 == box[3])           /* there is no image */
         return;
     const int32_t w = item->image->width, h = item->image->height, x0 = max_i32(row->x0, box[0]), x1 = min_i32(row->x1, box[2]);
-    const int32_t cosine = smear_cos((uint32_t)item->turn << 16) * 4 / zoom_of(item);
-    const int32_t sine = smear_sin((uint32_t)item->turn << 16) * 4 / zoom_of(item);
+    const int32_t cosine = sine_of(item->turn + 0x4000u) * 4 / zoom_of(item);
+    const int32_t sine = sine_of(item->turn) * 4 / zoom_of(item);
     const int32_t dx = 2 * (x0 - item->x) + 1 - w, dy = 2 * (row->y - item->y) + 1 - h;
     int32_t u = (w << 17) + ((dx * cosine - dy * sine) >> 1), v = (h << 17) + ((dx * sine + dy * cosine) >> 1);
     for (int32_t x = x0; x < x1; x++, u += cosine, v += sine)

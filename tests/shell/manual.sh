@@ -77,7 +77,8 @@ check() { # KIND NAME PATTERN FILE
     grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
 }
 known=0
-headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_scene.h include/smear_model.h include/smear_memory.h include/smear_methods.h
+headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_ribbon.h include/smear_scene.h include/smear_model.h include/smear_memory.h
+    include/smear_methods.h
     include/smear_stats.h"
 for header in $headers; do
     names "$header" >"$base/names"
@@ -87,7 +88,7 @@ for header in $headers; do
         # Fields of smear_point_place are the library's own.
         field:length:*overlay.h | field:gain:*overlay.h | field:along_[xy]:*overlay.h | field:[xy][01]:*overlay.h) ;;
         field:depth:*overlay.h | field:next:*overlay.h) ;;
-        *_ | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:*) ;;
+        *_ | function:*_:* | *smear_math_* | field:smear_* | macro:SMEAR_H:* | macro:SMEAR_*_H:*) ;;
         function:*) check "$kind" "$name" "\\b$name(" "$base/code" ;;
         field:*_model.h | field:*_memory.h) ;;
         field:*) check "$kind" "$name" "\\(\\.\\|->\\)$name\\b" "$base/code" ;;
