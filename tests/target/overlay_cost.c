@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* overlay_cost.c - what lies over a frame costs: a line of 20 letters, and 1, 50 and 200 points that move 10 px and are
- * 2 px wide. Prints, in the units of platform.h's clock, a frame of 240x240 without them, RGB565 in two bands, over a clear
- * and over a shaded square that fills it, and by how much it takes longer with them. */
+/* overlay_cost.c - what lies over a frame costs: a line of 20 letters, a needle 100 px long, a sprite of 32x32 that is turned, and 1, 50
+ * and 200 points that move 10 px and are 2 px wide. Prints, in the units of platform.h's clock, a frame of 240x240 without them, RGB565
+ * in two bands, over a clear and over a shaded square that fills it, and by how much it takes longer with them. */
 #include "platform/platform.h"
 #include "platform/print.h"
 #include "smear_overlay.h"
@@ -32,6 +32,10 @@ static const uint8_t color[] = { 20, 40, 90, 255, 120, 30, 20, 255, 40, 140, 60,
 static const smear_mesh square = { .position = corner, .index = side, .color = color, .vertex_count = 4, .triangle_count = 2 };
 static const smear_material unlit = { .unlit = 1 };
 static const smear_overlay_item line = { .x = 8, .y = 8, .font = &smear_font_8x8, .text = "LAP 3  01:23.45  2ND" };
+static const uint8_t bits[4 * 32] = { 0xff, 0xff, 0xff, 0xff, 0x0f, 0xf0, 0x0f, 0xf0 };
+static const smear_image image = { bits, NULL, 32, 32, 1, SMEAR_IMAGE_MASK1 };
+static const smear_overlay_item needle = { .x = 60, .y = 120, .shape = &smear_shape_line, .to_x = 1385, .to_y = -800, .width = 32 },
+                                sprite = { .x = 100, .y = 100, .shape = &smear_shape_turned, .image = &image, .turn = 5000 };
 
 static smear_context *context;
 static smear_point point[POINTS];
@@ -117,13 +121,19 @@ static uint32_t cost(const struct way *w, const smear_overlay *overlay)
 static bool report(const struct way *w)
 {
     static const uint16_t counts[] = { 1, 50, POINTS };
-    const smear_overlay text = { &line, 1, NULL };
+    const smear_overlay text = { &line, 1, NULL }, shapes[2] = { { &needle, 1, NULL }, { &sprite, 1, NULL } };
     const uint32_t bare = cost(w, NULL), lettered = cost(w, &text);
     bool done = bare != 0 && lettered != 0;
     platform_print(w->name);
     print_decimal(bare);
     platform_print("; 20 letters +");
     print_decimal(lettered - bare);
+    for (int i = 0; i < 2; i++) {
+        const uint32_t all = cost(w, &shapes[i]);
+        done = done && all != 0;
+        platform_print(i == 0 ? "; needle +" : "; sprite +");
+        print_decimal(all - bare);
+    }
     platform_print("; points");
     for (int i = 0; i < 3; i++) {
         const smear_points points = { point, counts[i] };
