@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* test_ribbon.c - lines in the world (smear_ribbon.h): corners against double precision; hidden, seen and blurred by every method. */
+/* test_ribbon.c - lines in the world (smear_ribbon.h): corners against double precision; hidden, seen and blurred by every method; lines
+ * of OBJ files. */
 #include "smear_ribbon.h"
 
 #include "tests/random.h"
 #include "tests/rig.h"
+#include "tools/convert/segments.h"
 
 #include <math.h>
 
@@ -125,6 +127,33 @@ static void test_lines_are_hidden_and_blurred_by_every_method(void)
         for (int x = 0; x < SIDE; x++)
             CHECK_EQ(red[x], 0);
     }
+}
+
+/* ------------------------------------------------------------------ lines of files */
+
+static bool convert(const char *text, double scale, int *count, struct failure *f)
+{
+    uint8_t *bytes;
+    size_t size;
+    *f = (struct failure){ "" };
+    const bool ok = segments_to_header((const uint8_t *)text, strlen(text), scale, "edge", "edge.obj", &bytes, &size, count, f);
+    if (ok)
+        CHECK(strstr((char *)bytes, "{ { { -32768, 0, 0 }, { 32768, 98304, 0 } }, { { -32768, 0, 0 }, { 32768, 98304, 0 } } },\n") != NULL
+              && strstr((char *)bytes, "#define EDGE_SEGMENTS ") != NULL);
+    free(bytes);
+    return ok;
+}
+
+static void test_lines_of_files_become_segments(void)
+{
+    static const char *const bad[] = { "v 1 2\n", "v 1 2 x\n", "v 1 2 40000\n", "v 0 0 0\nl 1 2\n", "v 0 0 0\nl 1 x\n", "v 0 0 0\nl -2 1\n",
+                                       "v 0 0 0\nl 0 1\n", "v 0 0 0\nf 1 1 1\n", "v 0 0 0\nl 1\n", "" };
+    struct failure f;
+    int count;
+    CHECK(convert("v -.5 0 0\nv .5 1.5 0\nl 1 2\n", 1, &count, &f) && count == 1);
+    CHECK(convert("v -5 0 0\nv 5 15 0\nvt 0 0\nl -2/1 -1/1 1\nf 1 2 1\nl 2 1 2\n", 0.1, &count, &f) && count == 4);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        CHECK(!convert(bad[i], 1, &count, &f) && f.text[0] != '\0');
 }
 
 #include "build/suites/ribbon.h"

@@ -3,6 +3,7 @@
 #include "tools/cli/commands.h"
 
 #include "tools/convert/convert.h"
+#include "tools/convert/segments.h"
 #include "tools/convert/sprite.h"
 #include "tools/image/file.h"
 #include "tools/image/image.h"
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_CHOICES = 64 };
+enum { MAX_CHOICES = 64, LINES_BYTES_MOST = 16 << 20 };
 
 struct convert_command {
     const char *output, *name;
@@ -25,6 +26,7 @@ struct convert_command {
     struct convert_options options;
     struct sprite_options sprite;
     bool is_sprite;             /* an option says so */
+    bool lines;                 /* of an OBJ file these, and nothing else */
     bool double_sided;
 };
 
@@ -109,6 +111,7 @@ static const struct option table[] = {
     { "--mask", OPTION_FLAG, AT(sprite.mask), SPRITE },
     { "--font", OPTION_INTEGER, AT(sprite.first), .given = offsetof(struct convert_command, sprite.font), .high = 255,
       .needs = "the code of its first letter" },
+    { "--lines", OPTION_FLAG, AT(lines) },
     { .name = NULL },
 };
 
@@ -357,16 +360,31 @@ static bool is_picture(const char *path)
     return ends_with(path, ".png") || ends_with(path, ".ppm");
 }
 
+/* Writes a header that something other than a model has become, and what it holds: `report`. */
+static int write_header(const struct convert_command *command, const uint8_t *bytes, size_t size, const char *report)
+{
+    struct failure f = { "" };
+    const bool is_text = is_standard_output(command->output);
+    int status = STATUS_OK;
+    if (!write_bytes(command->output, bytes, size, &f))
+        status = say_bad_input(is_text ? "standard output" : command->output, &f);
+    if (status == STATUS_OK)
+        fprintf(is_text ? stderr : stdout, "%s\n%s%s%s", report, is_text ? "" : "wrote ", is_text ? "" : command->output,
+                is_text ? "" : "\n");
+    if (status == STATUS_OK && !output_flush_standard(&f))
+        status = say_bad_input("standard output", &f);
+    return status;
+}
+
 /* A picture becomes a header only. */
 static int convert_picture(const struct convert_command *command, const char *path)
 {
     struct failure f = { "" };
     struct sprite_report r;
     struct image image;
-    char name[64];
+    char name[64], report[160];
     uint8_t *bytes = NULL;
     size_t size = 0;
-    const bool is_text = is_standard_output(command->output);
     if (ends_with(command->output, ".smr"))
         return say_bad_usage("-o", "writes pictures as .h or - (\"%s\")", command->output);
     if (!file_keep(path, &f) || !image_load(path, &image, &f))
@@ -376,21 +394,45 @@ static int convert_picture(const struct convert_command *command, const char *pa
         image_free(&image);
         return status;
     }
-    name_from(is_text ? path : command->output, name);
+    name_from(is_standard_output(command->output) ? path : command->output, name);
     const bool ok = sprite_to_header(&image, &command->sprite, command->name != NULL ? command->name : name, base_name(path),
                                      &bytes, &size, &r, &f);
     image_free(&image);
     if (ok && command->max_flash > 0 && r.bytes > (size_t)command->max_flash)
         fail(&f, "takes %zu bytes of flash, more than %ld (--max-flash)", r.bytes, command->max_flash);
     status = f.text[0] != '\0' ? say_bad_input(path, &f) : STATUS_OK;
-    if (status == STATUS_OK && !write_bytes(command->output, bytes, size, &f))
-        status = say_bad_input(is_text ? "standard output" : command->output, &f);
+    if (status == STATUS_OK) {
+        snprintf(report, sizeof report, "%d of %dx%d pixels, %s: %zu bytes of flash", r.cells, r.width, r.height, r.format, r.bytes);
+        status = write_header(command, bytes, size, report);
+    }
     free(bytes);
-    if (status == STATUS_OK)
-        fprintf(is_text ? stderr : stdout, "%d of %dx%d pixels, %s: %zu bytes of flash\n%s%s%s", r.cells, r.width, r.height,
-                r.format, r.bytes, is_text ? "" : "wrote ", is_text ? "" : command->output, is_text ? "" : "\n");
-    if (status == STATUS_OK && !output_flush_standard(&f))
-        status = say_bad_input("standard output", &f);
+    return status;
+}
+
+/* So do the lines of an OBJ file. */
+static int convert_lines(const struct convert_command *command, const char *path)
+{
+    struct failure f = { "" };
+    char name[64], report[160];
+    uint8_t *text = NULL, *bytes = NULL;
+    size_t text_size = 0, size = 0;
+    int count = 0;
+    if (!ends_with(path, ".obj") || ends_with(command->output, ".smr"))
+        return say_bad_usage("--lines", "writes lines of an .obj file as .h or - (\"%s\")", path);
+    if (!file_keep(path, &f) || !file_read(path, LINES_BYTES_MOST, &text, &text_size, &f))
+        return say_bad_input(path, &f);
+    int status = apart_check_inputs(&(struct apart_output){ .path = command->output }, 1);
+    name_from(is_standard_output(command->output) ? path : command->output, name);
+    if (status == STATUS_OK
+        && !segments_to_header(text, text_size, command->options.scale, command->name != NULL ? command->name : name, base_name(path),
+                               &bytes, &size, &count, &f))
+        status = say_bad_input(path, &f);
+    free(text);
+    if (status == STATUS_OK) {
+        snprintf(report, sizeof report, "%d lines: %d bytes of flash", count, 48 * count);
+        status = write_header(command, bytes, size, report);
+    }
+    free(bytes);
     return status;
 }
 
@@ -422,6 +464,8 @@ int command_convert(int count, char **text)
     }
     if (is_picture(path))
         return convert_picture(&command, path);
+    if (command.lines)
+        return convert_lines(&command, path);
     if (command.is_sprite || command.sprite.font)
         return say_bad_usage("--cell", "as --key, --mask and --font: for pictures, .png or .ppm (\"%s\")", path);
     if (!model_load_from(path, command.files, &model, &f))

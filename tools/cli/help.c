@@ -222,7 +222,9 @@ static const char *const convert_help[] = {
     "  --key RRGGBB          pixels of this colour are holes\n"
     "  --mask                1 or 4 bits per pixel of a colour that firmware names: the alpha, or the\n"
     "                        brightness where all is opaque\n"
-    "  --font CODE           a mask whose cells are letters, the first of this code (32: a space)\n",
+    "  --font CODE           a mask whose cells are letters, the first of this code (32: a space)\n"
+    "\n"
+    "  --lines               of an .obj file the lines (l) alone, as segments of smear_ribbon.h\n",
     NULL
 };
 
