@@ -132,14 +132,13 @@ static uint32_t pixel_of(const smear_image *m, const uint8_t *row, int32_t i, ui
     return (color & 0xffffffu) | code_times(pixel_alpha(color), pixel_alpha(argb)) << 24;
 }
 
-uint32_t smear_overlay_texel(const smear_overlay_item *item, int32_t x, int32_t y)
+uint32_t smear_image_pitch(const smear_image *m) { return row_bytes(m); }
+
+uint32_t smear_image_pixel(const smear_image *m, const uint8_t *row, int32_t i, uint32_t argb)
 {
-    const smear_image *m = item->image;
-    const uint8_t *row = m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)y) * row_bytes(m);
-    const uint32_t argb = smear_overlay_color(item);
     if (m->format != SMEAR_IMAGE_MASK1)
-        return pixel_of(m, row, x, argb);
-    return (row[x >> 3] & 0x80 >> (x & 7)) != 0 ? argb : 0;
+        return pixel_of(m, row, i, argb);
+    return (row[i >> 3] & 0x80 >> (i & 7)) != 0 ? argb : 0;
 }
 
 /* Most letters are opaque bits, 1:1. */

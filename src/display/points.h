@@ -28,9 +28,10 @@ struct overlay_box {
 
 struct overlay_box smear_overlay_box(const smear_overlay_item *item);
 
-/* Return an item's colour, and a pixel of its image, straight alpha. */
+/* Return an item's colour, the bytes of an image's row, and a pixel of one, straight alpha, where `argb` is the item's. */
 uint32_t smear_overlay_color(const smear_overlay_item *item);
-uint32_t smear_overlay_texel(const smear_overlay_item *item, int32_t x, int32_t y);
+uint32_t smear_image_pitch(const smear_image *m);
+uint32_t smear_image_pixel(const smear_image *m, const uint8_t *row, int32_t i, uint32_t argb);
 
 /* Return the pixels of a text's first letter, and the columns from one letter to the next. */
 struct overlay_box smear_overlay_letter(const smear_overlay_item *item);

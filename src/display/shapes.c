@@ -43,18 +43,24 @@ static void turned_find_box(const smear_overlay_item *item, int32_t box[4])
 /* Goes over the row's pixels within the box in texels, q18: whatever the zoom is they are less than 2^31 there. */
 static void turned_draw_row(const smear_overlay_item *item, const smear_shape_row *row)
 {
+    const smear_image *m = item->image;
     int32_t box[4];
     turned_find_box(item, box);
-    if (box[1] + 1 == box[3])           /* there is no image */
+    if (m == NULL)
         return;
-    const int32_t w = item->image->width, h = item->image->height, x0 = max_i32(row->x0, box[0]), x1 = min_i32(row->x1, box[2]);
+    const int32_t w = m->width, h = m->height, x0 = max_i32(row->x0, box[0]), x1 = min_i32(row->x1, box[2]);
     const int32_t cosine = sine_of(item->turn + 0x4000u) * 4 / zoom_of(item);
     const int32_t sine = sine_of(item->turn) * 4 / zoom_of(item);
     const int32_t dx = 2 * (x0 - item->x) + 1 - w, dy = 2 * (row->y - item->y) + 1 - h;
     int32_t u = (w << 17) + ((dx * cosine - dy * sine) >> 1), v = (h << 17) + ((dx * sine + dy * cosine) >> 1);
+    const uint32_t pitch = smear_image_pitch(m), own = smear_overlay_color(item);
+    const uint8_t *pixels = m->pixels + (uint32_t)item->cell * (uint32_t)h * pitch;
     for (int32_t x = x0; x < x1; x++, u += cosine, v += sine)
-        if ((uint32_t)u < (uint32_t)w << 18 && (uint32_t)v < (uint32_t)h << 18)
-            smear_shape_cover(row, x, x + 1, smear_overlay_texel(item, u >> 18, v >> 18));
+        if ((uint32_t)u < (uint32_t)w << 18 && (uint32_t)v < (uint32_t)h << 18) {
+            const uint32_t argb = smear_image_pixel(m, pixels + (uint32_t)(v >> 18) * pitch, u >> 18, own);
+            if (pixel_alpha(argb) != 0)
+                smear_shape_cover(row, x, x + 1, argb);
+        }
 }
 
 const smear_shape smear_shape_turned = { turned_find_box, turned_draw_row };
