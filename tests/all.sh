@@ -159,7 +159,7 @@ gba() {
 
 s390x() {
     if needs s390x-linux-gnu-gcc "gcc-s390x-linux-gnu libc6-dev-s390x-cross" qemu-s390x-static "qemu-user-static"; then
-        on s390x target demo
+        on s390x target demo lessons
     fi
 }
 
@@ -315,7 +315,7 @@ all_objects() {
 
 rv32imc() {
     if needs riscv64-unknown-elf-gcc "gcc-riscv64-unknown-elf" qemu-system-riscv32 "qemu-system-misc"; then
-        on rv32imc target symbols demo stack
+        on rv32imc target symbols demo stack lessons
     fi
 }
 
