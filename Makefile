@@ -531,7 +531,7 @@ $(BUILD)/methods: tests/examples/memory.c $(LIB)
 .PHONY: readme-figures rates-readme failures-readme manual-names
 ## again: the manual's table of names
 manual-names:
-	for header in smear smear_math smear_overlay smear_ribbon smear_model smear_memory smear_methods smear_stats; do \
+	for header in smear smear_math smear_overlay smear_ribbon smear_scene smear_model smear_memory smear_methods smear_stats; do \
 	    sed 's://.*::' include/$$header.h | awk -f tests/shell/header_names.awk; done > build/header_names.txt
 	awk -f tests/shell/manual_names.awk build/header_names.txt include/README.md > build/names.md
 	awk -f platform/footprint_readme.awk include/README.md > build/readme.md && mv build/readme.md include/README.md

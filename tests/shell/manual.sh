@@ -78,8 +78,7 @@ check() { # KIND NAME PATTERN FILE
 }
 known=0
 headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_ribbon.h include/smear_scene.h include/smear_model.h include/smear_memory.h
-    include/smear_methods.h
-    include/smear_stats.h"
+    include/smear_methods.h include/smear_stats.h"
 for header in $headers; do
     names "$header" >"$base/names"
     known=$((known + $(wc -l <"$base/names")))
