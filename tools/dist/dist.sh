@@ -23,7 +23,7 @@ switches=$(sed -n 's/^#ifndef \(SMEAR_WITH_[A-Z0-9_]*\).*/\1/p' include/smear_co
 # ---------------------------------------------------------------------- the one file
 
 # Headers that are merged into smear.h: what includes one by its name gets that.
-merged="smear_overlay smear_model smear_config smear_methods smear_stats smear_memory"
+merged="smear_overlay smear_scene smear_model smear_config smear_methods smear_stats smear_memory"
 mkdir -p "$out/single"
 # shellcheck disable=SC2086
 "$tool" SOURCE "$out/single/smear.c" $headers $sources
