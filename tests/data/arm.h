@@ -1,11 +1,11 @@
 /* arm.h - arm.gltf for smear, written by smear convert.
  *
- * 62 triangles, 44 vertices, 6 draws, 1 textures, 6 nodes, 2 clips: 2846 bytes of constant data.
+ * 62 triangles, 44 vertices, 6 draws, 1 textures, 6 nodes, 2 clips: 2918 bytes of constant data.
  * Include it in one source file. */
 #ifndef ARM_H
 #define ARM_H
 
-#include <smear_model.h>
+#include "smear_model.h"
 
 #if SMEAR_MODEL_FORMAT != 1
 #error "made for another version of smear: run smear convert again"

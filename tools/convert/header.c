@@ -347,7 +347,7 @@ static void put_top(struct header_writer *w, const char *from)
            " * Include it in one source file. */\n", w->c->triangles, w->c->vertices, m->draw_count,
                  w->c->texture_count, m->node_count, m->clip_count,
                  w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
-    buffer_print(&w->b, "#ifndef %s_H\n#define %s_H\n\n#include <smear_model.h>\n\n"
+    buffer_print(&w->b, "#ifndef %s_H\n#define %s_H\n\n#include \"smear_model.h\"\n\n"
            "#if SMEAR_MODEL_FORMAT != %d\n"
            "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
                  w->upper, w->upper, SMEAR_MODEL_FORMAT);

@@ -12,7 +12,7 @@
 /* ------------------------------------------------------------------ bytes */
 
 /* On a core with 32-bit pointers. */
-enum { MESH_BYTES = 48, TEXTURE_BYTES = 16, MATERIAL_BYTES = 16, TRANSFORM_BYTES = 48, MODEL_BYTES = 108 };
+enum { MESH_BYTES = 60, TEXTURE_BYTES = 16, MATERIAL_BYTES = 16, TRANSFORM_BYTES = 48, MODEL_BYTES = 108 };
 
 static size_t mesh_arrays(const smear_model *m, uint32_t index)
 {
