@@ -264,7 +264,7 @@ build/gentables: tools/gentables.c
 
 # ---------------------------------------------------------------------- forms to hand on
 
-.PHONY: dist install dist-test dist-single-test
+.PHONY: dist kit install dist-test dist-single-test
 ONE_FILE := build/one-file/single/smear.c
 ## tests: what `make dist` and `make install` write, compiled and run
 dist-test: dist $(ONE_FILE)
@@ -285,6 +285,14 @@ dist: build/dist-single $(BIN)/smear
 $(ONE_FILE): build/dist-single tools/dist/dist.sh $(foreach room,include $(SRC_ROOMS),$(wildcard $(room)/*.[ch]*))
 	$(call say,GEN)
 	FORMS=single sh tools/dist/dist.sh $< build/one-file $(SRC_ROOMS)
+
+# What `smear convert` makes sketches of, for Arduino and ESP-IDF: the library and the displays.
+KIT := build/kit/kit.tar
+## start: build/kit/kit.tar: smear convert MODEL --kit build/kit/kit.tar -o SKETCH.zip
+kit: $(KIT)
+$(KIT): $(ONE_FILE) platform/examples $(wildcard platform/examples/*.h) $(shell find tools/dist/arduino tools/dist/esp-idf -type f)
+	$(call say,GEN)
+	FORMS=kit sh tools/dist/dist.sh build/dist-single $(@D) $(SRC_ROOMS)
 
 build/dist-single: tools/dist/single.c
 	$(call say,CC,$<)
@@ -470,7 +478,7 @@ test-examples: $(LIB)
 
 # flush() for other people's displays (platform/examples), on stand-ins of their headers: one picture on all panels.
 FLUSH_CXX := adafruit_gfx arduino_gfx ili9341_t4 lovyangfx tft_espi u8g2
-FLUSH_ALL := $(filter-out cube fox terminal,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h))) esp_bsp_dsi
+FLUSH_ALL := $(filter-out cube fox show terminal,$(patsubst platform/examples/%.h,%,$(wildcard platform/examples/*.h))) esp_bsp_dsi
 test-flush: $(LIB)
 	CC="$(CC)" CXX="$(CXX)" FLUSH_CXX="$(FLUSH_CXX)" sh tests/shell/flush.sh $(BUILD)/flush $(LIB) \
 	    $(filter-out $(if $(call with_cxx,yes),,$(FLUSH_CXX)),$(FLUSH_ALL))
@@ -612,7 +620,7 @@ build/tapes/cost.c: build/tapes/view_cost
 	$(call say,GEN)
 	build/tapes/view_cost tapes $@ build/tapes/cost.counts
 
-$(BUILD)/cost_bench$(EXE): $(call objects,$(PLATFORM_SRC) platform/print.c tests/target/target_bench.c platform/play.c build/tapes/cost.c) $(LIB)
+$(BUILD)/cost_bench$(EXE): $(PLATFORM_OBJ) $(call objects,$(PLATFORM_SRC) platform/print.c tests/target/target_bench.c platform/play.c build/tapes/cost.c) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $^ $(LDLIBS)
 

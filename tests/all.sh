@@ -123,6 +123,10 @@ programs() {
     needs python3 "python3" || true        # cli.sh reads statistics with it
     suite command-line sh tests/shell/cli.sh build/smear
     suite did-you-mean sh tests/shell/did_you_mean.sh build/smear
+    if needs "${CXX:-g++}" "g++"; then
+        suite build-kit $make -s kit
+        suite sketch-compiled sh tests/shell/sketch.sh build/smear build/kit/kit.tar
+    fi
     suite show sh tests/shell/show.sh build/smear
     suite outputs sh tests/shell/outputs.sh build/smear
     suite strangers sh tests/shell/strangers.sh build/smear

@@ -2,8 +2,10 @@
 /* adafruit_gfx.h - smear on a colour display of Adafruit_GFX: any whose class is an Adafruit_SPITFT. */
 #include <Adafruit_ST7789.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 240
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static Adafruit_ST7789 tft(10, 9, 8);   /* chip select, data/command, reset */
@@ -19,6 +21,6 @@ static int display_flush(void *, const smear_band *band)
 
 static void display_begin(smear_desc *desc)
 {
-    tft.init(240, 240);
+    tft.init(SCREEN_WIDTH, SCREEN_HEIGHT);
     desc->flush = display_flush;
 }

@@ -2,11 +2,13 @@
 /* arduino_gfx.h - smear on a display of Arduino_GFX. */
 #include <Arduino_GFX_Library.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 240
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
-static Arduino_GFX *gfx = new Arduino_ST7789(create_default_Arduino_DataBus(), 8 /* reset */, 0, true, 240, 240);
+static Arduino_GFX *gfx = new Arduino_ST7789(create_default_Arduino_DataBus(), 8 /* reset */, 0, true, SCREEN_WIDTH, SCREEN_HEIGHT);
 
 static int display_flush(void *, const smear_band *band)
 {

@@ -9,8 +9,10 @@
 #include <freertos/FreeRTOS.h>
 #include <freertos/task.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 240
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 #define SCREEN_BANDS 2
 #define PIN_CLOCK 12
@@ -58,7 +60,7 @@ static void display_idle(void *user)
 static void display_begin(smear_desc *desc)
 {
     spi_bus_config_t bus = { .mosi_io_num = PIN_DATA, .miso_io_num = -1, .sclk_io_num = PIN_CLOCK, .quadwp_io_num = -1,
-                             .quadhd_io_num = -1, .max_transfer_sz = 240 * 64 * 2 };
+                             .quadhd_io_num = -1, .max_transfer_sz = SCREEN_WIDTH * 64 * 2 };
     esp_lcd_panel_io_spi_config_t wires = { .cs_gpio_num = PIN_SELECT, .dc_gpio_num = PIN_COMMAND, .pclk_hz = 40 * 1000 * 1000,
                                             .trans_queue_depth = 2, .on_color_trans_done = display_sent,
                                             .lcd_cmd_bits = 8, .lcd_param_bits = 8 };

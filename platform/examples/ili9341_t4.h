@@ -3,8 +3,10 @@
  * keeps behind the panel's scan line, so that nothing tears. */
 #include <ILI9341_T4.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 320
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565
 
 static ILI9341_T4::ILI9341Driver tft(9, 10, 13, 11, 12, 6, 255, 255);   /* select, command, clock, data out and in, reset, no touch */

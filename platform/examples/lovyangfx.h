@@ -3,8 +3,10 @@
 #include <LovyanGFX.hpp>
 #include <LGFX_AUTODETECT.hpp>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 240
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 #define SCREEN_BANDS 2
 

@@ -5,8 +5,10 @@
 #endif
 #include <TFT_eSPI.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 240
 #define SCREEN_HEIGHT 240
+#endif
 #define SCREEN_FORMAT SMEAR_RGB565_SWAPPED
 
 static TFT_eSPI tft;

@@ -2,8 +2,10 @@
 /* u8g2.h - smear on a monochrome display of u8g2, through its U8x8 half: no frame in memory. */
 #include <U8x8lib.h>
 
+#ifndef SCREEN_WIDTH
 #define SCREEN_WIDTH 128
 #define SCREEN_HEIGHT 64
+#endif
 #define SCREEN_FORMAT SMEAR_L1_PAGES
 
 static U8X8_SSD1306_128X64_NONAME_HW_I2C oled(U8X8_PIN_NONE);

@@ -116,18 +116,8 @@ recipe.c.combine.pattern=${CXX:-c++} -o "{build.path}/{build.project_name}.elf" 
 recipe.preproc.macros=${CXX:-c++} -std=gnu++11 -w -x c++ -E -CC {includes} "{source_file}" -o "{preprocessed_file_path}"
 recipe.preproc.includes=${CXX:-c++} -std=gnu++11 -M -MG -MP -w {includes} "{source_file}"
 END
-cat >"$board/cores/here/Arduino.h" <<END
-#include <stdint.h>
-struct stand_in_serial { void begin(long) {} void println(const char *) {} };
-extern stand_in_serial Serial;
-void setup();
-void loop();
-END
-cat >"$board/cores/here/main.cpp" <<END
-#include "Arduino.h"
-stand_in_serial Serial;
-int main() { setup(); for (int i = 0; i < 12; i++) loop(); }
-END
+cp "$stand_ins/Arduino.h" "$board/cores/here"
+cp "$stand_ins/arduino_main.h" "$board/cores/here/main.cpp"
 # library NAME HEADER...: a library of Arduino's, of stand-ins whose panel is written when the program ends
 library() {
     mkdir -p "$base/arduino-libraries/$1/src"

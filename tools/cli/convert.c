@@ -4,6 +4,7 @@
 
 #include "tools/convert/convert.h"
 #include "tools/convert/segments.h"
+#include "tools/convert/sketch.h"
 #include "tools/convert/sprite.h"
 #include "tools/image/file.h"
 #include "tools/image/image.h"
@@ -25,7 +26,9 @@ struct convert_command {
     long max_triangles, max_flash, max_ram;     /* 0: no limit */
     struct convert_options options;
     struct sprite_options sprite;
-    bool is_sprite;             /* an option says so */
+    struct sketch_options sketch;
+    const char *kit;
+    bool is_sprite, is_sketch;  /* an option says so */
     bool lines;                 /* of an OBJ file these, and nothing else */
     bool double_sided;
 };
@@ -78,8 +81,24 @@ static const char *read_key(void *to, const char *value)
     return NULL;
 }
 
+static const char *read_display(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    c->is_sketch = true;
+    c->sketch.display = read_name(value, sketch_displays);
+    return c->sketch.display >= 0 ? NULL : "needs one of smear help convert";
+}
+
+static const char *read_screen(void *to, const char *value)
+{
+    struct convert_command *c = to;
+    c->is_sketch = true;
+    return read_size(value, 2048, &c->sketch.width, &c->sketch.height) ? NULL : "needs WIDTHxHEIGHT, at most 2048x2048";
+}
+
 #define AT(member) OPTION_AT(struct convert_command, member)
 #define SPRITE .given = offsetof(struct convert_command, is_sprite)
+#define SKETCH .given = offsetof(struct convert_command, is_sketch)
 #define LIMIT .low = 1, .high = 1 << 30
 
 static const struct option table[] = {
@@ -112,6 +131,10 @@ static const struct option table[] = {
     { "--font", OPTION_INTEGER, AT(sprite.first), .given = offsetof(struct convert_command, sprite.font), .high = 255,
       .needs = "the code of its first letter" },
     { "--lines", OPTION_FLAG, AT(lines) },
+    { "--kit", OPTION_TEXT, AT(kit), SKETCH },
+    { "--display", OPTION_READ, .read = read_display },
+    { "--size", OPTION_READ, .read = read_screen },
+    { "--quality", OPTION_NAME, AT(sketch.quality), SKETCH, OPTION_NAMES("sharp", "draft", "balanced", "fine") },
     { .name = NULL },
 };
 
@@ -292,19 +315,47 @@ static bool write_bytes(const char *path, const uint8_t *bytes, size_t size, str
     return fail(f, "out of memory");
 }
 
+/* Bytes of a header, blob or sketch, by the output's name. */
+static bool make_result(const struct convert_command *command, const char *path, const struct conversion *c, struct sketch_report *report,
+                        uint8_t **bytes, size_t *size, struct failure *f)
+{
+    const bool is_text = is_standard_output(command->output);
+    uint8_t *kit;
+    size_t kit_size;
+    char name[64];
+    name_from(is_text ? path : command->output, name);
+    if (ends_with(command->output, ".smr"))
+        return convert_to_blob(c, bytes, size, f);
+    if (!ends_with(command->output, ".zip"))
+        return convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), bytes, size, f);
+    struct failure why = { "" };
+    if (!file_read(command->kit, 1 << 24, &kit, &kit_size, &why))
+        return fail(f, "its kit %.100s: %.200s", command->kit, why.text);
+    struct sketch_options o = command->sketch;
+    o.max_ram = command->max_ram;
+    const bool ok = convert_to_sketch(c, &o, command->name != NULL ? command->name : name + strspn(name, "_"), base_name(path), kit,
+                                      kit_size, bytes, size, report, f);
+    free(kit);
+    return ok;
+}
+
+static void print_sketch(const struct sketch_report *r)
+{
+    if (r->width > 0)
+        printf("sketch: %dx%d, %d triangles at once\nram of the sketch: %zu bytes (library %zu, poses %zu)\n"
+               "flash of the sketch: %zu bytes (model %zu, library %zu or so)\n", r->width, r->height, r->triangles,
+               r->context + r->actor, r->context, r->actor, r->model + r->library, r->model, r->library);
+}
+
 /* The report goes where the header doesn't, and before the file has its name: neither is there without the other. */
 static int write_result(const struct convert_command *command, const char *path, const struct conversion *c)
 {
     struct failure f = { "" };
     bool is_text = is_standard_output(command->output);
-    char name[64];
+    struct sketch_report sketch = { 0 };
     uint8_t *bytes;
     size_t size;
-    name_from(is_text ? path : command->output, name);
-    bool ok = ends_with(command->output, ".smr")
-                ? convert_to_blob(c, &bytes, &size, &f)
-                : convert_to_header(c, command->name != NULL ? command->name : name, base_name(path), &bytes,
-                                    &size, &f);
+    bool ok = make_result(command, path, c, &sketch, &bytes, &size, &f);
     if (!ok)
         return say_bad_input(path, &f);
     outputs_hold();
@@ -314,6 +365,7 @@ static int write_result(const struct convert_command *command, const char *path,
         return say_bad_input(is_text ? "standard output" : command->output, &f);
     if (!is_text) {
         print_result(stdout, c, &command->options);
+        print_sketch(&sketch);
         printf("wrote %s\n", command->output);
     }
     ok = output_flush_standard(&f);
@@ -385,7 +437,7 @@ static int convert_picture(const struct convert_command *command, const char *pa
     char name[64], report[160];
     uint8_t *bytes = NULL;
     size_t size = 0;
-    if (ends_with(command->output, ".smr"))
+    if (ends_with(command->output, ".smr") || ends_with(command->output, ".zip"))
         return say_bad_usage("-o", "writes pictures as .h or - (\"%s\")", command->output);
     if (!file_keep(path, &f) || !image_load(path, &image, &f))
         return say_bad_input(path, &f);
@@ -417,7 +469,7 @@ static int convert_lines(const struct convert_command *command, const char *path
     uint8_t *text = NULL, *bytes = NULL;
     size_t text_size = 0, size = 0;
     int count = 0;
-    if (!ends_with(path, ".obj") || ends_with(command->output, ".smr"))
+    if (!ends_with(path, ".obj") || ends_with(command->output, ".smr") || ends_with(command->output, ".zip"))
         return say_bad_usage("--lines", "writes lines of an .obj file as .h or - (\"%s\")", path);
     if (!file_keep(path, &f) || !file_read(path, LINES_BYTES_MOST, &text, &text_size, &f))
         return say_bad_input(path, &f);
@@ -440,7 +492,8 @@ int command_convert(int count, char **text)
 {
     struct convert_command command = { .options = { .scale = 1, .texture_edge = 128, .colors = 256,
                                                     .influences = 4, .clip_error_px = 0.1, .rows = 240,
-                                                    .fov_degrees = 45 } };
+                                                    .fov_degrees = 45 },
+                                       .sketch.quality = SKETCH_DRAFT };
     struct failure f = { "" };
     struct model model;
     const char *path;
@@ -456,8 +509,12 @@ int command_convert(int count, char **text)
         return say_bad_usage("convert", "needs a model or picture (smear help convert)");
     if (command.output == NULL)
         return say_bad_usage("convert", "needs -o FILE.h or -o FILE.smr (smear help convert)");
-    if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr") && !is_standard_output(command.output))
-        return say_bad_usage("-o", "writes .h, .smr or - (\"%s\")", command.output);
+    const bool is_sketch = ends_with(command.output, ".zip");
+    if (!ends_with(command.output, ".h") && !ends_with(command.output, ".smr") && !is_sketch && !is_standard_output(command.output))
+        return say_bad_usage("-o", "writes .h, .smr, .zip or - (\"%s\")", command.output);
+    if (is_sketch != command.is_sketch || (is_sketch && command.kit == NULL))
+        return say_bad_usage("--kit", is_sketch ? "is needed for a .zip: make kit writes it"
+                                                : "as --display, --size and --quality: for -o FILE.zip");
     if (source_builtin_name(path) != NULL) {
         fail(&f, "built-in scenes are made by the program; only files of models are converted");
         return say_bad_input(path, &f);

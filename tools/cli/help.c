@@ -14,8 +14,8 @@ static const char program_help[] =
     "    smear render SCENE [options]     frames of a model or built-in scene into files\n"
     "    smear show MODEL [-o OUT.gif]    a model at its best: clip, camera and background are chosen\n"
     "    smear view [SCENE]               in a window or terminal, with live controls\n"
-    "    smear convert MODEL|PICTURE -o OUT.h|OUT.smr\n"
-    "                                     a model, sprite or font as constant data for firmware\n"
+    "    smear convert MODEL|PICTURE -o OUT.h|OUT.smr|OUT.zip\n"
+    "                                     a model, sprite or font as constant data for firmware; a sketch\n"
     "    smear compare A B                how far two pictures are from each other\n"
     "    smear info SCENE                 what is in a scene, and the memory it needs\n"
     "    smear bench                      what frames cost, beside the bars set for them\n"
@@ -175,7 +175,7 @@ static const char *const show_help[] = {
 };
 
 static const char *const convert_help[] = {
-    "smear convert MODEL -o OUT.h|OUT.smr|- [options]\n"
+    "smear convert MODEL -o OUT.h|OUT.smr|OUT.zip|- [options]\n"
     "\n"
     "Writes a .glb, .gltf or .obj file as constant data for firmware: int16 vertices in an order that\n"
     "suits the vertex cache, textures, materials, and clips for the optional animation module\n"
@@ -214,6 +214,17 @@ static const char *const convert_help[] = {
     "                        what a pixel is [240 rows, 45 degrees, where the whole model is seen]\n"
     "  --max-triangles N, --max-flash BYTES, --max-ram BYTES\n"
     "                        exit status 1 when it takes more; nothing is simplified\n",
+    "\n"
+    "OUT.zip is a program that draws the model and compiles as it is, an Arduino sketch or, for esp_lcd,\n"
+    "a project of ESP-IDF:\n"
+    "\n"
+    "  --kit FILE            what it is made of: make kit writes build/kit/kit.tar\n"
+    "  --display lovyangfx|arduino_gfx|tft_espi|adafruit_gfx|u8g2|ili9341_t4|esp_lcd\n"
+    "                        the library that knows the display [lovyangfx]\n"
+    "  --size WxH            of the display [240x240; u8g2 128x64, ili9341_t4 240x320]\n"
+    "  --quality sharp|draft|balanced|fine\n"
+    "                        [draft]\n"
+    "  --max-ram BYTES       as many triangles at once as fit into it, a quarter of all at least\n",
     "\n"
     "A .png or .ppm file becomes an image or font of smear_overlay.h, in the smallest format that keeps\n"
     "its colours: at most 256, with their alpha.\n"

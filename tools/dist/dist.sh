@@ -6,7 +6,7 @@
 # each, OUT/smear-VERSION-FORM.tar.gz or .zip, the same bytes from the same sources; and OUT/tree, which all of these install from
 # git as it is. ROOM... are the folders of src/ and src/ itself, the lowest first. URL: where the project lives, for manifests.
 # SMEAR: the program that converts the examples' model, MODEL (a file; without one that of the tests). FORMS=single: only smear.c
-# and headers.
+# and headers. FORMS=kit: only OUT/kit.tar, of which `smear convert` makes sketches.
 set -eu
 tool=$1 out=$2
 shift 2
@@ -76,6 +76,35 @@ tree() {
     page "$1" "$out/$1/smear"
 }
 
+# ---------------------------------------------------------------------- the kit
+
+# A sketch for Arduino and a project of ESP-IDF but for model.h and settings.h, which `smear convert` writes (tools/convert/sketch.c); smear/
+# goes into both. All lies beside what includes it, where angle brackets would not find it.
+screens="lovyangfx arduino_gfx tft_espi adafruit_gfx u8g2 ili9341_t4"
+if [ "${FORMS:-}" = kit ]; then
+    kit=$out/kit name=show what="A converted model, animated and blurred; settings.h says how."
+    mkdir -p "$kit/smear" "$kit/arduino" "$kit/esp-idf/main" "$kit/esp-idf/components/smear"
+    "$tool" BARE "$kit/smear/smear.c" "$out/single/smear.c"
+    cp "$out"/single/*.h LICENSE "$kit/smear"
+    fill $from/arduino/sketch.ino "$kit/arduino/show.ino" ""
+    cp $from/arduino/display.h "$kit/arduino"
+    for display in $screens; do
+        cp platform/examples/$display.h "$kit/arduino"
+    done
+    for file in CMakeLists.txt main/CMakeLists.txt main/main.c; do
+        fill $from/esp-idf/example/$file "$kit/esp-idf/$file" ""
+    done
+    cp $from/esp-idf/board/sdkconfig.defaults "$kit/esp-idf"
+    cp platform/examples/esp_lcd.h "$kit/esp-idf/main/display.h"
+    printf 'idf_component_register(SRCS smear.c INCLUDE_DIRS .)\ntarget_compile_options(${COMPONENT_LIB} PRIVATE -O2 -std=gnu11)\n' \
+        >"$kit/esp-idf/components/smear/CMakeLists.txt"
+    cp platform/examples/show.h "$kit/arduino"
+    cp platform/examples/show.h "$kit/esp-idf/main"
+    sed -i 's/#include <\(smear[a-z_]*\.h\)>/#include "\1"/; s/^#include "show.h"$/#include "settings.h"\n&/' "$kit"/arduino/* "$kit"/esp-idf/main/*
+    tar -C "$kit" --sort=name --owner=0 --group=0 --numeric-owner --mode=644 --mtime=@0 --format=ustar -cf "$out/kit.tar" arduino esp-idf smear
+    exit
+fi
+
 # What the examples draw: a model and a sprite sheet, converted.
 drawn=$out/drawn
 mkdir -p "$drawn"
@@ -104,7 +133,7 @@ each() {
 drawing() {
     mkdir -p "$1"
     cp "platform/examples/$name.h" "$1"
-    [ $name = cube ] || cp "$drawn/model.h" "$drawn/coin.h" "$1"
+    [ $name = cube ] || cp platform/examples/show.h "$drawn/model.h" "$drawn/coin.h" "$1"
     [ -z "${2:-}" ] || cp "platform/examples/$2.h" "$1/display.h"
 }
 
@@ -112,7 +141,7 @@ drawing() {
 sketch() { # FOLDER FILE
     drawing "$1"
     cp $from/arduino/display.h "$1"
-    for display in lovyangfx arduino_gfx tft_espi adafruit_gfx u8g2 ili9341_t4; do
+    for display in $screens; do
         cp platform/examples/$display.h "$1"
     done
     fill $from/arduino/sketch.ino "$1/$2" ""

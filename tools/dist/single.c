@@ -3,6 +3,7 @@
  *
  *     single HEADER OUT.h FILE...     headers one after the other, each where another includes it first
  *     single SOURCE OUT.c FILE...     headers and sources one after the other, bottom layer first
+ *     single BARE OUT.c FILE.c        a file without its comments and empty lines
  *
  * Names that are local to a source and occur elsewhere, too (in a header, or local to another source), get
  * the source's name behind them. Literals (struct x){ ... } become SMEAR_LITERAL(x){ ... }, which is
@@ -43,13 +44,13 @@ static char *read_all(const char *path)
     FILE *f = fopen(path, "rb");
     if (f == NULL)
         fail(path, "cannot be read");
-    size_t room = 1 << 20, size;
+    size_t room = 1 << 22, size;
     char *text = malloc(room);
     if (text == NULL)
         fail(path, "out of memory");
     size = fread(text, 1, room - 1, f);
     if (size == room - 1)
-        fail(path, "longer than a megabyte");
+        fail(path, "longer than four megabytes");
     fclose(f);
     text[size] = '\0';
     return text;
@@ -102,13 +103,18 @@ static struct token next_token(const char *p)
 }
 
 /* The next token that is neither space nor comment. */
+static bool is_comment(struct token t)
+{
+    return t.kind == OTHER && t.length > 1 && t.at[0] == '/';
+}
+
 static struct token next_solid(const char *p)
 {
     struct token t;
     do {
         t = next_token(p);
         p += t.length;
-    } while (t.kind == SPACE || (t.kind == OTHER && t.length > 1 && t.at[0] == '/'));
+    } while (t.kind == SPACE || is_comment(t));
     return t;
 }
 
@@ -330,12 +336,34 @@ static void write_file(FILE *out, int file, bool renames)
             depth--;
         }
         line_start = t.kind == SPACE && memchr(t.at, '\n', t.length) != NULL && t.at[t.length - 1] == '\n';
-        if (t.kind != SPACE && !(t.kind == OTHER && t.at[0] == '/')) {
+        if (t.kind != SPACE && !is_comment(t)) {
             before_that = before;
             before = t;
         }
         p += t.length;
     }
+}
+
+/* The first two comments stay: the licence, and what the file is. */
+static void write_bare(FILE *out, const char *p)
+{
+    int kept = 2;
+    size_t line = 0, blanks = 0;                    /* ends of lines and blanks behind them, not yet written */
+    for (struct token t = next_token(p); t.kind != END; p += t.length, t = next_token(p)) {
+        if (t.kind == SPACE) {
+            const char *end = NULL;
+            for (size_t i = 0; i < t.length; i++)
+                end = t.at[i] == '\n' ? t.at + i : end;
+            line |= end != NULL;
+            blanks = end != NULL ? (size_t)(t.at + t.length - end) - 1 : blanks + t.length;
+        } else if (is_comment(t) && kept-- <= 0) {
+            blanks += blanks == 0;
+        } else {
+            fprintf(out, "%s%*s%.*s", line ? "\n" : "", (int)blanks, "", (int)t.length, t.at);
+            line = blanks = 0;
+        }
+    }
+    fputc('\n', out);
 }
 
 static void write_head(FILE *out, bool is_source)
@@ -345,6 +373,7 @@ static void write_head(FILE *out, bool is_source)
                       "named below. C99 or later, or C++11.\n"
                       " * Needs smear.h beside it, and memcpy and memset. */\n"
                       "#include \"smear.h\"\n\n"
+                      "#define SMEAR_COPY_IS_HERE 1    /* of what small code has once: there is no other file */\n"
                       "#ifdef __clang__       /* not every build needs every helper */\n"
                       "#pragma clang diagnostic ignored \"-Wunused-function\"\n"
                       "#endif\n"
@@ -392,7 +421,7 @@ static void write_head(FILE *out, bool is_source)
 int main(int argc, char **argv)
 {
     if (argc < 4 || argc - 3 > FILES_MAX) {
-        fprintf(stderr, "usage: single HEADER|SOURCE OUT FILE..., at most %d of them\n", FILES_MAX);
+        fprintf(stderr, "usage: single HEADER|SOURCE|BARE OUT FILE..., at most %d of them\n", FILES_MAX);
         return 2;
     }
     bool is_source = strcmp(argv[1], "SOURCE") == 0;
@@ -409,8 +438,12 @@ int main(int argc, char **argv)
     FILE *out = fopen(argv[2], "wb");
     if (out == NULL)
         fail(argv[2], "cannot be written");
-    write_head(out, is_source);
-    for (int i = 0; i < file_count; i++)
+    const bool is_bare = strcmp(argv[1], "BARE") == 0;
+    if (is_bare)
+        write_bare(out, files[0].text);
+    else
+        write_head(out, is_source);
+    for (int i = 0; i < file_count && !is_bare; i++)
         if (!files[i].is_written)
             write_file(out, i, files[i].is_source || is_source);
     if (fclose(out) != 0)
