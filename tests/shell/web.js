@@ -118,15 +118,16 @@ function inWork(files) {
 // ------------------------------------------------------------------ tests
 
 const tests = {
-    // 6 kB of it read JPEG textures, which most public glTF files have, and 5 kB the extensions and faults that they have.
-    "one file of at most 340 kB that asks for nothing": async () => {
-        const size = fs.statSync(page).size, text = fs.readFileSync(page, "utf8");
-        check(size <= 340 * 1024, "the page has " + size + " bytes");
+    // 6 kB of it read JPEG textures, which most public glTF files have, 5 kB the extensions and faults that they have, and 4 kB make sketches. What
+    // those hold, all of the library as a source, is looked at only when a model is dropped.
+    "one file of at most 345 kB, and 330 kB of library, that asks for nothing": async () => {
+        const text = fs.readFileSync(page, "utf8"), kit = text.match(/id="kit">[^<]*/)[0].length, size = fs.statSync(page).size - kit;
+        check(size <= 345 * 1024 && kit <= 330 * 1024, "the page has " + size + " bytes, and " + kit + " of library");
         check(!/(src|href)=["']?(https?:)?\/\//.test(text), "the page names a server");
         await open("#paused=1");
         const got = await browser.run("return performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith('blob:') && !n.startsWith('data:'))");
         equal(got.length, 0, "asked for " + got.join(" "));
-        console.log("the page has " + size + " bytes");
+        console.log("the page has " + size + " bytes, and " + kit + " of library");
     },
     "the first frame comes within a second of script time": async () => {
         const times = [];
@@ -315,6 +316,39 @@ const tests = {
         check(await browser.until("!S.spin && " + shown), "the turntable does not stop");
         await sameAsHost("photo.obj");
         check((await browser.run("return document.getElementById('report').textContent")).includes("textures: 1"), "the texture is missing");
+    },
+    "a dropped GLB becomes a sketch: the host's, and it compiles": async () => {
+        const text = arm()[0].bytes, json = Buffer.concat([text, Buffer.alloc(-text.length & 3, " ")]), head = Buffer.alloc(20);
+        ["glTF", 2, 20 + json.length, json.length, "JSON"].forEach((v, i) => typeof v === "string" ? head.write(v, 4 * i) : head.writeUInt32LE(v, 4 * i));
+        const models = [{ name: "arm.glb", bytes: Buffer.concat([head, json]) }], fox = path.join(process.env.SMEAR_ASSETS || path.join(root, "../shared/assets"), "khronos/Fox.glb");
+        if (fs.existsSync(fox)) models.push({ name: "Fox.glb", bytes: fs.readFileSync(fox) });
+        else console.log("only arm.glb without " + fox + ": SMEAR_ASSETS=FOLDER names it");
+        const kit = path.join(root, "build/kit/kit.tar"), offered = () => browser.until("!sketching && !busyWithModel && document.body.dataset.sketch === [model.serial, S.panel, $('sketchFor').value, 'draft'].join('|')", 60);
+        await open("#paused=1&panel=rp2040&quality=draft");
+        for (const [model, display] of [[0, "lovyangfx"], [0, "esp_lcd"], [models.length - 1, "arduino_gfx"]]) {
+            const m = inWork([models[model]])[0], output = m.name.replace("glb", "zip");
+            equal(await dropped([m]), "", "the drop");
+            await browser.run("$('sketchFor').value = arguments[0]; $('sketchFor').onchange()", display);
+            check(await offered(), "no sketch is offered: " + await browser.text("#sketchText"));
+            const facts = await browser.text("#sketchFacts");
+            check(/RAM of 2\d\d kB\s+\d+/.test(facts) && /Flash, .*\s+\d+/.test(facts) && /\d (a second|s a frame) \(\d+\.\d M inst/.test(facts), "what it takes: " + facts);
+            const file = await download(output, () => browser.click("#sketch"));
+            execFileSync(smear, ["convert", m.name, "--kit", kit, "--display", display, "--size", "240x240", "--max-ram", "204800", "-o", output], { cwd: work });
+            check(fs.readFileSync(file).equals(fs.readFileSync(path.join(work, output))), display + ": " + output + " is not the host's");
+            const compiled = path.join(work, "sketch");
+            execFileSync("sh", ["tests/shell/sketch_compile.sh", file, compiled], { cwd: root, env: { ...process.env, SMEAR_OBJECTS: path.join(folder, "objects") } });
+            check(new Set(fs.readFileSync(path.join(compiled, "panel")).subarray(0, 115200)).size > 20, display + ": the sketch shows nothing");
+        }
+        await screenshot("sketch", true);
+        check((await dropped([{ name: "cut.glb", bytes: models[0].bytes.subarray(0, 3000) }])).includes("cut off"), "a broken GLB");
+        const lines = Array.from({ length: 101 * 101 }, (x, i) => "v " + i % 101 + " " + Math.floor(i / 101) + " 0");
+        for (let i = 0; i < 10000; i++) { const a = i % 100 + Math.floor(i / 100) * 101 + 1; lines.push(["f", a, a + 1, a + 102, a + 101].join(" ")); }
+        await dropped([{ name: "many.obj", bytes: Buffer.from(lines.join("\n")) }]);
+        check(await offered(), "nothing is said of many triangles");
+        check(/many.obj: takes \d+ bytes of RAM at 240x240 \(20000 triangles/.test(await browser.text("#sketchText")), "too many triangles: " + await browser.text("#sketchText"));
+        check(await browser.run("return $('sketch').hidden"), "a sketch is offered all the same");
+        await browser.run("set({ panel: 'fb320' })");
+        check(await browser.until("!sketching && !$('sketch').hidden", 60), "none is offered for a panel with room: " + await browser.text("#sketchText"));
     },
     "what is no model gives the host's message": async () => {
         await open("#paused=1");

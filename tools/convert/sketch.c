@@ -100,7 +100,7 @@ static bool add_kit(struct zip *z, const char *name, bool is_idf, const uint8_t 
     for (size_t at = 0; at + 512 <= size && kit[at] != '\0';) {
         const char *head = (const char *)kit + at;
         size_t length = 0;
-        if (memcmp(head + 257, "ustar", 5) != 0 || memchr(head, '\0', 100) == NULL || strstr(head, "..") != NULL)
+        if (memcmp(head + 257, "ustar", 5) != 0 || memchr(head, '\0', 100) == NULL)
             return false;
         for (const char *digit = head + 124; digit < head + 135 && *digit >= '0' && *digit <= '7'; digit++)
             length = length * 8 + (size_t)(*digit - '0');

@@ -32,6 +32,7 @@ extern const struct cost_core cost_cores[];     /* name null ends the list */
 const struct cost_core *cost_find(const char *name);
 
 void cost_count(const smear_stats *stats, double work[COST_WORKS]);
+double cost_instructions(const struct cost_core *core, const smear_stats *stats);
 double cost_us(const struct cost_core *core, double hz, const smear_stats *stats);
 
 #endif

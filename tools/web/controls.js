@@ -72,6 +72,7 @@ function showSettings() {
     times = [];
     showSplit();
     showChart();
+    offerSketch();
     writeAddress();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// models.js - what is dropped on the page: shown, and converted for download.
+// models.js - what is dropped on the page: shown, and converted for download, as a program, too.
 
 const LARGEST = 512 << 20;
 let serial = 0, busyWithModel = false;
@@ -52,6 +52,60 @@ async function openModel(next, say, total) {
     if (total < 1 << 20) $("model").scrollIntoView({ block: "nearest" });
 }
 
+// Libraries of displays, as `smear convert --display` has them.
+const DISPLAYS = [["lovyangfx", "Arduino: LovyanGFX"], ["arduino_gfx", "Arduino: GFX Library for Arduino"], ["tft_espi", "Arduino: TFT_eSPI"],
+    ["adafruit_gfx", "Arduino: Adafruit GFX"], ["u8g2", "Arduino: U8g2"], ["ili9341_t4", "Arduino on Teensy 4: ILI9341_T4"], ["esp_lcd", "ESP-IDF: esp_lcd"]];
+let kit = null, display = null, sketched = "", sketching = false;
+
+// A program for the panel that is shown, and what it takes there; again when the settings change. What the library is made of is unpacked when
+// it is first needed.
+async function offerSketch() {
+    const option = name => { const i = panel().words.indexOf(name); return i < 0 ? null : panel().words[i + 1]; };
+    const chosen = display || (option("--format") === "l1pages" ? "u8g2" : "lovyangfx"), quality = METHODS[S.method].name === "none" ? "sharp" : QUALITIES[sampleQuality(S.quality)];
+    const key = [model && model.serial, S.panel, chosen, quality].join("|");
+    options($("sketchFor"), DISPLAYS, chosen);
+    if (!model || sketching || key === sketched) return;
+    sketching = true;
+    sketched = key;
+    if (!kit) [kit] = await filesOf(packed("unlzma"), packed("kit"));
+    const engine = new Engine(), link = $("sketch"), files = [...model.files, { name: "kit.tar", bytes: kit.buffer }];
+    await engine.started;
+    const output = (model.main.replace(/\.[^.]*$/, "") || "model") + ".zip", arena = option("--arena");
+    const answer = await engine.ask("convert", { output, files, words: ["-o", output, "--kit", "kit.tar", "--display", chosen, "--size", option("--size"), "--quality", quality,
+        ...(arena ? ["--max-ram", arena] : []), "--", model.main] }, 60000);
+    const number = pattern => +(answer.out.match(pattern) || [0, 0])[1], facts = [];
+    if (link.href.startsWith("blob:")) URL.revokeObjectURL(link.href);
+    link.hidden = answer.status !== 0;
+    complain($("sketchText"), answer.status === 0 ? "" : clean(answer.err));
+    if (answer.status === 0) {
+        link.href = URL.createObjectURL(new Blob([answer.bytes], { type: "application/zip" }));
+        link.download = output;
+        const rate = await rateOn(engine, quality), at = number(/, (\d+) triangles at once/);
+        facts.push(["RAM" + (arena ? " of " + kilo(+arena) : ""), kilo(number(/^ram of the sketch: (\d+)/m))], ["Flash, with the library", kilo(number(/^flash of the sketch: (\d+)/m))],
+            [panel().board < 0 ? "A board's rate" : "On the board: an estimate", rate], ["Triangles at once", at < number(/^triangles: (\d+)/m) ? at + ", more in parts" : String(at)]);
+    }
+    fill($("sketchFacts"), facts);
+    engine.worker.terminate();
+    sketching = false;
+    document.body.dataset.sketch = key;
+    offerSketch();
+}
+
+// Of a few frames of the model as the page sees it.
+async function rateOn(engine, quality) {
+    const words = [...panel().words, "--fps", String(S.fps), "--light", "encoded", "--loop", "--method", quality === "sharp" ? "none" : "auto",
+        ...(quality === "sharp" ? [] : ["--quality", quality]), "--", model.main];
+    const opened = await engine.ask("open", { words, board: panel().board, files: model.files }, 30000), frames = [];
+    if (opened.status !== 0 || panel().board < 0) return "choose a board's panel above";
+    if (opened.scene.period === 0) await engine.ask("turn", { ...poses, frame: 0, spin: Math.PI, straight: true }, 30000);
+    for (let i = 1; i <= 4; i++) {
+        const drawn = await engine.ask("draw", { frame: Math.round(i * (opened.scene.period || 2 * S.fps) / 5) }, 30000);
+        if (drawn.status === 0 && drawn.stats.board_us > 0) frames.push(drawn.stats);
+    }
+    const mean = key => frames.reduce((sum, f) => sum + f[key], 0) / frames.length;
+    return frames.length === 0 ? "not known" : pace(mean("board_us") + mean("wire_us")) + " (" + (mean("instructions") / 1e6).toFixed(1) + " M instructions)";
+}
+
 async function convert(engine, say) {
     const base = model.main.replace(/\.[^.]*$/, "") || "model";
     const make = async (ending, link) => {
@@ -90,5 +144,6 @@ function bindDrop() {
         if (files.length === 0) { complain($("dropText"), "That was no file. Drop a .glb, .gltf or .obj."); return; }
         takeFiles(files);
     });
+    $("sketchFor").onchange = () => { display = $("sketchFor").value; offerSketch(); };
     $("file").onchange = e => { takeFiles(e.target.files); e.target.value = ""; };
 }

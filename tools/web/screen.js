@@ -72,7 +72,6 @@ function showNumbers(f) {
             ["Memory of smear", kilo(s.arena) + (s.limit ? " of " + kilo(s.limit) : "")], ["Triangles", count(s.in) + ", " + count(s.drawn) + " drawn"],
             ["Tiles", tilesText(s)]];
         if (s.board_us > 0) {
-            const pace = us => us < 1e6 ? (1e6 / us).toFixed(us > 1e5 ? 1 : 0) + " a second" : (us / 1e6).toFixed(1) + " s a frame";
             facts.push(["On the board: an estimate", pace(s.board_us + s.wire_us) + "; sharp " + pace(s.board_sharp_us + s.wire_us)]);
         }
         if (s.wire_us > 0) facts.push(["Bus to the panel", (s.wire_us / 1000).toFixed(1) + " ms a frame"]);
@@ -87,6 +86,8 @@ function tilesText(s) {
         ["object", s.object], ["layered", s.layered]];
     return parts.filter(p => p[1] > 0).map(p => count(p[1]) + " " + p[0]).join(", ") || "whole frames";
 }
+
+const pace = us => us < 1e6 ? (1e6 / us).toFixed(us > 1e5 ? 1 : 0) + " a second" : (us / 1e6).toFixed(1) + " s a frame";
 
 function fill(list, facts) {
     list.replaceChildren(...facts.map(([name, value]) => {

@@ -11,8 +11,8 @@ const PANELS = [                        // those of boards are added when the mo
     { name: "pocket", label: "240\u00d7240 LCD, RGB565", shell: "pocket", words: ["--size", "240x240", "--format", "rgb565"], board: -1 },
     { name: "grey", label: "128\u00d764 OLED of 16 greys, L4", shell: "board", words: ["--size", "128x64", "--format", "l4"], board: -1 },
 ];
-const SHELLS = { oled: "board", rp2040: "pocket", round: "watch", gba: "gba", memlcd: "memlcd", fb320: "linux" };
-const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
+const SHELLS = { oled: "board", rp2040: "pocket", esp32s3: "pocket", esp32c6: "pocket", round: "watch", gba: "gba", memlcd: "memlcd", fb320: "linux" };
+const LABELS = { oled: "128\u00d764 OLED, 1 bit", rp2040: "RP2040 with 240\u00d7240 LCD", esp32s3: "ESP32-S3 with 240\u00d7240 LCD", esp32c6: "ESP32-C6 with 240\u00d7240 LCD", round: "Round 240\u00d7240 LCD", gba: "Game Boy Advance, 240\u00d7160",
     memlcd: "400\u00d7240 memory LCD, 1 bit", fb320: "320\u00d7240 framebuffer" };
 const SCENES = [{ name: "race", label: "Racing car, chased" }, { name: "drone", label: "Drone, fixed camera" }];
 const DEFAULTS = { scene: "race", panel: "pocket", clip: 0, spin: 1, shutter: 180, method: methodNamed("auto"), quality: 2, fps: 15, split: 50, paused: false, frame: 0, light: "linear" };

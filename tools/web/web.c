@@ -361,10 +361,11 @@ EXPORT(web_stats) void web_stats(void)
         filtered += smear_method_is_filter(m) ? s->tiles[m] : 0;
     snprintf(text, sizeof text,
              "{\"crc\":\"%08lx\",\"us\":%.1f,\"sharp_us\":%.1f,\"board_us\":%.0f,"
-             "\"board_sharp_us\":%.0f,\"wire_us\":%.0f,\"in\":%lu,\"drawn\":%lu,\"dropped\":%lu,"
+             "\"board_sharp_us\":%.0f,\"instructions\":%.0f,\"wire_us\":%.0f,\"in\":%lu,\"drawn\":%lu,\"dropped\":%lu,"
              "\"arena\":%lu,\"limit\":%zu,\"samples\":%lu,\"still\":%lu,"
              "\"subframes\":%lu,\"timemask\":%lu,\"filtered\":%lu,\"object\":%lu,\"layered\":%lu}",
              (unsigned long)s->crc32, shown.main.wall_us, shown.left.wall_us, board_us, sharp_us,
+             shown.core != NULL ? cost_instructions(shown.core, s) : 0.0,
              bus_wire_us(&shown.bus, shown.main.device.size), (unsigned long)s->triangles_in,
              (unsigned long)s->triangles_drawn, (unsigned long)s->triangles_dropped,
              (unsigned long)s->arena_bytes, shown.main.options.arena, (unsigned long)s->samples,

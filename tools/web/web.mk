@@ -43,7 +43,7 @@ $(WEB)/game.wasm: always
 	cmp -s build/wasm/page/game.wasm $@ || cp build/wasm/page/game.wasm $@
 
 $(WEB)/index.html: $(WEB)/pack tools/web/page.html $(addprefix tools/web/,style.css unpack.js begin.js) \
-    $(addprefix $(WEB)/,unlzma.wasm modules.lzma texts.lzma)
+    $(addprefix $(WEB)/,unlzma.wasm modules.lzma kit.lzma texts.lzma)
 	$(call say,GEN)
 	$(WEB)/pack page tools/web/page.html $@
 
@@ -51,6 +51,7 @@ $(WEB)/modules.joined: $(WEB)/pack $(WEB)/scalar.wasm $(WEB)/simd.wasm
 # app.js comes last: it begins.
 WEB_TEXTS := tools/web/worker.js $(WEB)/methods.js $(addprefix tools/web/,settings.js engines.js frames.js screen.js controls.js chart.js models.js film.js app.js)
 $(WEB)/texts.joined: $(WEB)/pack $(WEB)/chart.csv $(WEB_TEXTS)
+$(WEB)/kit.joined: $(WEB)/pack $(KIT)
 $(WEB)/%.joined:
 	$(call say,GEN)
 	$(WEB)/pack join $@ $(filter-out $<,$^)
