@@ -343,8 +343,8 @@ static void print_sketch(const struct sketch_report *r)
 {
     if (r->width > 0)
         printf("sketch: %dx%d, %d triangles at once\nram of the sketch: %zu bytes (library %zu, poses %zu)\n"
-               "flash of the sketch: %zu bytes (model %zu, library %zu or so)\n", r->width, r->height, r->triangles,
-               r->context + r->actor, r->context, r->actor, r->model + r->library, r->model, r->library);
+               "flash of the sketch: %zu bytes (model %zu, library %zu or so; %zu by -Os)\n", r->width, r->height, r->triangles,
+               r->context + r->actor, r->context, r->actor, r->model + r->library, r->model, r->library, r->small);
 }
 
 /* The report goes where the header doesn't, and before the file has its name: neither is there without the other. */

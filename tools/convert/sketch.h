@@ -20,7 +20,7 @@ struct sketch_report {
     int width, height;
     int triangles;              /* drawn at once */
     size_t context, actor;      /* bytes of RAM */
-    size_t model, library;      /* bytes of flash; the library's are those of -Os on a Cortex-M0+ */
+    size_t model, library, small;       /* bytes of flash; the library's by -O2 and, on a Cortex-M0+, by -Os */
 };
 
 /* Headers of platform/examples; null ends them. */

@@ -81,8 +81,8 @@ async function offerSketch() {
         link.href = URL.createObjectURL(new Blob([answer.bytes], { type: "application/zip" }));
         link.download = output;
         const rate = await rateOn(engine, quality), at = number(/, (\d+) triangles at once/);
-        facts.push(["RAM" + (arena ? " of " + kilo(+arena) : ""), kilo(number(/^ram of the sketch: (\d+)/m))], ["Flash, with the library", kilo(number(/^flash of the sketch: (\d+)/m))],
-            [panel().board < 0 ? "A board's rate" : "On the board: an estimate", rate], ["Triangles at once", at < number(/^triangles: (\d+)/m) ? at + ", more in parts" : String(at)]);
+        facts.push(["RAM" + (arena ? " of " + kilo(+arena) : ""), kilo(number(/^ram of the sketch: (\d+)/m))], ["Flash, with the library by -O2", kilo(number(/^flash of the sketch: (\d+)/m))],
+            [panel().board < 0 ? "A board's rate" : "On the board, by -O2: an estimate", rate], ["Triangles at once", at < number(/^triangles: (\d+)/m) ? at + ", more in parts" : String(at)]);
     }
     fill($("sketchFacts"), facts);
     engine.worker.terminate();
