@@ -267,7 +267,7 @@ build/gentables: tools/gentables.c
 .PHONY: dist kit install dist-test dist-single-test
 ONE_FILE := build/one-file/single/smear.c
 ## tests: what `make dist` and `make install` write, compiled and run
-dist-test: dist $(ONE_FILE)
+dist-test: dist kit $(ONE_FILE)
 	$(MAKE) --no-print-directory -s install DESTDIR=build/dist-install PREFIX=/usr
 	sh tests/shell/dist.sh
 

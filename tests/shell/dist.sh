@@ -137,16 +137,24 @@ library Adafruit_ST7789 Adafruit_ST7789.h
 library GFX_Library_for_Arduino Arduino_GFX_Library.h
 library U8g2 U8x8lib.h
 library ILI9341_T4 ILI9341_T4.h
+# builder SKETCH.ino PANEL
+builder() {
+    arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
+        -fqbn tests:here:here -build-path "$base/arduino-build" "$1" && "$base/arduino-build/${1##*/}.elf" >"$2"
+}
 # sketch EXAMPLE DISPLAY LIBRARY: the library is that of the archive, or the tree
 sketch() {
     rm -rf "$base/sketch" "$base/arduino-libraries/smear"
     mkdir -p "$base/sketch" && cp -r "$3" "$base/arduino-libraries/smear" && cp -r "$3/examples/$1" "$base/sketch/$1" &&
         { printf '#define DISPLAY_%s\n' "$2"
           [ "$2" != ILI9341_T4 ] || echo '#define TALL_PANEL'
-          cat "$3/examples/$1/display.h"; } >"$base/sketch/$1/display.h" &&
-        arduino-builder -compile -quiet -hardware "$base/hardware" -hardware /usr/share/arduino-builder -tools "$base/no-tools" -libraries "$base/arduino-libraries" \
-            -fqbn tests:here:here -build-path "$base/arduino-build" "$base/sketch/$1/$1.ino" &&
-        "$base/arduino-build/$1.ino.elf" >"$base/$1.panel"
+          cat "$3/examples/$1/display.h"; } >"$base/sketch/$1/display.h" && builder "$base/sketch/$1/$1.ino" "$base/$1.panel"
+}
+# A sketch of `smear convert`, with no library but its own.
+made_sketch() {
+    rm -rf "$base/sketch" "$base/arduino-libraries/smear"
+    build/smear convert tests/data/arm.gltf --kit build/kit/kit.tar -o "$base/made.zip" && python3 -m zipfile -e "$base/made.zip" "$base/sketch" &&
+        builder "$base/sketch/made/made.ino" "$base/made.panel" && is_true "$(od -An -v -tx2 -w2 "$base/made.panel" | sort -u | wc -l) > 20"
 }
 drawn_by() { # EXAMPLE DISPLAY LIBRARY
     sketch "$@" || return 1
@@ -161,6 +169,7 @@ if command -v arduino-builder >/dev/null 2>&1 && command -v arduino-ctags >/dev/
         claim "cube for $display by arduino-builder" drawn_by cube $display "$dist/arduino/smear"
         claim "fox for $display by arduino-builder" drawn_by fox $display "$dist/arduino/smear"
     done
+    claim "a sketch of smear convert by arduino-builder" made_sketch
     claim "fox by arduino-builder, from the tree" drawn_by fox LOVYANGFX "$made/tree"
 else
     echo "not run without arduino-builder and arduino-ctags"
@@ -380,6 +389,11 @@ END
     }
     esp_project esp-idf "$dist/esp-idf/smear"
     claim "esp-idf's functions" project esp-idf
+    made_project() {
+        build/smear convert tests/data/arm.gltf --kit build/kit/kit.tar --display esp_lcd -o "$base/made.zip" &&
+            python3 -m zipfile -e "$base/made.zip" "$base/made" && esp_project made-idf "$base/made/made/components/smear" && project made-idf
+    }
+    claim "esp-idf's functions, by the component that smear convert writes" made_project
     claim "esp-idf: a switch that is off leaves code out" switched_off esp-idf libcomponent.a
     zephyr_project() {
         mkdir -p "$base/$1"

@@ -98,15 +98,18 @@ static bool add_kit(struct zip *z, const char *name, bool is_idf, const uint8_t 
 {
     const char *form = is_idf ? "esp-idf/" : "arduino/";
     char path[256];
-    for (size_t at = 0; at + 512 <= size && kit[at] != '\0';) {
+    for (size_t at = 0;; at += 512) {
         const char *head = (const char *)kit + at;
         size_t length = 0;
+        if (at + 512 > size)
+            return false;
+        if (head[0] == '\0')
+            return z->count > 0;
         if (memcmp(head + 257, "ustar", 5) != 0 || memchr(head, '\0', 100) == NULL)
             return false;
         for (const char *digit = head + 124; digit < head + 135 && *digit >= '0' && *digit <= '7'; digit++)
             length = length * 8 + (size_t)(*digit - '0');
-        at += 512;
-        if (length > size - at)
+        if (length > size - at - 512)
             return false;
         const bool is_shared = strncmp(head, "smear/", 6) == 0, is_file = head[156] == '0' && (is_shared || strncmp(head, form, 8) == 0);
         if (is_file && is_shared)
@@ -116,10 +119,9 @@ static bool add_kit(struct zip *z, const char *name, bool is_idf, const uint8_t 
         else if (is_file)
             snprintf(path, sizeof path, "%s/%s", name, head + 8);
         if (is_file)
-            zip_add(z, path, kit + at, length);
+            zip_add(z, path, kit + at + 512, length);
         at += (length + 511) / 512 * 512;
     }
-    return z->count > 0;
 }
 
 /* ------------------------------------------------------------------ settings */
