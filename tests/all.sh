@@ -224,7 +224,8 @@ screens() {
 }
 
 web() {
-    if needs wasm-ld-14 "clang-14 lld-14" llvm-ar-14 "llvm-14" xz "xz-utils" chromedriver "chromium chromium-driver" node "nodejs"; then
+    if needs wasm-ld-14 "clang-14 lld-14" llvm-ar-14 "llvm-14" xz "xz-utils" chromedriver "chromium chromium-driver" node "nodejs" \
+        python3 "python3" "${CXX:-g++}" "g++"; then
         suite build-web $make -s web build/web/libc_test
         suite web-libc build/web/libc_test
         suite web node tests/shell/web.js build/web/index.html build/smear

@@ -43,6 +43,7 @@ static const struct command {
     { "convert model.gltf -o m.h", { "m.h" } },
     { "convert model.gltf -o m.smr --texture rgb565 --clip wave", { "m.smr" } },
     { "convert card.obj -o -", { NULL } },
+    { "convert card.obj --kit kit -o m.zip", { "m.zip" } },
     { "compare one.ppm two.ppm --diff d.png", { "d.png" } },
     { "compare one.ppm one.png", { NULL } },
     { "info card.obj", { NULL } },
@@ -309,7 +310,12 @@ static void prepare(const char *root)
     static const char photo[] = "mtllib photo.mtl\nusemtl red\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n";
     static const char photo_mtl[] = "newmtl red\nmap_Kd photo.jpg\n";
     static const char keys[] = "0 key b\n1 key i\n";
+    static char kit[1536] = "smear/smear.c";            /* a ustar archive of that file, empty */
     copy(root, "tests/data/arm.gltf", "model.gltf");
+    memcpy(kit + 124, "00000000000", 12);
+    kit[156] = '0';
+    memcpy(kit + 257, "ustar", 6);
+    write_bytes("kit", kit, sizeof kit);
     write_bytes("card.obj", obj, sizeof obj - 1);
     write_bytes("card.mtl", mtl, sizeof mtl - 1);
     copy(root, "tests/data/jpeg/422-progressive.jpg", "photo.jpg");
