@@ -1,11 +1,11 @@
 /* bird.h - bird.gltf for smear, written by smear convert.
  *
- * 60 triangles, 42 vertices, 7 draws, 0 textures, 6 nodes, 1 clips: 2220 bytes of constant data.
+ * 60 triangles, 42 vertices, 7 draws, 0 textures, 6 nodes, 1 clips: 2304 bytes of constant data.
  * Include it in one source file. */
 #ifndef BIRD_H
 #define BIRD_H
 
-#include <smear_model.h>
+#include "smear_model.h"
 
 #if SMEAR_MODEL_FORMAT != 1
 #error "made for another version of smear: run smear convert again"
