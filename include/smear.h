@@ -128,6 +128,7 @@ typedef struct smear_material {
     uint8_t unlit;              /* 1: no light */
     uint8_t double_sided;       /* 1: back faces are drawn with flipped normals */
     uint8_t bilinear;           /* 1: bilinear texels; 0: nearest */
+    uint8_t gloss, shine;       /* of highlights: smear_scene.h */
 } smear_material;
 
 typedef enum smear_motion {
@@ -255,8 +256,7 @@ typedef enum smear_light_space { SMEAR_LIGHT_LINEAR, SMEAR_LIGHT_ENCODED } smear
  * (ambient + diffuse x max(0, n.l)), not above one. */
 typedef struct smear_light {
     int32_t direction[3];       /* towards the light, in world space; any length but zero */
-    uint16_t ambient[3];        /* r g b */
-    uint16_t diffuse[3];
+    uint16_t ambient[3], diffuse[3];    /* r g b */
 } smear_light;
 
 /* What smear_frame.light is when it is null: from (0.36, 0.80, 0.48), ambient 0.30, diffuse 0.70, white. */

@@ -17,7 +17,25 @@ extern "C" {
 #endif
 
 typedef struct smear_sky smear_sky;
-typedef struct smear_lights smear_lights;
+
+/* Lights beside frame.light, and highlights. What faces a light has all of it, diffuse x max(0, n.l); a surface shows base x (the sum
+ * of all lights, not above one). Vertices with normals are lit one by one, faces without them by their middle.
+ *
+ * A lamp's light falls off smoothly: with t = distance / reach, what faces it has lamp_diffuse x 6.69 t (1 - t^2)^8:
+ * all of it at a quarter of the reach, half at two fifths, none from the reach on; and less again close by, as of a lamp of some size.
+ *
+ * A material's highlight is added to that: frame.light's diffuse x gloss/255 x max(0, n.h)^(2^shine), where h lies between the light
+ * and the camera's axis: as for an eye that is far away. A texture colours it as it does all light. */
+typedef struct smear_lights {
+    const struct smear_shader *shader;  /* &smear_lights_shader; required: what names it nowhere is not linked with it */
+    int32_t direction[3];       /* towards a second light, in world space; any length */
+    uint16_t diffuse[3];        /* its r g b, linear; 0: none */
+    uint16_t lamp_diffuse[3];   /* the lamp's */
+    int32_t lamp[3];            /* Q16.16: where it is in the world */
+    int32_t reach;              /* Q16.16 world units; 0: no lamp */
+} smear_lights;
+
+extern const struct smear_shader smear_lights_shader;
 
 struct smear_scene {
     const smear_sky *sky;               /* in place of frame.clear; null: none. SMEAR_WITH_SKY */

@@ -29,6 +29,7 @@ struct smear_context {
     smear_frame frame;              /* defaults filled in */
     struct smear_shot shot;
     struct smear_sun sun;
+    struct smear_lights_used lights;        /* of sun.lights */
     struct smear_history history;
     bool has_late_ids;              /* of this frame: they found no place in the history */
     smear_camera kept_camera;

@@ -123,6 +123,8 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
         return false;
     smear_shading_make(&a->shading, poses.object[0], a->material, SMEAR_VERTEX_COLORS_MOST && a->mesh->normal != NULL,
                        frame_transfer(&c->rows.raster), &c->sun);
+    if (SMEAR_WITH_LIGHTS && c->sun.lights != NULL && c->lights.by->draw(&a->lights, &c->lights, a, poses.object[0]))
+        a->shading.lit = 2;
     assembly_remember_light(a);
     assembly_find_flat(a);
     if (moves && assembler_keeps_motion(&c->assembler) && c->raster_draw[i].moves)

@@ -144,6 +144,8 @@ int smear_begin(smear_context *c, const smear_frame *frame)
     c->kept_camera = *f.camera;
     c->has_kept_camera = true;
     smear_sun_make(&c->sun, f.light);
+    if (SMEAR_WITH_LIGHTS && f.scene != NULL && f.scene->lights != NULL)
+        c->sun.lights = f.scene->lights->shader->begin(&c->lights, f.scene->lights, &c->sun, &c->shot.camera[0]);
     smear_frame_keep(c, &f);
     if (SMEAR_FOG_MOST)
         keep_fog(c, f.fog);

@@ -61,6 +61,7 @@
     X(FRAME_LAYER, "frame.layer: too many, or a bad one") \
     X(FRAME_EDGES, "frame.edges: above 1, not with this method or desc.reuse, or not compiled in") \
     X(FRAME_SCENE, "frame.scene: what was not compiled in") \
+    X(FRAME_LIGHTS, "frame.scene.lights: no shader, or a negative reach") \
     X(FRAME_OVERLAY, "frame.overlay: without items, or not compiled in") \
     X(ITEM_SCALE, "overlay.item.scale: above 8") \
     X(ITEM_IMAGE, "overlay.item.image: without pixels or palette, or out of range") \

@@ -68,13 +68,14 @@ static void mix_material(uint32_t h[2], const smear_material *m)
 {
     static const smear_texture none = { 0 };
     const smear_texture *t = m->texture != NULL ? m->texture : &none;
-    int32_t word[4 + 2 * POINTER_WORDS] = {
+    int32_t word[5 + 2 * POINTER_WORDS] = {
         bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
         bytes(m->alpha, m->cutoff, m->unlit != 0, (m->double_sided != 0) << 1 | (m->bilinear != 0)),
-        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v)
+        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v),
+        bytes(0, 0, m->gloss, m->shine)
     };
-    put_pointer(word + 4, t->texels);
-    put_pointer(word + 4 + POINTER_WORDS, t->palette);
+    put_pointer(word + 5, t->texels);
+    put_pointer(word + 5 + POINTER_WORDS, t->palette);
     mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
@@ -92,6 +93,8 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
         const int32_t light[] = { sun->direction[i], sun->ambient[i], sun->diffuse[i] };
         mix(d->next, light, 3);
     }
+    if (SMEAR_WITH_LIGHTS && sun->lights != NULL)
+        mix(d->next, sun->lights->word, LIGHTS_WORDS);
 }
 
 /* Takes in as much of a draw as its picture depends on. */

@@ -79,6 +79,7 @@ void smear_sun_make(struct smear_sun *sun, const smear_light *light)
         square += (uint32_t)(d[i] * d[i]);
     }
     const int32_t length = (int32_t)max_u32(length_from(square), 1);        /* 15 to 16 bits */
+    sun->lights = NULL;
     sun->white = true;
     for (int i = 0; i < 3; i++) {
         sun->direction[i] = d[i] * 16384 / length;
@@ -88,9 +89,19 @@ void smear_sun_make(struct smear_sun *sun, const smear_light *light)
     }
 }
 
-/* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
-static bool keeps_lengths(int32_t column[3][3], int64_t length)
+static void find_columns(int32_t column[3][3], const struct smear_shading *s)
 {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            column[j][i] = s->normal_matrix[i][j];
+}
+
+/* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
+static bool keeps_lengths(const struct smear_shading *s)
+{
+    int32_t column[3][3];
+    find_columns(column, s);
+    const int64_t length = dot(column[0], column[0]);
     for (int j = 0; j < 3; j++)
         for (int k = j; k < 3; k++) {
             const int64_t off = dot(column[j], column[k]) - (j == k ? length : 0);
@@ -123,6 +134,15 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
             m[i][j] = mirrored ? -b[3 * i + j] : b[3 * i + j];
 }
 
+void smear_light_to_object(int32_t out[3], const struct smear_shading *s, const int32_t direction[3])
+{
+    int32_t column[3][3];
+    find_columns(column, s);
+    const int32_t length = (int32_t)max_u32(length_from((uint64_t)dot(column[0], column[0])), 1);
+    for (int j = 0; j < 3; j++)
+        out[j] = (int32_t)dot(column[j], direction) / length * 512 / 127;       /* q14 to q23 / 127 */
+}
+
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *m, bool has_normals, smear_transfer transfer, const struct smear_sun *sun)
 {
@@ -142,17 +162,9 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     make_normal_matrix(s->normal_matrix, object->basis);
     if (!has_normals)
         return;
-    int32_t column[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            column[j][i] = s->normal_matrix[i][j];
-    const int64_t square = dot(column[0], column[0]);
-    s->even = keeps_lengths(column, square);
-    if (s->even) {
-        const int32_t length = (int32_t)max_u32(length_from((uint64_t)square), 1);
-        for (int j = 0; j < 3; j++)
-            s->direction[j] = (int32_t)dot(column[j], sun->direction) / length * 512 / 127;     /* q14 to q23 / 127 */
-    }
+    s->even = keeps_lengths(s);
+    if (s->even)
+        smear_light_to_object(s->direction, s, sun->direction);
 }
 
 /* Returns how far a normal in the world, of 24 bits, lies along the light, q6 times its length; and the square of that. */
@@ -259,18 +271,6 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
     return light_of_long(s, u, v);
 }
 
-/* Returns a b, where 65535 is one. */
-static uint32_t times_lin(uint32_t a, uint32_t b)
-{
-    return a * (b + (b >> 15)) >> 16;
-}
-
-/* Encodes linear light. Colours of vertices and faces alone do not want a table of 4 kB. */
-static uint32_t encode(uint32_t light)
-{
-    return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
-}
-
 /* Returns the light of a channel, q16: not above one. */
 static inline uint32_t light_of(const struct smear_shading *s, int channel, uint32_t cosine)
 {
@@ -291,7 +291,7 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
         if (face_color != NULL)
             c = times_lin(c, smear_srgb_decode[face_color[i]]);
         c = min_u32(c * light >> 16, 65535u);
-        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(encode(c >> 4) * 256u);
+        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
     }
     uint32_t alpha = s->base[3];
     if (color != NULL)
@@ -320,6 +320,6 @@ uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4],
     const uint32_t light = light_of(s, 0, cosine);
     uint32_t packed = times_lin(65535u, color[3] * 257u) >> 8;
     for (int i = 0; i < 3; i++)
-        packed = packed << 8 | encode(times_lin(65535u, smear_srgb_decode[color[i]]) * light >> 20);
+        packed = packed << 8 | light_encode(times_lin(65535u, smear_srgb_decode[color[i]]) * light >> 20);
     return packed;
 }

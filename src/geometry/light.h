@@ -6,12 +6,14 @@
 #include "smear.h"
 
 #include "base/pixel.h"
+#include "geometry/lights.h"
 
 /* smear_light as it is used. */
 struct smear_sun {
     int32_t direction[3];           /* towards the light in the world, of length one, q14 */
     int32_t ambient[3], diffuse[3]; /* r g b, linear, q16 */
     bool white;                     /* r g b alike */
+    const struct smear_lights_used *lights;     /* further ones, or null */
 };
 
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
@@ -32,12 +34,15 @@ struct smear_shading {
                                      * normal = matrix x object normal */
     int32_t direction[3];           /* q23 / 127: I = sum n_j direction_j for int8 normals, where even */
     bool even;                      /* rotation and uniform scale only: normals keep their length */
-    bool lit;
+    uint8_t lit;                    /* 2: by further lights, where the draw sees any */
     smear_transfer transfer;
     bool white;                     /* base is one throughout */
     u16lin base[4];                 /* material factor; base[3] is alpha */
     struct smear_lit *last;         /* or null */
 };
+
+/* Further lights than the sun shine on it. */
+static inline bool shading_has_lights(const struct smear_shading *s) { return SMEAR_WITH_LIGHTS && s->lit > 1; }
 
 static inline bool shading_is_linear(const struct smear_shading *s) { return transfer_is_linear(s->transfer); }
 
@@ -50,6 +55,9 @@ struct smear_color {
 /* Makes a draw's shading; with has_normals, smear_light_normal() may be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *material, bool has_normals, smear_transfer transfer, const struct smear_sun *sun);
+
+/* Turns a direction of length one, q14, to where normals of the object are even: as struct smear_shading has its light's. */
+void smear_light_to_object(int32_t out[3], const struct smear_shading *s, const int32_t direction[3]);
 
 /* Returns max(0, n.l), 0 .. 65536, for an object-space normal of length 127. */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);
@@ -64,6 +72,18 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
 
 /* Shades a face's colour and packs it, as smear_shade and smear_color_pack do. */
 uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine);
+
+/* Returns a b, where 65535 is one. */
+static inline uint32_t times_lin(uint32_t a, uint32_t b)
+{
+    return a * (b + (b >> 15)) >> 16;
+}
+
+/* Encodes linear light. Colours of vertices and faces alone do not want a table of 4 kB. */
+static inline uint32_t light_encode(uint32_t light)
+{
+    return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
+}
 
 /* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */
 uint32_t smear_color_pack(const struct smear_color *color, smear_transfer transfer);

@@ -212,6 +212,11 @@ void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uin
 {
     struct smear_color color;
     const struct smear_face face = smear_face_of(d, triangle, back);
+    if (shading_has_lights(&d->shading)) {
+        d->lights.vertex(&color, d, index, &face);
+        store_color(out, color.channel);
+        return;
+    }
     shade_vertex(&color, d, index, &face);
     store_color(out, color.channel);
 }
@@ -226,7 +231,10 @@ void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_a
     }
     if (segment_colored(s)) {
         struct smear_color color;
-        shade_vertex(&color, d, index, face);
+        if (shading_has_lights(&d->shading))
+            d->lights.vertex(&color, d, index, face);
+        else
+            shade_vertex(&color, d, index, face);
         for (int c = 0; c < CLIP_COLORS; c++)
             v->color[c] = color.channel[c];
     }
@@ -256,9 +264,13 @@ static inline bool same_color(const uint8_t *a, const uint8_t *b)
 /* Returns the shaded colour of a face, packed. */
 static inline uint32_t shaded_face(const struct smear_assembly *d, const struct smear_face *face)
 {
+    struct smear_color color;
+    if (shading_has_lights(&d->shading)) {
+        d->lights.used->by->face(&color, d, face);
+        return smear_color_pack(&color, d->shading.transfer);
+    }
     if (SMEAR_SHADES_FACES && face->vertex_color == NULL && face->color != NULL)
         return smear_shade_face(&d->shading, face->color, face->cosine);
-    struct smear_color color;
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
     return smear_color_pack(&color, d->shading.transfer);
 }
@@ -311,7 +323,7 @@ bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, con
 
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back)
 {
-    struct smear_face face = { back, NULL, NULL, 65536u };
+    struct smear_face face = { back, NULL, NULL, 65536u, triangle };
     const uint16_t *index = d->mesh->index + 3 * triangle;
     if (d->mesh->face_color != NULL)
         face.color = d->mesh->face_color + 4 * triangle;

@@ -25,6 +25,7 @@ struct smear_face {
     const uint8_t *color;
     const uint8_t *vertex_color;    /* the colour of all three vertices, where the draw is flat */
     uint32_t cosine;                /* of the light, where it is flat */
+    uint32_t triangle;
 };
 
 /* Tiles of the frame that something reaches into: columns x0 .. x1 and rows y0 .. y1, both ends included; none where
@@ -150,12 +151,13 @@ struct smear_assembly {
     } motion;
     struct smear_shading shading;
     struct smear_lit lit;               /* of shading.last */
+    struct smear_lights_seen lights;    /* of shading.lights */
 };
 
 /* Faces may take what was found of those before them: once the shading is made. */
 static inline void assembly_remember_light(struct smear_assembly *d)
 {
-    if (SMEAR_LIGHT_IS_DEAR) {
+    if (SMEAR_LIGHT_IS_DEAR && !shading_has_lights(&d->shading)) {
         d->lit.normal[0] = INT32_MAX;
         d->lit.color = NULL;
         d->shading.last = &d->lit;
@@ -275,7 +277,7 @@ bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit);
 static inline void assembly_find_flat(struct smear_assembly *d)
 {
     if (SMEAR_FIND_FLAT)
-        d->flat = d->material->alpha == SMEAR_OPAQUE
+        d->flat = d->material->alpha == SMEAR_OPAQUE && !(shading_has_lights(&d->shading) && d->mesh->normal != NULL)
                && (!shading_is_linear(&d->shading) || (!d->fixed && !assembly_is_textured(d)))
                && smear_vertex_is_flat(d->mesh, d->shading.lit);
 }

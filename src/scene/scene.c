@@ -9,6 +9,8 @@
 int smear_scene_check(const smear_scene *scene)
 {
     const bool missing = (!SMEAR_WITH_SKY && scene->sky != NULL) || (!SMEAR_WITH_LIGHTS && scene->lights != NULL);
+    if (SMEAR_WITH_LIGHTS && scene->lights != NULL && (scene->lights->shader == NULL || scene->lights->reach < 0))
+        return FAULT(FRAME_LIGHTS);
     return missing ? FAULT(FRAME_SCENE) : SMEAR_OK;
 }
 

@@ -341,7 +341,9 @@ static void make_draw(struct fuzz_case *c, int i)
         .unlit = look >> 4 & 1,
         .double_sided = look >> 5 & 1,
         .bilinear = look >> 6 & 1,
-        .cutoff = (uint8_t)(look >> 8)
+        .cutoff = (uint8_t)(look >> 8),
+        .gloss = (uint8_t)(look >> 16 & 1 ? look >> 24 : 0),
+        .shine = (uint8_t)(look >> 17 & 15)
     };
     for (int k = 0; k < 4 && (look & 128); k++)
         m->color[k] = (uint8_t)source_word(s);
@@ -649,6 +651,21 @@ static void make_fog(struct fuzz_case *c)
     c->frame.fog = thick && source_chance(s, 4) ? &c->fog : NULL;
 }
 
+/* Where a lamp is near what is drawn, which lies about the origin. */
+static void make_lights(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    c->lights = (smear_lights){ .shader = &smear_lights_shader, .reach = source_chance(s, 3) ? positive(c, 4 << 16) : 0 };
+    for (int i = 0; i < 3; i++) {
+        c->lights.direction[i] = source_any(s);
+        c->lights.diffuse[i] = (uint16_t)source_word(s);
+        c->lights.lamp_diffuse[i] = (uint16_t)source_word(s);
+        c->lights.lamp[i] = about(c, 0, 3 << 16);
+    }
+    c->scene.lights = &c->lights;
+    c->frame.scene = source_chance(s, 4) ? &c->scene : NULL;
+}
+
 void case_frame(struct fuzz_case *c, int k)
 {
     struct source *s = &c->source;
@@ -662,6 +679,8 @@ void case_frame(struct fuzz_case *c, int k)
         move_on(c, keeps);
     if (k == 0 || source_chance(s, keeps ? 6 : 2))
         make_fog(c);
+    if (k == 0 || source_chance(s, keeps ? 6 : 2))
+        make_lights(c);
     if (c->fog.far_plane <= c->camera[0].near_plane)
         c->frame.fog = NULL;
 }

@@ -8,6 +8,7 @@
 
 #include "smear.h"
 #include "smear_overlay.h"
+#include "smear_scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -70,6 +71,8 @@ struct fuzz_case {
     smear_points points;
     smear_overlay overlay;
     smear_fog fog;
+    smear_lights lights;
+    smear_scene scene;
     smear_frame frame;
     void *block[CASE_BLOCKS];
     int blocks;

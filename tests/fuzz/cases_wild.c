@@ -79,7 +79,7 @@ static const struct part mesh_parts[] = {
 };
 static const struct part material_parts[] = {
     PART(smear_material, alpha), PART(smear_material, cutoff), PART(smear_material, unlit),
-    PART(smear_material, double_sided), PART(smear_material, bilinear)
+    PART(smear_material, double_sided), PART(smear_material, bilinear), PART(smear_material, gloss), PART(smear_material, shine)
 };
 static const struct part texture_parts[] = { PART(smear_texture, wrap_u), PART(smear_texture, wrap_v) };
 static const struct part item_parts[] = {
@@ -89,6 +89,10 @@ static const struct part item_parts[] = {
 };
 static const struct part fog_parts[] = {
     PART(smear_fog, color), PART(smear_fog, near_plane), PART(smear_fog, far_plane)
+};
+static const struct part lights_parts[] = {
+    PART(smear_lights, direction), PART(smear_lights, diffuse), PART(smear_lights, lamp_diffuse), PART(smear_lights, lamp),
+    PART(smear_lights, reach)
 };
 static const struct part point_parts[] = {
     PART(smear_point, now), PART(smear_point, before), PART(smear_point, size), PART(smear_point, color),
@@ -110,7 +114,7 @@ void case_spoil_frame(struct fuzz_case *c)
 {
     struct source *s = &c->source;
     const int i = source_range(s, 0, CASE_DRAWS - 1), mesh = source_range(s, 0, CASE_MESHES - 1);
-    switch (source_range(s, 0, 15)) {
+    switch (source_range(s, 0, 16)) {
     case 0: SPOIL(&c->camera[source_range(s, 0, 2)], camera_parts); break;
     case 1: SPOIL(&c->frame, frame_parts); break;
     case 2: SPOIL(&c->layer[source_range(s, 0, SMEAR_LAYERS_MAX - 1)], layer_parts); break;
@@ -126,6 +130,7 @@ void case_spoil_frame(struct fuzz_case *c)
     case 12: SPOIL(&c->item[source_range(s, 0, CASE_ITEMS - 1)], item_parts); break;
     case 13: SPOIL(&c->fog, fog_parts); break;
     case 14: SPOIL(&c->point[source_range(s, 0, CASE_POINTS - 1)], point_parts); break;
+    case 15: SPOIL(&c->lights, lights_parts); break;
     default: memset(c->curve, source_chance(s, 2) ? 0 : 255, sizeof c->curve); break;
     }
 }

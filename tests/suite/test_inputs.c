@@ -5,6 +5,7 @@
 #include "tests/rig.h"
 
 #include "smear_overlay.h"
+#include "smear_scene.h"
 
 enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 
@@ -23,7 +24,8 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
         N(smear_texture, format, 1, ANY) N(smear_texture, wrap_u, 1, ANY) N(smear_texture, wrap_v, 1, ANY) N(smear_texture, levels, 1, 3)
 #define MATERIAL(N, A, P, S) \
     P(smear_material, texture) A(smear_material, color, 1, ANY) N(smear_material, alpha, 1, ANY) N(smear_material, cutoff, 1, ANY) \
-        N(smear_material, unlit, 1, ANY) N(smear_material, double_sided, 1, ANY) N(smear_material, bilinear, 1, ANY)
+        N(smear_material, unlit, 1, ANY) N(smear_material, double_sided, 1, ANY) N(smear_material, bilinear, 1, ANY) \
+            N(smear_material, gloss, 1, ANY) N(smear_material, shine, 1, ANY)
 #define CAMERA(N, A, P, S) \
     S(smear_camera, pose) N(smear_camera, focal, 4, ANY) N(smear_camera, half_height, 4, ANY) N(smear_camera, near_plane, 4, ANY) \
         N(smear_camera, far_plane, 4, ANY)
@@ -33,6 +35,10 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
     N(smear_draw, billboard, 1, ANY) N(smear_draw, path, 1, ANY) N(smear_draw, open_count, 2, 4) N(smear_draw, close_count, 2, 4) \
                 N(smear_draw, layers, 1, ANY)
 #define LIGHT(N, A, P, S) A(smear_light, direction, 4, ANY) A(smear_light, ambient, 2, ANY) A(smear_light, diffuse, 2, ANY)
+#define LIGHTS(N, A, P, S) \
+    P(smear_lights, shader) A(smear_lights, direction, 4, ANY) A(smear_lights, diffuse, 2, ANY) A(smear_lights, lamp_diffuse, 2, ANY) \
+        A(smear_lights, lamp, 4, ANY) N(smear_lights, reach, 4, ANY)
+#define SCENE(N, A, P, S) P(smear_scene, sky) P(smear_scene, lights)
 #define FOG(N, A, P, S) N(smear_fog, color, 4, ANY) N(smear_fog, near_plane, 4, ANY) N(smear_fog, far_plane, 4, ANY)
 #define SHUTTER(N, A, P, S) \
     N(smear_shutter, degrees, 2, ANY) N(smear_shutter, exposure, 1, ANY) N(smear_shutter, poses, 1, ANY) N(smear_shutter, mode, 1, ANY) \
@@ -63,8 +69,9 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 /* Each list once: the tables, and what says that nothing is left out. */
 #define LISTS(X) \
     X(TRANSFORM, smear_transform) X(MESH, smear_mesh) X(TEXTURE, smear_texture) X(MATERIAL, smear_material) X(CAMERA, smear_camera) \
-    X(DRAW, smear_draw) X(LIGHT, smear_light) X(FOG, smear_fog) X(SHUTTER, smear_shutter) X(FRAME, smear_frame) X(IMAGE, smear_image) \
-            X(FONT, smear_font) X(ITEM, smear_overlay_item) X(POINT, smear_point) X(POINTS, smear_points) X(OVERLAY, smear_overlay)
+    X(DRAW, smear_draw) X(LIGHT, smear_light) X(LIGHTS, smear_lights) X(SCENE, smear_scene) X(FOG, smear_fog) \
+    X(SHUTTER, smear_shutter) X(FRAME, smear_frame) X(IMAGE, smear_image) \
+                X(FONT, smear_font) X(ITEM, smear_overlay_item) X(POINT, smear_point) X(POINTS, smear_points) X(OVERLAY, smear_overlay)
 
 /* REFUSED: any, but a display that is kept goes with none. */
 enum { ANY = 0, NONE = -1, REFUSED = -2, NUMBER = 0, POINTER, OTHER };
@@ -120,6 +127,8 @@ struct scene_of_all {
     smear_point point[2];
     smear_points points;
     smear_overlay overlay;
+    smear_lights lights;
+    smear_scene more;
     smear_frame frame;
 };
 
@@ -164,7 +173,8 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->mesh = (smear_mesh){ .position = s->position, .normal = s->normal, .uv = s->uv, .color = s->color, .face_color = s->face_color,
                             .index = s->index, .triangle_count = 2, .vertex_count = 4, .shift = 8 };
     s->texture = (smear_texture){ .texels = s->texels, .palette = s->palette, .width = 8, .height = 8, .format = SMEAR_TEXEL_PALETTE8 };
-    s->material = (smear_material){ .texture = &s->texture, .color = { 200, 210, 190, 255 }, .double_sided = 1 };
+    s->material = (smear_material){ .texture = &s->texture, .color = { 200, 210, 190, 255 }, .double_sided = 1,
+                                    .gloss = 100, .shine = 3 };
     s->camera = s->before = camera_at(0, 0, 0, 0);
     s->light = (smear_light){ { 10000, 20000, 30000 }, { 20000, 21000, 22000 }, { 40000, 39000, 38000 } };
     s->fog = (smear_fog){ 0x406080, q16(1), q16(20) };
@@ -183,7 +193,10 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->points = (smear_points){ s->point, 2 };
     s->overlay = (smear_overlay){ s->item, 3, &s->points };
     s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x102030, .light = &s->light, .fog = &s->fog,
-                              .shutter.frame_us = 20000, .overlay = &s->overlay };
+                              .shutter.frame_us = 20000, .overlay = &s->overlay, .scene = &s->more };
+    s->lights = (smear_lights){ &smear_lights_shader, { 20000, -10000, 30000 }, { 9000, 8000, 7000 }, { 30000, 20000, 10000 },
+                                { q16(0.3), q16(0.4), q16(-3) }, q16(4) };
+    s->more.lights = &s->lights;
 }
 
 /* ------------------------------------------------------------------ what is shown */
@@ -312,6 +325,8 @@ static void turn_all(void)
     TURN(smear_draw, &scene.draw);
     TURN(smear_light, &scene.light);
     TURN(smear_fog, &scene.fog);
+    TURN(smear_lights, &scene.lights);
+    TURN(smear_scene, &scene.more);
     TURN(smear_shutter, &scene.frame.shutter);
     TURN(smear_frame, &scene.frame);
     TURN(smear_image, &scene.image);

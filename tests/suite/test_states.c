@@ -332,7 +332,7 @@ static void spoil(void *record, size_t size)
 
 #define KEEP_FRAME(r, b) \
     (r).camera = (b).camera, (r).open = (b).open, (r).close = (b).close, (r).light = (b).light, (r).fog = (b).fog, \
-    (r).shutter.curve = (b).shutter.curve, (r).layer = (b).layer, (r).overlay = (b).overlay;
+    (r).shutter.curve = (b).shutter.curve, (r).layer = (b).layer, (r).overlay = (b).overlay, (r).scene = (b).scene;
 #define KEEP_DRAW(r, b) \
     (r).mesh = (b).mesh, (r).material = (b).material, (r).now = (b).now, (r).open = (b).open, (r).close = (b).close, \
     (r).open_position = (b).open_position, (r).close_position = (b).close_position;
