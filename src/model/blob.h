@@ -58,7 +58,9 @@ struct smear_blob_texture {
 struct smear_blob_material {
     uint16_t texture;           /* or SMEAR_MODEL_NONE */
     uint8_t color[4];
-    uint8_t alpha, cutoff, unlit, double_sided, bilinear, zero;
+    uint8_t alpha, cutoff, unlit, double_sided;
+    uint8_t bilinear;           /* and 16 x shine */
+    uint8_t gloss;
 };
 
 SMEAR_STATIC_ASSERT(sizeof(struct smear_blob_head) == 48 + 8 * BLOB_TABLES, "no padding");

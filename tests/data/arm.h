@@ -38,10 +38,10 @@ static const smear_texture arm_texture[1] = {
 };
 
 static const smear_material arm_material[4] = {
-    { &arm_texture[0], { 255, 255, 255, 255 }, SMEAR_CUTOUT, 128, 0, 1, 0 },
-    { 0, { 231, 188, 149, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0 },
-    { 0, { 255, 255, 255, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0 },
-    { 0, { 124, 203, 243, 128 }, SMEAR_BLEND, 0, 1, 1, 0 },
+    { &arm_texture[0], { 255, 255, 255, 255 }, SMEAR_CUTOUT, 128, 0, 1, 0, 0, 0 },
+    { 0, { 231, 188, 149, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 },
+    { 0, { 255, 255, 255, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 },
+    { 0, { 124, 203, 243, 128 }, SMEAR_BLEND, 0, 1, 1, 0, 0, 0 },
 };
 
 static const int16_t arm_position_0[12] = {

@@ -131,8 +131,8 @@ static void put_surfaces(struct blob_writer *w)
         buffer_byte(b, m->cutoff);
         buffer_byte(b, m->unlit);
         buffer_byte(b, m->double_sided);
-        buffer_byte(b, m->bilinear);
-        buffer_byte(b, 0);
+        buffer_byte(b, (uint8_t)(m->bilinear | m->shine << 4));
+        buffer_byte(b, m->gloss);
     }
     begin_table(w, BLOB_MESH, c->model.mesh_count);
     for (int i = 0; i < c->model.mesh_count; i++) {

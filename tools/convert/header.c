@@ -125,8 +125,8 @@ static void put_materials(struct header_writer *w)
             buffer_print(&w->b, "    { &%s_texture[%d], ", w->name, (int)(m->texture - c->texture));
         else
             buffer_print(&w->b, "    { 0, ");
-        buffer_print(&w->b, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2],
-                     m->color[3], alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear);
+        buffer_print(&w->b, "{ %u, %u, %u, %u }, %s, %u, %u, %u, %u, %u, %u },\n", m->color[0], m->color[1], m->color[2],
+                     m->color[3], alpha[m->alpha], m->cutoff, m->unlit, m->double_sided, m->bilinear, m->gloss, m->shine);
     }
     close_table(w);
 }

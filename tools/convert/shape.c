@@ -421,6 +421,8 @@ static bool material_for(struct converter *c, const struct shape *s, const smear
     material->material.texture = NULL;
     for (int i = 0; i < 3; i++)
         material->material.color[i] = exact_srgb_encode((double)m->base[i]);
+    material->material.gloss = m->gloss;
+    material->material.shine = m->shine;
     *out = *known = c->material.count - 1;
     return true;
 }

@@ -133,6 +133,28 @@ static bool find_base(struct gltf *g, int object, int *pbr, const char **factor,
     return *pbr >= 0 || json_get_object(&g->json, object, "pbrMetallicRoughness", pbr, g->f);
 }
 
+/* Reads a highlight from the core's metal and roughness: that of a material that says how rough it is, without a picture of it. Its
+ * exponent is that of Blinn and Phong which is as wide, 2 / roughness^4 - 2, its strength what a surface at right angles reflects of
+ * the light, spread by the exponent: a rough one shows none. */
+static bool read_gloss(struct gltf *g, int pbr, const double base[4], struct model_material *out)
+{
+    double metallic = 1, rough = 1;
+    int picture = -1;
+    if (!json_get_number(&g->json, pbr, "metallicFactor", &metallic, g->f) ||
+        !json_get_number(&g->json, pbr, "roughnessFactor", &rough, g->f) ||
+        !json_get_object(&g->json, pbr, "metallicRoughnessTexture", &picture, g->f))
+        return false;
+    const double r = rough < 0.2 ? 0.2 : rough, exponent = 2 / (r * r * r * r) - 2;
+    const double most = base[0] > base[1] ? base[0] > base[2] ? base[0] : base[2] : base[1] > base[2] ? base[1] : base[2];
+    const double part = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic, strength = (0.04 + (most - 0.04) * part) * (exponent + 2) / 8;
+    if (pbr < 0 || picture >= 0 || exponent < 2)
+        return true;
+    out->gloss = (uint8_t)(255 * (strength < 1 ? strength : 1) + 0.5);
+    for (out->shine = 1; out->shine < 10 && exponent > 1.4142 * (1 << out->shine);)
+        out->shine++;
+    return true;
+}
+
 static bool read_material(struct gltf *g, const struct texture_lists *lists, int object,
                           struct gltf_material *m, struct model_material *out)
 {
@@ -153,6 +175,8 @@ static bool read_material(struct gltf *g, const struct texture_lists *lists, int
         out->base[i] = (float)base[i];
     }
     out->unlit = gltf_extension(g, object, "KHR_materials_unlit") >= 0;
+    if (strcmp(factor, "baseColorFactor") == 0 && !read_gloss(g, pbr, base, out))
+        return false;
     return info < 0 || read_base_texture(g, lists, info, m, out);
 }
 

@@ -28,6 +28,7 @@ struct model_material {
     enum model_alpha alpha;
     float alpha_cutoff;             /* for MASK */
     bool double_sided, unlit;
+    uint8_t gloss, shine;           /* of a highlight, as smear_material has it */
 };
 
 /* One glTF primitive (mode TRIANGLES, STRIP or FAN, unrolled to triangles) or the faces of one OBJ
