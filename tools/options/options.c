@@ -180,6 +180,43 @@ static const char *read_fog(void *to, const char *value)
              ? NULL : "needs 0 <= NEAR < FAR, a 256th of FAR apart";
 }
 
+/* Reads a colour and what follows it: a vector and, with `last`, one more number. */
+static bool read_colored(const char *value, unsigned *color, double vector[3], double *last)
+{
+    char digits[7] = "", number[128], end[140] = "0,0,";
+    double part[3];
+    if (strlen(value) <= 7 || strlen(value) >= sizeof number || value[6] != ',')
+        return false;
+    memcpy(digits, value, 6);
+    snprintf(number, sizeof number, "%s", value + 7);
+    char *comma = last != NULL ? strrchr(number, ',') : NULL;
+    if (last != NULL) {
+        if (comma == NULL)
+            return false;
+        snprintf(end + 4, sizeof end - 4, "%s", comma + 1);
+        *comma = '\0';
+        if (!read_vector(end, part))
+            return false;
+        *last = part[2];
+    }
+    return read_color(digits, color) && read_vector(number, vector);
+}
+
+static const char *read_second(void *to, const char *value)
+{
+    struct present_lights *l = &((struct render_options *)to)->lights;
+    l->has_second = read_colored(value, &l->second, l->direction, NULL)
+                 && (l->direction[0] != 0.0 || l->direction[1] != 0.0 || l->direction[2] != 0.0);
+    return l->has_second ? NULL : "needs RRGGBB,X,Y,Z: six hexadecimal digits and a direction";
+}
+
+static const char *read_lamp(void *to, const char *value)
+{
+    struct present_lights *l = &((struct render_options *)to)->lights;
+    return read_colored(value, &l->lamp, l->place, &l->reach) && l->reach > 0.0
+             ? NULL : "needs RRGGBB,X,Y,Z,REACH: six hexadecimal digits, a place and a distance";
+}
+
 #define AT(member) OPTION_AT(struct render_options, member)
 #define GIVEN(member) .given = offsetof(struct render_options, member)
 
@@ -227,6 +264,9 @@ static const struct option table[] = {
     { "--filter", OPTION_NAME, AT(view.bilinear), GIVEN(has_filter), OPTION_NAMES("nearest", "bilinear") },
     { "--clear", OPTION_READ, .read = read_clear },
     { "--fog", OPTION_READ, .read = read_fog },
+    { "--second", OPTION_READ, .read = read_second },
+    { "--lamp", OPTION_READ, .read = read_lamp },
+    { "--gloss", OPTION_FLAG, AT(lights.gloss) },
     { "--edges", OPTION_NAME, AT(edges), OPTION_NAMES("hard", "smooth") },
     { "--format", OPTION_NAME, AT(format), .names = option_formats },
     { "--dither", OPTION_NAME, AT(dither), .names = option_dithers },

@@ -52,6 +52,7 @@ struct render_options {
     unsigned clear;
     struct backdrop_colors backdrop;
     struct present_fog fog;
+    struct present_lights lights;
     smear_edges edges;
 
     double orbit;               /* turns of the camera about what it sees, over all frames; 0: none */

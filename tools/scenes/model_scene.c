@@ -115,6 +115,7 @@ static struct scene_surface surface_of(const struct model *model, const struct m
         .material = {
             .wrap_u = material->wrap_u, .wrap_v = material->wrap_v, .alpha = material->alpha,
             .alpha_cutoff = material->alpha_cutoff, .double_sided = material->double_sided,
+            .gloss = material->gloss, .shine = material->shine,
             .unlit = material->unlit, .bilinear = bilinear,
         },
     };

@@ -272,6 +272,31 @@ static bool fill_fog(struct presented *out, const struct present_fog *fog, struc
     return true;
 }
 
+/* Brings lights to the library's units: a camera that steps back to fit in has the lamp before it as it was. */
+static bool fill_lights(struct presented *out, const struct present_lights *lights, const double reference[3], struct failure *f)
+{
+    out->lights = (smear_lights){ .shader = &smear_lights_shader };
+    for (int i = 0; i < 3; i++) {
+        const int shift = 16 - 8 * i;
+        const double place = (lights->place[i] - reference[i]) * out->world_scale;
+        const double length = fabs(lights->direction[0]) + fabs(lights->direction[1]) + fabs(lights->direction[2]);
+        if (fabs(place) > WORLD_LIMIT || lights->reach * out->world_scale > WORLD_LIMIT)
+            return fail(f, "the lamp is too far away for fixed point");
+        if (lights->has_second) {
+            out->lights.direction[i] = fixed(lights->direction[i] / length, 16);
+            out->lights.diffuse[i] = (uint16_t)lrint(65535 * present_srgb_decode((uint8_t)(lights->second >> shift)));
+        }
+        if (lights->reach > 0.0) {
+            out->lights.lamp[i] = fixed(place, 16);
+            out->lights.lamp_diffuse[i] = (uint16_t)lrint(65535 * present_srgb_decode((uint8_t)(lights->lamp >> shift)));
+        }
+    }
+    out->lights.reach = fixed(lights->reach * out->world_scale, 16);
+    out->more = (smear_scene){ .lights = &out->lights };
+    out->frame.scene = &out->more;
+    return true;
+}
+
 static void fill_camera(smear_camera *out, const struct scene_camera *camera,
                         const double reference[3], const struct presented *world)
 {
@@ -688,7 +713,9 @@ static bool present(struct presenter *p, double time, const struct present_optio
         reference = p->kept_reference;
     }
     reach_all(p, blurred, reference, &reach);
-    if (!choose_world(p, o->keep_ids, &reach, f) || (o->fog.end != 0.0 && !fill_fog(out, &o->fog, f)))
+    const bool lit = o->lights.has_second || o->lights.gloss || o->lights.reach > 0.0;
+    if (!choose_world(p, o->keep_ids, &reach, f) || (o->fog.end != 0.0 && !fill_fog(out, &o->fog, f))
+        || (lit && !fill_lights(out, &o->lights, reference, f)))
         return false;
 
     for (int i = 0; i < POSES; i++)

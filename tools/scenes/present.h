@@ -33,6 +33,7 @@
 #include "tools/scenes/scene.h"
 
 #include <smear.h>
+#include <smear_scene.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -40,6 +41,14 @@
 struct present_fog {
     unsigned color;                 /* 0xRRGGBB */
     double begin, end;              /* end 0: no fog */
+};
+
+/* Colours are 0xRRGGBB: what faces a light has them. In scene units. */
+struct present_lights {
+    bool has_second, gloss;         /* gloss: materials show their highlights */
+    unsigned second, lamp;
+    double direction[3];            /* towards the second light */
+    double place[3], reach;         /* reach 0: no lamp */
 };
 
 struct present_options {
@@ -58,6 +67,7 @@ struct present_options {
     uint32_t clear;                 /* 0xRRGGBB */
     struct backdrop_colors backdrop;        /* one more draw, the last, of a background of two colours */
     struct present_fog fog;
+    struct present_lights lights;
     smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of presenter_exact */
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
@@ -85,6 +95,8 @@ struct present_options {
 struct presented {
     smear_frame frame;              /* its cameras and its fog are those below */
     smear_fog fog;
+    smear_lights lights;
+    smear_scene more;
     smear_camera camera[3];         /* now, open, close */
     int draw_count;
     const smear_draw *draw;

@@ -504,6 +504,8 @@ static bool convert_material(struct converted *c, struct texture_store *store, s
     out->color[3] = m->alpha == MODEL_ALPHA_OPAQUE ? 255 : present_byte(m->base[3]);
     out->unlit = m->unlit;
     out->double_sided = m->double_sided;
+    out->gloss = m->gloss;
+    out->shine = m->shine;
     out->bilinear = m->bilinear;
     if (m->alpha == MODEL_ALPHA_BLEND) {
         out->alpha = SMEAR_BLEND;

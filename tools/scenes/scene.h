@@ -22,6 +22,7 @@ struct scene_material {
     enum model_alpha alpha;
     float alpha_cutoff;
     bool double_sided, unlit, bilinear;
+    uint8_t gloss, shine;           /* as smear_material has them */
 };
 
 /* Geometry that keeps its shape: a mesh at rest. A surface stays where it is in memory for as
