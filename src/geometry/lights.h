@@ -37,8 +37,8 @@ struct smear_lights_seen {
     const uint8_t *color;
     int32_t second[3], half[3];     /* q23 / 127; in the world q14 */
     int32_t step[9];
-    void (*vertex)(struct smear_color *out, const struct smear_assembly *d, uint32_t index, const struct smear_face *face);
 #endif
+    void (*vertex)(struct smear_color *out, const struct smear_assembly *d, uint32_t index, const struct smear_face *face);
 };
 
 /* begin: makes those of a frame. draw: of a draw whose shading is made; false where it has none but the sun. face, and of a draw
