@@ -219,14 +219,16 @@ PICTURES := tools/demo/pictures
 # Of each machine the name of its screen in platform/demo_player.c, and how much its pixels are enlarged.
 README_SCREENS := pi-640:1 pico-240:1 gba:2
 
-## again: pictures of the README: the loop, what the panels show of frame 14, and the first program's
-readme-pictures: $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
+## again: pictures of the README: the loop, what the panels show of frame 14, and the first program's; and the manual's lamp
+readme-pictures: $(BIN)/smear $(BIN)/smear-demo build/demo/target_screen $(BUILD)/readme.ppm
 	$(BIN)/smear-demo --readme $(PICTURES)
 	for screen in $(README_SCREENS); do \
 	    build/demo/target_screen picture $${screen%:*} 14 180 build/screen.png && \
 	    $(BIN)/smear-demo --enlarge $${screen#*:} build/screen.png $(PICTURES)/$${screen%:*}.png || exit 1; \
 	done
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
+	$(BIN)/smear render builtin:suite/dolly --clear 0c1220 --sun 304060,-1,1,0.3 --second 102848,1,0.2,1 \
+	    --lamp ffc080,0,1.5,0,10 -o $(PICTURES)/lamp.png
 
 ## tests: includes run one way: a file includes only what lies in its own room or below
 layers:

@@ -202,6 +202,14 @@ static bool read_colored(const char *value, unsigned *color, double vector[3], d
     return read_color(digits, color) && read_vector(number, vector);
 }
 
+static const char *read_sun(void *to, const char *value)
+{
+    struct present_lights *l = &((struct render_options *)to)->lights;
+    l->has_sun = read_colored(value, &l->sun, l->sun_direction, NULL)
+              && (l->sun_direction[0] != 0.0 || l->sun_direction[1] != 0.0 || l->sun_direction[2] != 0.0);
+    return l->has_sun ? NULL : "needs RRGGBB,X,Y,Z: six hexadecimal digits and a direction";
+}
+
 static const char *read_second(void *to, const char *value)
 {
     struct present_lights *l = &((struct render_options *)to)->lights;
@@ -264,6 +272,7 @@ static const struct option table[] = {
     { "--filter", OPTION_NAME, AT(view.bilinear), GIVEN(has_filter), OPTION_NAMES("nearest", "bilinear") },
     { "--clear", OPTION_READ, .read = read_clear },
     { "--fog", OPTION_READ, .read = read_fog },
+    { "--sun", OPTION_READ, .read = read_sun },
     { "--second", OPTION_READ, .read = read_second },
     { "--lamp", OPTION_READ, .read = read_lamp },
     { "--gloss", OPTION_FLAG, AT(lights.gloss) },

@@ -272,25 +272,46 @@ static bool fill_fog(struct presented *out, const struct present_fog *fog, struc
     return true;
 }
 
-/* Brings lights to the library's units: a camera that steps back to fit in has the lamp before it as it was. */
+static uint16_t channel_of(unsigned color, int channel, double part)
+{
+    return (uint16_t)lrint(65535 * part * present_srgb_decode((uint8_t)(color >> (16 - 8 * channel))));
+}
+
+/* Makes a direction of the library's of one of any length. */
+static void fill_direction(int32_t out[3], const double direction[3])
+{
+    const double length = fabs(direction[0]) + fabs(direction[1]) + fabs(direction[2]);
+    for (int i = 0; i < 3; i++)
+        out[i] = fixed(direction[i] / length, 16);
+}
+
+static void fill_sun(struct presented *out, const struct present_lights *lights)
+{
+    fill_direction(out->sun.direction, lights->sun_direction);
+    for (int i = 0; i < 3; i++) {
+        out->sun.ambient[i] = channel_of(lights->sun, i, 0.3);
+        out->sun.diffuse[i] = channel_of(lights->sun, i, 0.7);
+    }
+    out->frame.light = &out->sun;
+}
+
+/* Brings lights to the library's units. */
 static bool fill_lights(struct presented *out, const struct present_lights *lights, const double reference[3], struct failure *f)
 {
     out->lights = (smear_lights){ .shader = &smear_lights_shader };
     for (int i = 0; i < 3; i++) {
-        const int shift = 16 - 8 * i;
         const double place = (lights->place[i] - reference[i]) * out->world_scale;
-        const double length = fabs(lights->direction[0]) + fabs(lights->direction[1]) + fabs(lights->direction[2]);
         if (fabs(place) > WORLD_LIMIT || lights->reach * out->world_scale > WORLD_LIMIT)
             return fail(f, "the lamp is too far away for fixed point");
-        if (lights->has_second) {
-            out->lights.direction[i] = fixed(lights->direction[i] / length, 16);
-            out->lights.diffuse[i] = (uint16_t)lrint(65535 * present_srgb_decode((uint8_t)(lights->second >> shift)));
-        }
+        if (lights->has_second)
+            out->lights.diffuse[i] = channel_of(lights->second, i, 1);
         if (lights->reach > 0.0) {
             out->lights.lamp[i] = fixed(place, 16);
-            out->lights.lamp_diffuse[i] = (uint16_t)lrint(65535 * present_srgb_decode((uint8_t)(lights->lamp >> shift)));
+            out->lights.lamp_diffuse[i] = channel_of(lights->lamp, i, 1);
         }
     }
+    if (lights->has_second)
+        fill_direction(out->lights.direction, lights->direction);
     out->lights.reach = fixed(lights->reach * out->world_scale, 16);
     out->more = (smear_scene){ .lights = &out->lights };
     out->frame.scene = &out->more;
@@ -713,6 +734,8 @@ static bool present(struct presenter *p, double time, const struct present_optio
         reference = p->kept_reference;
     }
     reach_all(p, blurred, reference, &reach);
+    if (o->lights.has_sun)
+        fill_sun(out, &o->lights);
     const bool lit = o->lights.has_second || o->lights.gloss || o->lights.reach > 0.0;
     if (!choose_world(p, o->keep_ids, &reach, f) || (o->fog.end != 0.0 && !fill_fog(out, &o->fog, f))
         || (lit && !fill_lights(out, &o->lights, reference, f)))

@@ -45,8 +45,9 @@ struct present_fog {
 
 /* Colours are 0xRRGGBB: what faces a light has them. In scene units. */
 struct present_lights {
-    bool has_second, gloss;         /* gloss: materials show their highlights */
-    unsigned second, lamp;
+    bool has_sun, has_second, gloss;        /* gloss: materials show their highlights */
+    unsigned sun, second, lamp;
+    double sun_direction[3];        /* 3/10 of the sun comes from everywhere */
     double direction[3];            /* towards the second light */
     double place[3], reach;         /* reach 0: no lamp */
 };
@@ -95,6 +96,7 @@ struct present_options {
 struct presented {
     smear_frame frame;              /* its cameras and its fog are those below */
     smear_fog fog;
+    smear_light sun;
     smear_lights lights;
     smear_scene more;
     smear_camera camera[3];         /* now, open, close */
