@@ -89,19 +89,9 @@ void smear_sun_make(struct smear_sun *sun, const smear_light *light)
     }
 }
 
-static void find_columns(int32_t column[3][3], const struct smear_shading *s)
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            column[j][i] = s->normal_matrix[i][j];
-}
-
 /* Whether the columns have one length and are at right angles, within 1/256: the matrix is a rotation times a scale. */
-static bool keeps_lengths(const struct smear_shading *s)
+static bool keeps_lengths(int32_t column[3][3], int64_t length)
 {
-    int32_t column[3][3];
-    find_columns(column, s);
-    const int64_t length = dot(column[0], column[0]);
     for (int j = 0; j < 3; j++)
         for (int k = j; k < 3; k++) {
             const int64_t off = dot(column[j], column[k]) - (j == k ? length : 0);
@@ -134,15 +124,6 @@ static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
             m[i][j] = mirrored ? -b[3 * i + j] : b[3 * i + j];
 }
 
-void smear_light_to_object(int32_t out[3], const struct smear_shading *s, const int32_t direction[3])
-{
-    int32_t column[3][3];
-    find_columns(column, s);
-    const int32_t length = (int32_t)max_u32(length_from((uint64_t)dot(column[0], column[0])), 1);
-    for (int j = 0; j < 3; j++)
-        out[j] = (int32_t)dot(column[j], direction) / length * 512 / 127;       /* q14 to q23 / 127 */
-}
-
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *m, bool has_normals, smear_transfer transfer, const struct smear_sun *sun)
 {
@@ -162,9 +143,17 @@ void smear_shading_make(struct smear_shading *s, const smear_transform *object,
     make_normal_matrix(s->normal_matrix, object->basis);
     if (!has_normals)
         return;
-    s->even = keeps_lengths(s);
-    if (s->even)
-        smear_light_to_object(s->direction, s, sun->direction);
+    int32_t column[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            column[j][i] = s->normal_matrix[i][j];
+    const int64_t square = dot(column[0], column[0]);
+    s->even = keeps_lengths(column, square);
+    if (s->even) {
+        const int32_t length = (int32_t)max_u32(length_from((uint64_t)square), 1);
+        for (int j = 0; j < 3; j++)
+            s->direction[j] = (int32_t)dot(column[j], sun->direction) / length * 512 / 127;     /* q14 to q23 / 127 */
+    }
 }
 
 /* Returns how far a normal in the world, of 24 bits, lies along the light, q6 times its length; and the square of that. */

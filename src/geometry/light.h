@@ -43,7 +43,6 @@ struct smear_shading {
 
 /* Further lights than the sun shine on it. */
 static inline bool shading_has_lights(const struct smear_shading *s) { return SMEAR_WITH_LIGHTS && s->lit > 1; }
-
 static inline bool shading_is_linear(const struct smear_shading *s) { return transfer_is_linear(s->transfer); }
 
 /* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256),
@@ -55,9 +54,6 @@ struct smear_color {
 /* Makes a draw's shading; with has_normals, smear_light_normal() may be asked. */
 void smear_shading_make(struct smear_shading *s, const smear_transform *object,
                         const smear_material *material, bool has_normals, smear_transfer transfer, const struct smear_sun *sun);
-
-/* Turns a direction of length one, q14, to where normals of the object are even: as struct smear_shading has its light's. */
-void smear_light_to_object(int32_t out[3], const struct smear_shading *s, const int32_t direction[3]);
 
 /* Returns max(0, n.l), 0 .. 65536, for an object-space normal of length 127. */
 uint32_t smear_light_normal(const struct smear_shading *s, const int8_t normal[3]);

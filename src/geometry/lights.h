@@ -30,13 +30,11 @@ struct smear_lights_seen {
     uint8_t gloss, shine, up, down;
     int32_t lamp[3], reach;
     uint32_t square, share, gain;   /* of the reach; 2^44 / square; of lamp_light */
-    int32_t white[6];               /* the sun and `second` times what they are, where all lights are white */
-    uint32_t ambient;
+    int32_t white[6], ambient;      /* the sun and `second` times what they are, where all lights are white */
     const int8_t *normal;
     const int16_t *position;
     const uint8_t *color;
-    int32_t second[3], half[3];     /* q23 / 127; in the world q14 */
-    int32_t step[9];
+    int32_t second[3], half[3], step[9];        /* directions are q23 / 127; in the world q14 */
 #endif
     void (*vertex)(struct smear_color *out, const struct smear_assembly *d, uint32_t index, const struct smear_face *face);
 };

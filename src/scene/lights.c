@@ -112,16 +112,29 @@ static bool is_reached(struct smear_lights_seen *l, const struct smear_assembly 
     return true;
 }
 
+/* Returns the length of a column of a basis, all of which have one. */
+static struct real length_of(const smear_transform *object)
+{
+    const int32_t *b = object->basis;
+    uint64_t square = 0;
+    for (int i = 0; i < 3; i++)
+        square += (uint64_t)((int64_t)b[3 * i] * b[3 * i]);
+    return real_of(max_u32(sqrt_floor_64(square), 1), 0);
+}
+
+/* Turns a vector of the world to an axis of object space. */
+static int32_t turned(const smear_transform *object, int axis, const int32_t v[3], struct real over_length)
+{
+    const int32_t *b = object->basis + axis;
+    return times_real((int64_t)b[0] * v[0] + (int64_t)b[3] * v[1] + (int64_t)b[6] * v[2], over_length);
+}
+
 /* Finds the lamp from a draw's object space, whose unit is a power of two of the mesh's steps, so that vertices are where they are. */
 static bool place_even(struct smear_lights_seen *l, const struct smear_lights_used *used, const struct smear_assembly *d,
                        const smear_transform *object)
 {
-    const int32_t *b = object->basis;
-    uint64_t square = 0;
+    const struct real length = length_of(object);
     int32_t way[3];
-    for (int i = 0; i < 3; i++)
-        square += (uint64_t)((int64_t)b[3 * i] * b[3 * i]);
-    const struct real length = real_of(max_u32(sqrt_floor_64(square), 1), 0);
     struct real steps = real_over(real_times(length, real_of((uint32_t)max_i32(d->mesh->scale, 1), -8 - d->mesh->shift)));
     const int up = set_reach(l, real_times(real_of((uint32_t)used->word[LIGHTS_REACH], 0), steps));
     if (up > 15)
@@ -129,13 +142,11 @@ static bool place_even(struct smear_lights_seen *l, const struct smear_lights_us
     l->up = (uint8_t)max_i32(up, 0);
     l->down = (uint8_t)clamp_i32(-up, 0, 31);
     steps.e += up + FINE;
-    const struct real turned = real_over(length);
     for (int i = 0; i < 3; i++)
         way[i] = times_real((int64_t)used->word[LIGHTS_LAMP + i] - object->origin[i], steps);
     for (int i = 0; i < 3; i++) {
-        const int64_t along = (int64_t)b[i] * way[0] + (int64_t)b[3 + i] * way[1] + (int64_t)b[6 + i] * way[2];
         const int64_t offset = (int64_t)d->mesh->offset[i] * (1 << l->up) >> l->down;
-        l->lamp[i] = within((times_real(along, turned) >> FINE) - offset);
+        l->lamp[i] = within((turned(object, i, way, real_over(length)) >> FINE) - offset);
     }
     return is_reached(l, d);
 }
@@ -438,7 +449,7 @@ SMEAR_INLINE void shade_white(struct smear_color *out, const struct smear_assemb
     const int32_t n0 = normal[0], n1 = normal[1], n2 = normal[2];
     const int32_t sun = n0 * l->white[0] + n1 * l->white[1] + n2 * l->white[2];
     const int32_t second = !has_lamp || l->has_second ? n0 * l->white[3] + n1 * l->white[4] + n2 * l->white[5] : 0;
-    uint32_t light = l->ambient;
+    uint32_t light = (uint32_t)l->ambient;
     if (sun > 0)
         light += (uint32_t)sun >> 7;
     if (second > 0)
@@ -481,9 +492,11 @@ static bool see(struct smear_lights_seen *l, const struct smear_lights_used *use
         l->second[i] = used->word[LIGHTS_SECOND + i];
         l->half[i] = used->word[LIGHTS_HALF + i];
     }
-    if (l->even) {
-        smear_light_to_object(l->second, s, used->word + LIGHTS_SECOND);
-        smear_light_to_object(l->half, s, used->word + LIGHTS_HALF);
+    struct real finer = real_over(length_of(object));
+    finer.e += 9;               /* q14 to q23 */
+    for (int i = 0; l->even && i < 3; i++) {
+        l->second[i] = turned(object, i, used->word + LIGHTS_SECOND, finer) / 127;
+        l->half[i] = turned(object, i, used->word + LIGHTS_HALF, finer) / 127;
     }
     l->vertex = !l->even ? shade_uneven : shade_any;
     if (l->even && l->is_white && l->gloss == 0 && l->near == l->has_lamp) {
@@ -491,7 +504,7 @@ static bool see(struct smear_lights_seen *l, const struct smear_lights_used *use
             l->white[i] = (int32_t)((int64_t)s->direction[i] * s->sun->diffuse[0] >> 16);
             l->white[3 + i] = (int32_t)((int64_t)l->second[i] * second[0] >> 16);
         }
-        l->ambient = (uint32_t)s->sun->ambient[0];
+        l->ambient = s->sun->ambient[0];
         l->normal = d->mesh->normal;
         l->position = d->at.position;
         l->color = d->mesh->color;
