@@ -239,4 +239,64 @@ static void test_light_is_that_of_double_precision_within_a_code_and_a_half(void
         printf("worst %g rms %g lit %d\n", worst, sqrt(sum / (3.0 * LOOKS)), lit);
 }
 
+/* ------------------------------------------------------------------ whole frames */
+
+enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
+
+static smear_desc desc_of_all(void)
+{
+    return (smear_desc){ .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .tile = 8, .reach = 6,
+                         .methods = (uint16_t)(ALL_METHODS & ~(1u << SMEAR_DEFAULT_METHOD)) };
+}
+
+/* Draws the busy scene; the caller frees what it is given. */
+static uint8_t *lit_picture(int method, bool still, const smear_lights *lights, uint8_t gloss)
+{
+    const smear_desc desc = desc_of_all();
+    const smear_scene more = { .lights = lights };
+    struct rig r;
+    struct scene s;
+    uint8_t *picture = NULL;
+    if (rig_begin(&r, &desc, false)) {
+        CHECK_EQ(render_scene(&r, 0.1, method), SMEAR_OK);
+        make_scene(&s, 0.2, method);
+        for (int i = 0; i < SCENE_DRAWS; i++)
+            s.material[i].gloss = gloss;
+        s.frame.scene = lights != NULL ? &more : NULL;
+        s.frame.cut = still;
+        picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+    }
+    rig_end(&r);
+    return picture;
+}
+
+static bool are_same(uint8_t *a, uint8_t *b)
+{
+    const bool same = a != NULL && b != NULL && memcmp(a, b, PIXELS * 4) == 0;
+    free(a);
+    free(b);
+    return same;
+}
+
+static const smear_lights near_lamp = { .shader = &smear_lights_shader, .direction = { -65536, 65536, 0 },
+                                        .diffuse = { 9000, 12000, 15000 }, .lamp_diffuse = { 60000, 40000, 20000 },
+                                        .lamp = { 0, 65536, -4 * 65536 }, .reach = 9 * 65536 };
+
+static void test_lights_that_reach_nothing_change_nothing(void)
+{
+    smear_lights far_lamp = near_lamp;
+    far_lamp.lamp[1] = 20000 * 65536;
+    memset(far_lamp.diffuse, 0, sizeof far_lamp.diffuse);
+    for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++)
+        CHECK(are_same(lit_picture(method, false, NULL, 200), lit_picture(method, false, &far_lamp, 0)));
+    CHECK(!are_same(lit_picture(SMEAR_NONE, false, NULL, 0), lit_picture(SMEAR_NONE, false, &near_lamp, 0)));
+    CHECK(!are_same(lit_picture(SMEAR_NONE, false, &far_lamp, 200), lit_picture(SMEAR_NONE, false, &far_lamp, 0)));
+}
+
+static void test_what_stands_still_is_lit_alike_by_any_method(void)
+{
+    for (int method = SMEAR_NONE + 1; method < SMEAR_METHOD_COUNT; method++)
+        CHECK(are_same(lit_picture(SMEAR_NONE, true, &near_lamp, 120), lit_picture(method, true, &near_lamp, 120)));
+}
+
 #include "build/suites/lights.h"
