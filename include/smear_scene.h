@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* smear_scene.h - what a scene may have beyond meshes and one light, each at no cost where it is null.
  *
- *     smear_sky sky = { 0 };
+ *     smear_sky sky = SMEAR_SKY(0x3060b0, 0xc0d8f0, 0x708060, 0x303820);
  *     smear_scene scene = { 0 };
  *     scene.sky = &sky;
  *     frame.scene = &scene;               // and smear_begin, smear_submit, smear_render as ever
  *
- * All of it is copied by smear_begin. Colours are 0xRRGGBB, sRGB-encoded; light is linear, 65535 is one. */
+ * Lights are copied by smear_begin, a sky is read until smear_render returns. Colours are 0xRRGGBB, sRGB-encoded; light is linear,
+ * 65535 is one. */
 #ifndef SMEAR_SCENE_H
 #define SMEAR_SCENE_H
 
@@ -15,8 +16,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct smear_sky smear_sky;
 
 /* Lights beside frame.light, and highlights. What faces a light has all of it, diffuse x max(0, n.l); a surface shows base x (the sum
  * of all lights, not above one). Vertices with normals are lit one by one, faces without them by their middle.
@@ -37,8 +36,25 @@ typedef struct smear_lights {
 
 extern const struct smear_shader smear_lights_shader;
 
+typedef struct smear_sky_kind smear_sky_kind;
+
+/* What is seen where nothing is drawn, as far up as the camera looks there. Codes change evenly with the sine of the elevation, from
+ * the horizon to straight up and from it to straight down. Where both halves differ at the horizon, the border is one pixel
+ * soft. It turns and is blurred with the camera, in every method. SMEAR_SKY makes one; two contexts take one each. */
+typedef struct smear_sky {
+    uint32_t zenith, horizon;           /* straight up, and above the horizon */
+    uint32_t ground, nadir;             /* below the horizon, and straight down */
+    int32_t own[12];                    /* the library's, from smear_begin to the end of the frame */
+    const smear_sky_kind *kind;         /* &smear_sky_gradient; required: programs that do not name it do not have it */
+} smear_sky;
+
+extern const smear_sky_kind smear_sky_gradient;
+
+#define SMEAR_SKY(zenith, horizon, ground, nadir) \
+    { zenith, horizon, ground, nadir, { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }, &smear_sky_gradient }
+
 struct smear_scene {
-    const smear_sky *sky;               /* in place of frame.clear; null: none. SMEAR_WITH_SKY */
+    smear_sky *sky;                     /* in place of frame.clear; null: none. SMEAR_WITH_SKY */
     const smear_lights *lights;         /* beside frame.light; null: none. SMEAR_WITH_LIGHTS */
 };
 

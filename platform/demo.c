@@ -4,9 +4,10 @@
  *     demo show [SCREEN [FRAME]]   the loop on the display; with FRAME, that frame, for ever
  *     demo check [SCREEN [STEP [stack]]]   the CRC of every frame of the loop, or of every STEPth;
  *                                          and how much stack was used; fails if it overflowed
- *     demo cost [SCREEN [BLUR [STEP [FOG]]]]   what the loop's frames cost, in the units of platform.h's clock;
+ *     demo cost [SCREEN [BLUR [STEP [FOG|sky]]]]   what the loop's frames cost, in the units of platform.h's clock;
  *                                  of a way to blur of demo_player.c, or as the screen has it; of every
- *                                  STEPth frame, a divisor of the loop; in fog between two distances, 10-60
+ *                                  STEPth frame, a divisor of the loop; in fog between two distances, 10-60,
+ *                                  or before a sky
  *     demo memory                  bytes the library wants for each screen
  *
  * Without arguments it shows the loop on the target's own screen. Keys: A sharp or blurred; left
@@ -18,6 +19,7 @@
 #include "platform/print.h"
 #include "platform/words.h"
 
+#include <smear_scene.h>
 #include <stdbool.h>
 
 #ifndef DEMO_SCREEN
@@ -153,7 +155,8 @@ static void print_shot(const char *name, const struct shot *s, uint32_t pixels)
 
 /* Means over every stepth frame of the loop, from the middle of the first step on.
  * Where the display keeps what it is sent, frames before those are drawn, too, and not counted. */
-static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step, const smear_fog *fog)
+static int cost(const struct demo_screen *screen, const struct demo_blur *way, uint32_t step, const smear_fog *fog,
+                const smear_scene *extras)
 {
     smear_desc desc = screen->desc;
     smear_stats stats;
@@ -170,6 +173,7 @@ static int cost(const struct demo_screen *screen, const struct demo_blur *way, u
     int result = start(screen, &desc);
     player.blur = way;
     player.fog = fog;
+    player.extras = extras;
     for (uint32_t i = 0; i < DEMO_LOOP && result == SMEAR_OK; i++) {
         uint32_t before = platform_clock();
         const bool counts = i % step == step / 2;
@@ -248,14 +252,18 @@ static bool read_fog(smear_fog *fog, const char *text)
 
 static int cost_of(const struct demo_screen *screen, const char *name, uint32_t step, const char *between)
 {
+    static smear_sky sky = SMEAR_SKY(0x4078c8, 0xb8d8f0, 0x8a9a78, 0x404838);
+    const smear_scene extras = { .sky = &sky };
+    const bool has_sky = between != NULL && is_word("sky", between);
     smear_fog fog;
-    if (between != NULL && !read_fog(&fog, between))
+    if (between != NULL && !has_sky && !read_fog(&fog, between))
         return failed("fog lies between two distances in metres, as 10-60", 0);
     const struct demo_blur *way = name != NULL ? demo_blur_find(name) : NULL;
     if (name != NULL && way == NULL)
         return failed("no such way to blur", 0);
-    return step == 0 || DEMO_LOOP % step != 0 ? failed("the step must divide the loop", 0)
-                                              : cost(screen, way, step, between != NULL ? &fog : NULL);
+    if (step == 0 || DEMO_LOOP % step != 0)
+        return failed("the step must divide the loop", 0);
+    return cost(screen, way, step, between != NULL && !has_sky ? &fog : NULL, has_sky ? &extras : NULL);
 }
 
 static int memory(void)

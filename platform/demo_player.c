@@ -128,6 +128,7 @@ int demo_player_start(struct demo_player *player, const struct demo_screen *scre
     player->shutter_degrees = 180;
     player->blur = NULL;
     player->fog = NULL;
+    player->extras = NULL;
     if (player->props == NULL)
         return SMEAR_ERR_ARG;
     return smear_init(&player->ctx, desc, memory, bytes);
@@ -152,7 +153,7 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
         .filter.flags = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
-        .light_space = player->screen->light, .target = player->screen->target, .fog = player->fog,
+        .light_space = player->screen->light, .target = player->screen->target, .fog = player->fog, .scene = player->extras,
         .shutter = { .degrees = player->shutter_degrees, .path = player->screen->path }
     };
     if (blur != NULL) {

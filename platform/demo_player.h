@@ -46,6 +46,7 @@ struct demo_player {
     uint16_t shutter_degrees;       /* 0: sharp; what keys change */
     const struct demo_blur *blur;   /* null: as the screen has it */
     const smear_fog *fog;           /* null: none */
+    const smear_scene *extras;      /* likewise */
     struct demo_scene scene;
 };
 

@@ -193,7 +193,7 @@ print-footprint:
 	@echo 'cc="$(CC)" compile="$(CC) $(filter-out -g1 -MMD -MP $(OPT),$(CFLAGS))" link="$(LDFLAGS) $(TEST_LDFLAGS)"'
 	@echo 'arena_objects="$(PROGRAM_OBJ) $(BUILD)/platform/footprint_arena.o" libraries="$(LDLIBS)" run="$(RUN)"'
 
-## boards: what the frames of the demo cost; BLUR=auto-sketch, auto-draft, subframes-4 ...: blurred so, STEP=6: every sixth, FOG=10-60: metres
+## boards: what the frames of the demo cost; BLUR=auto-sketch, auto-draft, subframes-4 ...: blurred so, STEP=6: every sixth, FOG=10-60: metres, or FOG=sky
 demo-cost: $(BUILD)/demo$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(DEMO_SCREEN) $(if $(STEP),$(or $(BLUR),$(error STEP=$(STEP) needs a BLUR)),$(BLUR)) $(STEP) $(if $(FOG),$(if $(STEP),$(FOG),$(error FOG=$(FOG) needs a BLUR and a STEP)))
 

@@ -60,6 +60,15 @@ static int render_sharp(struct smear_context *c)
 
 /* ------------------------------------------------------------------ a frame */
 
+/* Methods blur what is in the window, but for its background: that is the mean of the exposure. SMEAR_CAMERA blurs that, too. */
+static void aim_sky(struct smear_context *c)
+{
+    const uint8_t method = c->frame.method;
+    const struct smear_instant middle = method == SMEAR_CAMERA ? smear_instant_middle(&c->shot) : smear_instant_now;
+    const bool mean = method != SMEAR_NONE && method != SMEAR_CAMERA && c->shot.camera_moves;
+    c->rows.sky->kind->aim(c->rows.sky, &c->shot, mean ? NULL : &middle, c->rows.window.width, c->rows.raster.transfer);
+}
+
 /* Settings of stages that hold for the frame. */
 static void prepare_stages(struct smear_context *c, bool by_depth)
 {
@@ -77,6 +86,8 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     if (SMEAR_WITH_RECONSTRUCT)
         smear_filtered_begin(c, by_depth);
     rows->clear = c->frame.clear & 0xffffffu;
+    if (rows_have_sky(rows))
+        aim_sky(c);
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
     c->assembler.keep_paths = smear_method_is_temporal(method);
     c->assembler.lines = frame_has_lines(c);

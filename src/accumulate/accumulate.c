@@ -91,6 +91,9 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
     sums_clear(c->sums, &c->rows, first, end);
     for (uint32_t k = 0; k < n; k++) {
         const struct smear_instant instant = smear_instant_at(&c->shot, (int32_t)((2 * k + 1) * 65536u / n) - 65536);
+        if (rows_have_sky(&c->rows))
+            c->rows.sky->kind->aim(c->rows.sky, &c->shot, c->shot.camera_moves ? &instant : &smear_instant_now, c->rows.window.width,
+                                   c->rows.raster.transfer);
         draws_begin_exposure(c, (int32_t)(2 * k * 65536u / n) - 65536, (int32_t)(2 * (k + 1) * 65536u / n) - 65536);
         for (int row = first; row < end;) {
             struct smear_refill refill;

@@ -120,6 +120,8 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
         const int32_t word[] = { (int32_t)fog->scale, fog->shift, fog->base };
         mix(d->next, word, 3);
     }
+    if (rows_have_sky(rows))
+        mix(d->next, (const int32_t *)(const void *)rows->sky, (int)(offsetof(smear_sky, kind) / sizeof(int32_t)));
     d->is_same = d->is_whole && !refresh && d->next[0] == d->scene[0] && d->next[1] == d->scene[1];
     d->is_whole = false;
     d->scene[0] = d->next[0];

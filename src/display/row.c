@@ -82,7 +82,7 @@ void smear_row_count(const struct smear_rows *rows, int kind, smear_method metho
         s->tiles_complex++;
 }
 
-void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity)
+void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity)
 {
     const int32_t width = t->x1 - t->x0;
     for (int32_t y = t->y0; y < t->y1; y++) {
@@ -91,7 +91,8 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
         /* Whole rows lie one behind the other, but at the end of the ring. */
         for (; !SMEAR_SMALL_FILE && y + 1 < t->y1 && target_row(&t->window_rows, t, y + 1) + t->x0 == at + n; y++)
             n += width;
-        pixels_fill(t->color + at, color, n);
+        if (!rows_have_sky(rows))
+            pixels_fill(t->color + at, rows->clear, n);
         pixels_clear_narrow(t->depth + at, n);
         if (SMEAR_WITH_RECONSTRUCT && t->velocity8 != NULL)
             pixels_fill_bytes((uint16_t *)(void *)(t->velocity8 + 2 * at), velocity, n);
@@ -100,6 +101,8 @@ void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int ve
         if (target_is_inspected(t))
             __builtin_memset(t->inspect + 2 * at, 0, (size_t)n * 8);
     }
+    if (rows_have_sky(rows))
+        rows->sky->kind->fill(rows->sky, t);
 }
 
 bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster_target *t, int velocity)
@@ -110,7 +113,7 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
     if (!smear_job_area(rows, job, t))
         return false;
     if (r->steps & ROW_CLEAR)
-        smear_row_clear(t, rows->clear, velocity);
+        smear_row_clear(rows, t, velocity);
     t->over = rows->refill != NULL;
     t->cache = smear_raster_cache_of(&rows->cache, job);
     if (r->steps & ROW_DRAW)

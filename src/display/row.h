@@ -8,6 +8,7 @@
 #include "smear.h"
 
 #include "base/jobs.h"
+#include "display/sky.h"
 #include "raster/raster.h"
 #include "raster/window.h"
 
@@ -64,12 +65,15 @@ struct smear_rows {
     bool keeps_motion;          /* triangles that move write velocities into the window */
     uint16_t points;            /* the first listed point of the overlay's, or SMEAR_NO_POINT: points.h */
     uint32_t clear;             /* 0x00RRGGBB */
+    smear_sky *sky;             /* in its place; or null */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */
     uint32_t *scratch;          /* finished pixels of a tile or strip per worker, or what cores draw sharp rows of their own in */
     uint8_t *scratch_end;       /* of that and all that temporal methods work in behind it, which other methods may use; or null */
     int32_t *inspect;           /* wide velocities, a plane like the window's; or null */
     uint32_t samples[SMEAR_WORKERS_MAX];        /* taken by each worker */
 };
+
+static inline bool rows_have_sky(const struct smear_rows *rows) { return SMEAR_WITH_SKY && rows->sky != NULL; }
 
 static inline bool rows_have_overlay(const struct smear_rows *rows)
 {
@@ -161,8 +165,8 @@ static inline int32_t job_bottom(const struct row_job *r)
 /* Counts a tile: the kind of motion in it (smear_tile_class), and the method it got where that is not TILE_STATIC. */
 void smear_row_count(const struct smear_rows *rows, int kind, smear_method method);
 
-/* Fills the target's columns with the clear colour and depth 0, and with `velocity` bytes where it has velocities. */
-void smear_row_clear(const struct smear_raster_target *t, uint32_t color, int velocity);
+/* Fills the target's columns with what is behind all and depth 0, and with `velocity` bytes where it has velocities. */
+void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity);
 
 /* Makes a cache of setups of what the pool has left between vertices and triangles, or of other memory where that is more. */
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes);

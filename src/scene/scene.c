@@ -9,9 +9,10 @@
 int smear_scene_check(const smear_scene *scene)
 {
     const bool missing = (!SMEAR_WITH_SKY && scene->sky != NULL) || (!SMEAR_WITH_LIGHTS && scene->lights != NULL);
+    const bool unkind = SMEAR_WITH_SKY && scene->sky != NULL && scene->sky->kind == NULL;
     if (SMEAR_WITH_LIGHTS && scene->lights != NULL && (scene->lights->shader == NULL || scene->lights->reach < 0))
         return FAULT(FRAME_LIGHTS);
-    return missing ? FAULT(FRAME_SCENE) : SMEAR_OK;
+    return missing || unkind ? FAULT(FRAME_SCENE) : SMEAR_OK;
 }
 
 #endif

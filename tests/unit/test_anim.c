@@ -548,7 +548,7 @@ static int count_bytes(void *user, const smear_band *band)
     return 0;
 }
 
-static uint64_t frame_memory[2816];        /* by `smear info --desc` */
+static uint64_t frame_memory[2817];        /* by `smear info --desc` */
 
 static void test_a_converted_model_is_drawn(void)
 {

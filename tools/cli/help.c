@@ -66,6 +66,8 @@ static const char *const render_help[] = {
     "  --gloss               highlights of what the file says is not rough\n"
     "  --fog RRGGBB,NEAR,FAR fog between two distances from the camera, in units of the scene; the\n"
     "                        background has its colour, and nothing is drawn beyond it [none]\n"
+    "  --sky ZENITH,HORIZON,GROUND,NADIR\n"
+    "                        a sky of four colours, RRGGBB each, that turns with the camera [none]\n"
     "  --edges hard|smooth   auto, subframes: what lies on both sides of an edge is mixed where it\n"
     "                        passes a pixel; --exact: of 16 x 16 places in each pixel, or as many\n"
     "                        as make a picture of 2048; with --keep-display beside --keep-still [hard]\n"

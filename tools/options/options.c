@@ -225,6 +225,21 @@ static const char *read_lamp(void *to, const char *value)
              ? NULL : "needs RRGGBB,X,Y,Z,REACH: six hexadecimal digits, a place and a distance";
 }
 
+static const char *read_sky(void *to, const char *value)
+{
+    struct present_sky *sky = &((struct render_options *)to)->sky;
+    unsigned color[4];
+    char one[7];
+    bool ok = strlen(value) == 27;
+    for (int i = 0; ok && i < 4; i++) {
+        snprintf(one, sizeof one, "%.6s", value + 7 * i);
+        ok = read_color(one, &color[i]) && (i == 3 || value[7 * i + 6] == ',');
+    }
+    if (ok)
+        *sky = (struct present_sky){ true, color[0], color[1], color[2], color[3] };
+    return ok ? NULL : "needs ZENITH,HORIZON,GROUND,NADIR, four times six hexadecimal digits";
+}
+
 #define AT(member) OPTION_AT(struct render_options, member)
 #define GIVEN(member) .given = offsetof(struct render_options, member)
 
@@ -276,6 +291,7 @@ static const struct option table[] = {
     { "--second", OPTION_READ, .read = read_second },
     { "--lamp", OPTION_READ, .read = read_lamp },
     { "--gloss", OPTION_FLAG, AT(lights.gloss) },
+    { "--sky", OPTION_READ, .read = read_sky },
     { "--edges", OPTION_NAME, AT(edges), OPTION_NAMES("hard", "smooth") },
     { "--format", OPTION_NAME, AT(format), .names = option_formats },
     { "--dither", OPTION_NAME, AT(dither), .names = option_dithers },
@@ -352,6 +368,8 @@ static int check_method(const struct render_options *o)
         return say_bad_usage("--target", "contradicts --quality");
     if (o->backdrop.is_wanted && o->fog.end != 0.0)
         return say_bad_usage("--fog", "contradicts a background of two colours");
+    if (o->backdrop.is_wanted && o->sky.is_wanted)
+        return say_bad_usage("--sky", "contradicts a background of two colours");
     if (o->has_time && o->has_frames)
         return say_bad_usage("--time", "contradicts --frames");
     return check_filter(o);

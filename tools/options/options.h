@@ -53,6 +53,7 @@ struct render_options {
     struct backdrop_colors backdrop;
     struct present_fog fog;
     struct present_lights lights;
+    struct present_sky sky;
     smear_edges edges;
 
     double orbit;               /* turns of the camera about what it sees, over all frames; 0: none */

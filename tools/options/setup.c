@@ -73,7 +73,7 @@ int setup_change(const struct render_options *o, const struct source *source, st
         .shutter_poses = o->shutter_poses, .path = o->path, .method = o->method,
         .samples = o->exact ? 0 : o->samples, .light = o->light,
         .clear = is_builtin && !o->has_clear ? scene->clear : o->clear, .backdrop = o->backdrop,
-        .fog = o->fog, .lights = o->lights, .edges = o->edges,
+        .fog = o->fog, .sky = o->sky, .lights = o->lights, .edges = o->edges,
         .reconstruct = o->reconstruct, .target = o->target, .budget = o->budget,
         .filter = o->filter, .camera_step = o->camera_step, .pingpong = o->pingpong,
         .weights = o->weights, .turn_scale = o->turn_scale, .way_scale = o->way_scale,

@@ -313,9 +313,18 @@ static bool fill_lights(struct presented *out, const struct present_lights *ligh
     if (lights->has_second)
         fill_direction(out->lights.direction, lights->direction);
     out->lights.reach = fixed(lights->reach * out->world_scale, 16);
-    out->more = (smear_scene){ .lights = &out->lights };
-    out->frame.scene = &out->more;
+    out->extras.lights = &out->lights;
+    out->frame.scene = &out->extras;
     return true;
+}
+
+static void fill_sky(struct presented *out, const struct present_sky *sky)
+{
+    if (!sky->is_wanted)
+        return;
+    out->sky = (smear_sky)SMEAR_SKY(sky->zenith, sky->horizon, sky->ground, sky->nadir);
+    out->extras.sky = &out->sky;
+    out->frame.scene = &out->extras;
 }
 
 static void fill_camera(smear_camera *out, const struct scene_camera *camera,
@@ -748,6 +757,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
     out->frame.open = seen[OPEN] && !o->keep_ids ? &out->camera[OPEN] : NULL;
     out->frame.close = seen[CLOSE] ? &out->camera[CLOSE] : NULL;
     out->frame.shutter.poses = out->frame.shutter.poses && moves;
+    fill_sky(out, &o->sky);
     return add_draws(p, seen, reference, o, f) && add_backdrop(p, o, &reach, f);
 }
 

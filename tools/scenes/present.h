@@ -37,6 +37,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* As smear_sky. */
+struct present_sky {
+    bool is_wanted;
+    uint32_t zenith, horizon, ground, nadir;
+};
+
 /* In scene units along the view. */
 struct present_fog {
     unsigned color;                 /* 0xRRGGBB */
@@ -69,6 +75,7 @@ struct present_options {
     struct backdrop_colors backdrop;        /* one more draw, the last, of a background of two colours */
     struct present_fog fog;
     struct present_lights lights;
+    struct present_sky sky;
     smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of presenter_exact */
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
@@ -98,7 +105,8 @@ struct presented {
     smear_fog fog;
     smear_light sun;
     smear_lights lights;
-    smear_scene more;
+    smear_sky sky;
+    smear_scene extras;             /* of which the frame's scene may be */
     smear_camera camera[3];         /* now, open, close */
     int draw_count;
     const smear_draw *draw;

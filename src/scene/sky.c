@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/* sky.c - a gradient by elevation.
+ *
+ * The way up of the ray through a pixel, whose way forward is one, is a plane on the screen, `rise`, at each instant; divided by the
+ * ray's length it is the sine of the elevation, of which colours are linear. So the mean over the exposure is that of the mean plane;
+ * only where the horizon passes, both halves are mixed by the time for which each is seen.
+ *
+ *     for some pixel rows, as many as look alike, and every few columns
+ *         the elevation, of both ends
+ *         runs of pixels of one colour between them: as few as do not show
+ *         or, where the horizon passes, each row by itself, and each run by its own plane */
+#include "display/sky.h"
+
+#include "base/fixmath.h"
+#include "kernels/fill.h"
+
+#if SMEAR_WITH_SKY
+
+enum { RISE, RISE_X, RISE_Y,            /* q22: in the frame's centre, and per half pixel to the right and up */
+       SWEEP, SWEEP_X, SWEEP_Y,         /* that at shutter close less that at shutter open */
+       STEP,                            /* of the ray per half pixel, q24 */
+       WIDTH, HEIGHT, TRANSFER,
+       ROWS, SPAN_LOG2,                 /* rows that look alike, and columns from one point to the next */
+       PART_ONE = 4096,
+       ROWS_MOST = 8, SPAN_LEAST = 3, SPAN_MOST = 7 };
+
+/* ------------------------------------------------------------------ where the camera looks */
+
+/* Returns by how much of its way forward a ray goes aside from one half pixel to the next, q24: 1 / (height x focal). */
+static int32_t step_of(const smear_camera *camera, int32_t width, int32_t height)
+{
+    const uint64_t x = (uint64_t)(uint32_t)height * (uint32_t)camera->focal;
+    if (camera->half_height > 0 || x == 0)
+        return 0;
+    const int zeros = count_leading_zeros_64(x), shift = 53 - zeros;
+    const uint64_t step = ((uint64_t)recip_norm_precise((uint32_t)(x << zeros >> 32)) << 10) >> (shift + 10);
+    const uint64_t most = (1u << 30) / (uint32_t)max_i32(width, height);
+    return (int32_t)(step < most ? step : most);
+}
+
+static void find_plane(int32_t plane[3], const struct smear_shot *shot, const int32_t weight[3], int32_t width)
+{
+    int64_t sum[3] = { 0, 0, 0 };
+    for (int k = 0; k < 3; k++) {
+        const int32_t *up = &shot->camera[k].pose.basis[3];
+        const int64_t step = weight[k] != 0 ? step_of(&shot->camera[k], width, shot->height) : 0;
+        sum[0] -= (int64_t)up[2] * weight[k];
+        sum[1] += (up[0] * step >> 24) * weight[k];
+        sum[2] += (up[1] * step >> 24) * weight[k];
+    }
+    for (int i = 0; i < 3; i++)
+        plane[i] = (int32_t)(sum[i] >> 26);
+}
+
+/* Returns the most that a channel changes by. */
+static int32_t contrast_of(uint32_t a, uint32_t b)
+{
+    const int32_t red = abs_i32((int32_t)pixel_red(a) - (int32_t)pixel_red(b)),
+                  green = abs_i32((int32_t)pixel_green(a) - (int32_t)pixel_green(b)),
+                  blue = abs_i32((int32_t)pixel_blue(a) - (int32_t)pixel_blue(b));
+    return max_i32(red, max_i32(green, blue));
+}
+
+static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smear_instant *instant, int32_t width, smear_transfer transfer)
+{
+    static const int32_t none[3] = { 0, 0, 0 };
+    const struct smear_instant open = smear_instant_at(shot, -65536), close = smear_instant_at(shot, 65536);
+    struct smear_instant mean = instant != NULL ? *instant : smear_instant_middle(shot);
+    int32_t sweep[3];
+    for (int i = 0; i < 3; i++) {
+        sweep[i] = close.weight[i] - open.weight[i];
+        if (instant == NULL && shot_spans_exposure(shot))
+            mean.weight[i] += ((open.weight[i] - mean.weight[i]) / 2 + (close.weight[i] - mean.weight[i]) / 2) / 3;
+    }
+    find_plane(&sky->own[RISE], shot, mean.weight, width);
+    find_plane(&sky->own[SWEEP], shot, instant != NULL ? none : sweep, width);
+    sky->own[STEP] = step_of(&shot->camera[0], width, shot->height);
+    sky->own[WIDTH] = width;
+    sky->own[HEIGHT] = shot->height;
+    sky->own[TRANSFER] = transfer;
+    /* Rows that differ by a code and a half look alike; between points, sines err by some 0.1 of the square of their distance. */
+    const uint32_t contrast = (uint32_t)max_i32(contrast_of(sky->zenith, sky->horizon), contrast_of(sky->ground, sky->nadir)),
+                   pixel = 2 * (uint32_t)sky->own[STEP] >> 4;       /* q20 */
+    int rows = 0, span = SPAN_LEAST;
+    while (1 << rows < ROWS_MOST && contrast * pixel << (rows + 1) <= 3u << 20)
+        rows++;
+    for (uint32_t wide = pixel << (SPAN_LEAST + 1) >> 8; span < SPAN_MOST && wide < 1u << 12; wide *= 2) {
+        if (contrast * (wide * wide >> 12) > 12u << 12)
+            break;
+        span++;
+    }
+    sky->own[ROWS] = 1 << rows;
+    sky->own[SPAN_LOG2] = span;
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+/* A half of the sky: the colour at the horizon and what leads to the pole, as two words of channels. */
+struct half {
+    uint32_t pair, green, pair_step, green_step;
+    int32_t contrast;
+};
+
+struct pen {
+    const smear_sky *sky;
+    const struct smear_raster_target *target;
+    struct half half[2];                /* up, down */
+    int32_t rise, sweep;                /* q22, of the row in the frame's middle column */
+    int32_t square;                     /* of the ray's way forward and up, q16 */
+    int32_t pixel;                      /* rise from a pixel to the next */
+    int32_t at[ROWS_MOST];              /* where the rows lie that are filled at once, so many: */
+    int rows;
+};
+
+/* What is known of a point. */
+struct point {
+    int32_t rise, width;                /* q22: its way up, and how much of that passes during the exposure */
+    int32_t inverse;                    /* of the ray's length, q15 */
+    int32_t sine;                       /* of the elevation, q8, whatever its sign */
+};
+
+static void take_half(struct half *h, uint32_t horizon, uint32_t pole)
+{
+    h->pair = ((horizon & 0xff00ffu) << 8) + 0x800080u;
+    h->green = (horizon & 0xff00u) + 0x80u;
+    h->pair_step = (pole & 0xff00ffu) - (horizon & 0xff00ffu);
+    h->green_step = pixel_green(pole) - pixel_green(horizon);
+    h->contrast = contrast_of(horizon, pole);
+}
+
+/* Returns 1 / sqrt(n), q15, for n of 1 or more, q16: within 1/600. */
+static int32_t inverse_root(uint32_t n)
+{
+    static const uint16_t table[] = { 32768, 30894, 29309, 27945, 26755, 25705, 24770, 23930, 23170, 22479, 21845, 21263, 20724,
+                                      20225, 19760, 19326, 18919, 18536, 18176, 17837, 17515, 17211, 16921, 16646, 16384, 16134 };
+    int shift = 0;
+    for (; n >= 4u << 16; n >>= 2)
+        shift++;
+    const uint32_t at = (n - 65536u) >> 13, part = n >> 5 & 255u;
+    return (int32_t)(table[at] - ((uint32_t)(table[at] - table[at + 1]) * part >> 8)) >> shift;
+}
+
+static void begin_row(struct pen *p, int32_t v)
+{
+    const int32_t *own = p->sky->own;
+    const int32_t y = clamp_i32(v * own[STEP] >> 12, -45000, 45000);
+    p->rise = own[RISE] + v * own[RISE_Y];
+    p->sweep = own[SWEEP] + v * own[SWEEP_Y];
+    p->square = (y * y >> 8) + 65536;
+}
+
+/* Returns the sine of an elevation, q8, whatever its sign. */
+static int32_t sine_of(int32_t rise, int32_t inverse) { return min_i32(abs_i32((rise >> 10) * inverse) >> 19, 256); }
+
+static void find_point(struct point *out, const struct pen *p, int32_t u)
+{
+    const int32_t *own = p->sky->own;
+    const int32_t x = clamp_i32(u * own[STEP] >> 12, -45000, 45000);
+    out->rise = p->rise + u * own[RISE_X];
+    out->width = max_i32(abs_i32(p->sweep + u * own[SWEEP_X]), p->pixel);
+    out->inverse = inverse_root((uint32_t)((x * x >> 8) + p->square));
+    out->sine = sine_of(out->rise, out->inverse);
+}
+
+/* Fills columns [x0, x1) of the pen's rows, as far as they are the target's. */
+static inline void fill_run(const struct pen *p, int32_t x0, int32_t x1, uint32_t pixel)
+{
+    const struct smear_raster_target *t = p->target;
+    x0 = max_i32(x0, t->x0);
+    x1 = min_i32(x1, t->x1);
+    if (target_is_direct(t))
+        for (int k = 0; k < p->rows; k++)
+            pixels_fill_narrow(t->direct + p->at[k] + x0, rgb565_nearest(pixel), x1 - x0);
+    else
+        for (int k = 0; k < p->rows; k++)
+            pixels_fill(t->color + p->at[k] + x0, pixel, x1 - x0);
+}
+
+/* Returns how many times a span is halved so that what changes by so many codes along it does so by two in each part. */
+static int halvings(const struct pen *p, int32_t codes)
+{
+    int log = 0;
+    while (log < p->sky->own[SPAN_LOG2] && codes > 2 << log)
+        log++;
+    return log;
+}
+
+static uint32_t color_of(const struct half *h, int32_t sine)
+{
+    return ((h->pair + (uint32_t)sine * h->pair_step) >> 8 & 0xff00ffu) | ((h->green + (uint32_t)sine * h->green_step) & 0xff00u);
+}
+
+/* Fills a span of rows, all of it on one side of the horizon. */
+static void fill_span(const struct pen *p, const struct point *a, const struct point *b, int32_t x)
+{
+    const struct half *h = &p->half[a->rise < 0];
+    const int32_t step = b->sine - a->sine;
+    const int log = halvings(p, abs_i32(step) * h->contrast >> 8), run = p->sky->own[SPAN_LOG2] - log;
+    for (int32_t i = 0; i < 1 << log; i++)
+        fill_run(p, x + (i << run), x + ((i + 1) << run), color_of(h, a->sine + (step * (2 * i + 1) >> (log + 1))));
+}
+
+/* Returns the part of the exposure for which a point is above the horizon. */
+static int32_t part_above(const struct point *a)
+{
+    int32_t width = a->width, rise = clamp_i32(a->rise, -width, width);
+    for (; width >= 1 << 19; width >>= 1)
+        rise >>= 1;
+    return clamp_i32(PART_ONE / 2 + rise * PART_ONE / max_i32(width, 1), 0, PART_ONE);
+}
+
+/* Returns the colour of a point that the horizon may pass. What is seen of a half then is half as high as its highest, in the mean. */
+static uint32_t mixed_color(const struct pen *p, const struct point *a)
+{
+    const int32_t part = part_above(a), width = a->width >> 1, other = PART_ONE - part;
+    const int32_t up = part == PART_ONE ? a->rise : mul_shift(width, part, 12), down = part == 0 ? a->rise : mul_shift(width, other, 12);
+    const uint32_t above = color_of(&p->half[0], sine_of(up, a->inverse)), below = color_of(&p->half[1], sine_of(down, a->inverse));
+    return pixel_mix_part(below, above, part * (65536 / PART_ONE), (smear_transfer)p->sky->own[TRANSFER]);
+}
+
+/* Fills a span of a row that the horizon may pass. */
+static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y, int k)
+{
+    struct pen row = *of, *const p = &row;
+    row.at[0] = of->at[k];
+    row.rows = 1;
+    begin_row(p, p->sky->own[HEIGHT] - 2 * y - 1);
+    const int32_t span = 1 << p->sky->own[SPAN_LOG2], left = 2 * x - p->sky->own[WIDTH];
+    struct point a, b;
+    find_point(&a, p, left);
+    find_point(&b, p, left + 2 * span);
+    const int32_t part = abs_i32(part_above(&a) - part_above(&b)),
+                  sine = abs_i32(a.rise - b.rise) >> 14, most = max_i32(p->half[0].contrast, p->half[1].contrast);
+    const int log = halvings(p, (part * contrast_of(p->sky->horizon, p->sky->ground) >> 12) + (min_i32(sine, 256) * most >> 8));
+    const int32_t run = span >> log;
+    for (int32_t i = 0; i < span; i += run) {
+        find_point(&a, p, left + 2 * i + run);
+        fill_run(p, x + i, x + i + run, mixed_color(p, &a));
+    }
+}
+
+/* Whether the horizon is seen in none of the rows. */
+static bool is_beside(const struct point *a, const struct point *b, int32_t margin)
+{
+    return (a->rise ^ b->rise) >= 0 && abs_i32(a->rise) >= (a->width >> 1) + margin && abs_i32(b->rise) >= (b->width >> 1) + margin;
+}
+
+static void fill(const smear_sky *sky, const struct smear_raster_target *t)
+{
+    const int32_t *own = sky->own, rows = own[ROWS], width = own[WIDTH], height = own[HEIGHT], span = 1 << own[SPAN_LOG2];
+    const int32_t across = abs_i32(own[RISE_X]), along = abs_i32(own[RISE_Y]);
+    /* Twice the length, within 7 %. */
+    struct pen p = { .sky = sky, .target = t, .pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2) };
+    take_half(&p.half[0], sky->horizon, sky->zenith);
+    take_half(&p.half[1], sky->ground, sky->nadir);
+    for (int32_t y = t->y0; y < t->y1;) {
+        const int32_t first = y & -rows, end = min_i32(first + rows, t->y1);
+        struct point a, b;
+        int32_t x = t->x0 & -span;
+        p.rows = end - y;
+        for (int32_t k = 0; k < p.rows; k++)
+            p.at[k] = target_row(&t->window_rows, t, y + k);
+        begin_row(&p, height - 2 * first - rows);
+        find_point(&a, &p, 2 * x - width);
+        for (; x < t->x1; x += span, a = b) {
+            find_point(&b, &p, 2 * (x + span) - width);
+            if (is_beside(&a, &b, rows * along))
+                fill_span(&p, &a, &b, x);
+            else
+                for (int32_t k = 0; k < p.rows; k++)
+                    fill_mixed(&p, x, y + k, k);
+        }
+        y = end;
+    }
+}
+
+const smear_sky_kind smear_sky_gradient = { aim, fill };
+
+#endif
