@@ -114,9 +114,9 @@ typedef struct smear_texture {
 } smear_texture;
 
 typedef enum smear_alpha {
-    SMEAR_OPAQUE,
-    SMEAR_CUTOUT,               /* drawn where alpha >= cutoff; the rest keeps what lies behind, velocity too */
-    SMEAR_BLEND                 /* drawn over everything opaque in submission order; tests depth, writes none */
+    SMEAR_OPAQUE, SMEAR_CUTOUT, /* the latter drawn where alpha >= cutoff; the rest keeps what lies behind, velocity too */
+    SMEAR_BLEND,                /* drawn over everything opaque in submission order; tests depth, writes none */
+    SMEAR_SHADOW                /* likewise, but over each pixel once, and over what is as far away: smear_scene.h */
 } smear_alpha;
 
 /* color x vertex color x texel; color alpha 0 means "white, opaque". */

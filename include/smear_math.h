@@ -104,14 +104,14 @@ static inline int64_t smear_math_row(const int32_t r[3], int32_t x, int32_t y, i
 static inline int32_t smear_math_sin(uint32_t angle)
 {
     const int negative = (int)(angle >> 31);
-    uint32_t t = angle & 0x7fffffffu, square, p;
+    uint32_t t = angle & 0x7fffffffu, squared, p;
     if (t > 0x40000000u)
         t = 0x80000000u - t;
-    square = smear_math_mulh(t << 1, t << 1);
-    p = 321073058u - smear_math_mulh(41457241u, square);
-    p = 1369037671u - smear_math_mulh(p, square);
-    p = 2774391505u - smear_math_mulh(p, square);
-    p = 1686629674u - smear_math_mulh(p, square);
+    squared = smear_math_mulh(t << 1, t << 1);
+    p = 321073058u - smear_math_mulh(41457241u, squared);
+    p = 1369037671u - smear_math_mulh(p, squared);
+    p = 2774391505u - smear_math_mulh(p, squared);
+    p = 1686629674u - smear_math_mulh(p, squared);
     p = smear_math_mulh(p << 1, t << 1);
     return negative ? -(int32_t)p : (int32_t)p;
 }
@@ -124,12 +124,12 @@ static inline int32_t smear_math_cos(uint32_t angle)
 /* Brings `count` (3 or 4) numbers of any size to a vector of length one in q30, with errors of a few steps. Returns 0,
  * and leaves v alone, where all are 0.
  *
- * A shift brings the largest to 31 bits; `square`, the sum of squares / 2^32, then lies in [2^28, 2^32), and after a
- * shift by 2, where it is small, in [1, 4) of q30. There 1.066 - 0.152 square is within 9 % of its 1/sqrt, and each of
- * four steps y (3 - square y^2) / 2 squares that error. */
+ * A shift brings the largest to 31 bits; `squared`, the sum of squares / 2^32, then lies in [2^28, 2^32), and after a
+ * shift by 2, where it is small, in [1, 4) of q30. There 1.066 - 0.152 squared is within 9 % of its 1/sqrt, and each of
+ * four steps y (3 - squared y^2) / 2 squares that error. */
 static inline int smear_math_normalize(int32_t *v, int count)
 {
-    uint32_t size[4], all = 0, square = 0, y;
+    uint32_t size[4], all = 0, squared = 0, y;
     int i, shift = 0, step;
     for (i = 0; i < count; i++) {
         size[i] = v[i] < 0 ? 0u - (uint32_t)v[i] : (uint32_t)v[i];
@@ -141,13 +141,13 @@ static inline int smear_math_normalize(int32_t *v, int count)
         shift++;
     for (i = 0; i < count; i++) {
         size[i] = all >> 31 ? size[i] >> 1 : size[i] << shift;
-        square += smear_math_mulh(size[i], size[i]);
+        squared += smear_math_mulh(size[i], size[i]);
     }
-    shift = square < 0x40000000u;
-    square <<= shift << 1;
-    y = 2289217569u - smear_math_mulh(square, 1305670058u);         /* q31 */
+    shift = squared < 0x40000000u;
+    squared <<= shift << 1;
+    y = 2289217569u - smear_math_mulh(squared, 1305670058u);         /* q31 */
     for (step = 0; step < 4; step++) {
-        const uint32_t one = smear_math_mulh(square, smear_math_mulh(y, y) << 1);       /* q29 */
+        const uint32_t one = smear_math_mulh(squared, smear_math_mulh(y, y) << 1);       /* q29 */
         y = smear_math_mulh(y, (0x60000000u - one) << 1) << 1;
     }
     for (i = 0; i < count; i++) {

@@ -305,7 +305,7 @@ stack-test:
 	     $$2 in most { print $$2, $$1, "and", own, "of", most[$$2]; checked++; over += $$1 + own > most[$$2] } \
 	     END { exit over || checked != int(n / 2) }' $(BUILD)/stack.txt
 
-.PHONY: target-test target-bench overlay-cost lights-cost target-accept $(SMALL_LAYOUTS:%=target-test-%)
+.PHONY: target-test target-bench overlay-cost lights-cost scene-cost target-accept $(SMALL_LAYOUTS:%=target-test-%)
 
 ## boards: unit tests and golden frames on TARGET
 target-test: $(TARGET_TESTS:%=$(BUILD)/target_%$(EXE)) $(SMALL_LAYOUTS:%=target-test-%) $(RUN_NEEDS)
@@ -320,8 +320,8 @@ $(SMALL_LAYOUTS:%=target-test-%): target-test-%: $(TAPES)/small.c $(TAPES)/golde
 target-bench: $(BUILD)/target_bench$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $(BUILD)/target_bench$(EXE)
 
-## boards: what a line of text, and points, take of a frame on TARGET; and further lights of a vertex
-overlay-cost lights-cost: %-cost: $(BUILD)/%_cost$(EXE) $(RUN_NEEDS)
+## boards: what a line of text, and points, take of a frame on TARGET; further lights of a vertex; a sky and shadows
+overlay-cost lights-cost scene-cost: %-cost: $(BUILD)/%_cost$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $<
 
 ## again: tests/golden.txt: today's golden frames are right (look at the pictures first)

@@ -137,7 +137,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
 /* A draw is static in a frame of a temporal method. */
 static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
 {
-    return !c->raster_draw[i].moves && c->raster_draw[i].alpha != SMEAR_BLEND;
+    return !c->raster_draw[i].moves && c->raster_draw[i].alpha < SMEAR_BLEND;
 }
 
 /* Whether a static draw must be drawn: the tiles in which it was seen say so where the display keeps them, if all that are
@@ -166,7 +166,7 @@ static uint8_t fill_kind(const struct smear_context *c, uint32_t i)
 {
     if (draw_is_grouped(c, i))
         return FILL_GROUP;
-    if (c->raster_draw[i].alpha == SMEAR_BLEND)
+    if (c->raster_draw[i].alpha >= SMEAR_BLEND)
         return FILL_BLENDED;
     return c->raster_draw[i].moves || draw_is_mover(c, i) ? FILL_MOVING : FILL_STATIC;
 }

@@ -105,7 +105,7 @@ static void classify_draw(struct smear_context *c, uint32_t i)
         r->moves = false;
     if (frame_has_lines(c)) {
         const smear_draw *draw = &c->submitted[i].draw;
-        const bool blended = draw->material != NULL && draw->material->alpha == SMEAR_BLEND;
+        const bool blended = draw->material != NULL && draw->material->alpha >= SMEAR_BLEND;
         c->temporal.lines->kind[i] = LINE_GOES_ALONG;
         r->moves = moves_over_lines(&p, draw, blended)
                 && (blended || !smear_movers_take(c->temporal.lines, &p, &c->shot, &c->rows.window, draw->mesh, i));

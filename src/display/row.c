@@ -180,6 +180,8 @@ void smear_row_blend(struct smear_rows *rows, int row)
         return;
     struct row_job job = { .rows = rows, .row = row };
     row_advance_blended(rows, row);
+    if (rows->refill == NULL && rows->blend == SMEAR_NO_TRIANGLE)
+        return;
     smear_row_run(rows, blend_job, &job, FILL_BLENDED);
 }
 

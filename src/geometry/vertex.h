@@ -389,7 +389,7 @@ static inline bool box_is_empty(const struct box *box)
 
 static inline bool is_blend(const struct smear_assembly *d)
 {
-    return SMEAR_WITH_ALPHA && d->material->alpha == SMEAR_BLEND;
+    return SMEAR_WITH_ALPHA && d->material->alpha >= SMEAR_BLEND;
 }
 
 /* Whether faces share their vertices' records: not when a face's own light or colour goes into them. */

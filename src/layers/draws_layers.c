@@ -124,7 +124,7 @@ static SMEAR_NOINLINE void find_layers(struct smear_context *c, const struct sme
         const smear_draw *draw = &c->submitted[i].draw;
         struct smear_draw_poses poses;
         struct smear_placement key[2], at;
-        if (l->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha == SMEAR_BLEND)
+        if (l->layer_of[i] == SMEAR_NO_LAYER || c->raster_draw[i].alpha >= SMEAR_BLEND)
             continue;
         const struct smear_layer_setting *setting = &l->setting[l->layer_of[i]];
         poses_of(&poses, c, i);

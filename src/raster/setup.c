@@ -57,6 +57,11 @@ static void setup_area(struct setup *s, uint64_t area)
 static void setup_depth(struct setup *s)
 {
     int32_t q0 = s->v[0][VERTEX_DEPTH], q1 = s->v[1][VERTEX_DEPTH], q2 = s->v[2][VERTEX_DEPTH];
+    if (draw_is_shadow(s->draw)) {      /* in front of what it lies on, by a 512th of the distance */
+        q0 += q0 >> 9;
+        q1 += q1 >> 9;
+        q2 += q2 >> 9;
+    }
     smear_plane_make(s, &s->depth, q0, q1, q2);
     int32_t low = min_i32(q0, min_i32(q1, q2)), high = max_i32(q0, max_i32(q1, q2));
     s->slope = high < SLOPE_BREAK ? SLOPE_FAR : low >= SLOPE_BREAK ? SLOPE_NEAR : SLOPE_BOTH;

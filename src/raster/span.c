@@ -31,6 +31,24 @@ void smear_span_level(const struct setup *s, const struct span *p)
 }
 #endif
 
+/* Darkens a pixel that so much of a shadow covers already as if only the darkest of them did. Its top byte keeps how dark that is. */
+static inline uint32_t shadow_pixel(uint32_t pixel, uint32_t shadow, smear_transfer transfer)
+{
+    const uint32_t had = pixel_alpha(pixel), has = pixel_alpha(shadow);
+    if (has <= had)
+        return pixel;
+    return pixel_blend(pixel & 0xffffffu, shadow, had == 0 ? has : (has - had) * 255u / (255u - had), transfer) | has << 24;
+}
+
+void smear_span_shadow(const struct setup *s, const struct span *p)
+{
+    const smear_transfer transfer = frame_transfer(s->frame);
+    uint32_t *color = (uint32_t *)p->color, z = p->z;
+    for (int32_t i = 0; i < p->b - p->a; i++, z += (uint32_t)p->dz)
+        if (z >> 16 > p->depth[i])
+            color[i] = shadow_pixel(color[i], s->color, transfer);
+}
+
 /* ------------------------------------------------------------------ blocks */
 
 /* The blocks of a span: from the first pixel that the frame shows, wherever it is cut; the last one takes the
@@ -240,6 +258,12 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
             if (mask != NULL)
                 mask[(first + i) >> 5] |= 1u << ((first + i) & 31);
         }
+        return;
+    }
+    if (draw_is_shadow(s->draw)) {
+        for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
+            if (z >> 16 > *depth)
+                *color = shadow_pixel(*color, *in, frame_transfer(s->frame));
         return;
     }
     if (draw_is_blended(s->draw)) {

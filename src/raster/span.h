@@ -26,6 +26,9 @@ typedef void smear_span_fn(const struct setup *s, const struct span *p);
 /* One colour, opaque; and everything. */
 smear_span_fn smear_span_flat, smear_span_general;
 
+/* One colour, of a shadow. */
+smear_span_fn smear_span_shadow;
+
 /* One colour, opaque, in one part of fog for each row. */
 smear_span_fn smear_span_level;
 

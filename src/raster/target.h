@@ -176,7 +176,12 @@ static inline bool draw_is_cutout(const struct smear_raster_draw *d)
 
 static inline bool draw_is_blended(const struct smear_raster_draw *d)
 {
-    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_BLEND;
+    return SMEAR_WITH_ALPHA && d->alpha >= SMEAR_BLEND;
+}
+
+static inline bool draw_is_shadow(const struct smear_raster_draw *d)
+{
+    return SMEAR_WITH_ALPHA && d->alpha == SMEAR_SHADOW;
 }
 
 #endif

@@ -21,6 +21,7 @@ enum { RISE, RISE_X, RISE_Y,            /* q22: in the frame's centre, and per h
        STEP,                            /* of the ray per half pixel, q24 */
        WIDTH, HEIGHT, TRANSFER,
        ROWS, SPAN_LOG2,                 /* rows that look alike, and columns from one point to the next */
+       HALVES,                          /* struct half, up and down */
        PART_ONE = 4096,
        ROWS_MOST = 8, SPAN_LEAST = 3, SPAN_MOST = 7 };
 
@@ -48,8 +49,11 @@ static void find_plane(int32_t plane[3], const struct smear_shot *shot, const in
         sum[1] += (up[0] * step >> 24) * weight[k];
         sum[2] += (up[1] * step >> 24) * weight[k];
     }
-    for (int i = 0; i < 3; i++)
-        plane[i] = (int32_t)(sum[i] >> 26);
+    /* Sums of the three stay within 2^30: more is no picture any more. */
+    for (int i = 0; i < 3; i++) {
+        const int32_t most = i == 0 ? 1 << 29 : (1 << 27) / max_i32(width, shot->height);
+        plane[i] = clamp_i32(narrow_sat(sum[i] >> 26), -most, most);
+    }
 }
 
 /* Returns the most that a channel changes by. */
@@ -59,6 +63,21 @@ static int32_t contrast_of(uint32_t a, uint32_t b)
                   green = abs_i32((int32_t)pixel_green(a) - (int32_t)pixel_green(b)),
                   blue = abs_i32((int32_t)pixel_blue(a) - (int32_t)pixel_blue(b));
     return max_i32(red, max_i32(green, blue));
+}
+
+/* A half of the sky: the colour at the horizon and what leads to the pole, as two words of channels. */
+struct half {
+    uint32_t pair, green, pair_step, green_step;
+    int32_t contrast;
+};
+
+static void take_half(struct half *h, uint32_t horizon, uint32_t pole)
+{
+    h->pair = ((horizon & 0xff00ffu) << 8) + 0x800080u;
+    h->green = (horizon & 0xff00u) + 0x80u;
+    h->pair_step = (pole & 0xff00ffu) - (horizon & 0xff00ffu);
+    h->green_step = pixel_green(pole) - pixel_green(horizon);
+    h->contrast = contrast_of(horizon, pole);
 }
 
 static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smear_instant *instant, int32_t width, smear_transfer transfer)
@@ -78,11 +97,14 @@ static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smea
     sky->own[WIDTH] = width;
     sky->own[HEIGHT] = shot->height;
     sky->own[TRANSFER] = transfer;
-    /* Rows that differ by a code and a half look alike; between points, sines err by some 0.1 of the square of their distance. */
-    const uint32_t contrast = (uint32_t)max_i32(contrast_of(sky->zenith, sky->horizon), contrast_of(sky->ground, sky->nadir)),
-                   pixel = 2 * (uint32_t)sky->own[STEP] >> 4;       /* q20 */
+    /* Rows that differ by two codes look alike; between points, sines err by some 0.1 of the square of their distance. */
+    struct half half[2];
+    take_half(&half[0], sky->horizon, sky->zenith);
+    take_half(&half[1], sky->ground, sky->nadir);
+    const uint32_t contrast = (uint32_t)max_i32(half[0].contrast, half[1].contrast),
+                   pixel = min_u32((uint32_t)sky->own[STEP] >> 3, 1u << 20);        /* q20 */
     int rows = 0, span = SPAN_LEAST;
-    while (1 << rows < ROWS_MOST && contrast * pixel << (rows + 1) <= 3u << 20)
+    while (1 << rows < ROWS_MOST && contrast * pixel << (rows + 1) <= 4u << 20)
         rows++;
     for (uint32_t wide = pixel << (SPAN_LEAST + 1) >> 8; span < SPAN_MOST && wide < 1u << 12; wide *= 2) {
         if (contrast * (wide * wide >> 12) > 12u << 12)
@@ -91,15 +113,10 @@ static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smea
     }
     sky->own[ROWS] = 1 << rows;
     sky->own[SPAN_LOG2] = span;
+    __builtin_memcpy(&sky->own[HALVES], half, sizeof half);
 }
 
 /* ------------------------------------------------------------------ pixels */
-
-/* A half of the sky: the colour at the horizon and what leads to the pole, as two words of channels. */
-struct half {
-    uint32_t pair, green, pair_step, green_step;
-    int32_t contrast;
-};
 
 struct pen {
     const smear_sky *sky;
@@ -118,15 +135,6 @@ struct point {
     int32_t inverse;                    /* of the ray's length, q15 */
     int32_t sine;                       /* of the elevation, q8, whatever its sign */
 };
-
-static void take_half(struct half *h, uint32_t horizon, uint32_t pole)
-{
-    h->pair = ((horizon & 0xff00ffu) << 8) + 0x800080u;
-    h->green = (horizon & 0xff00u) + 0x80u;
-    h->pair_step = (pole & 0xff00ffu) - (horizon & 0xff00ffu);
-    h->green_step = pixel_green(pole) - pixel_green(horizon);
-    h->contrast = contrast_of(horizon, pole);
-}
 
 /* Returns 1 / sqrt(n), q15, for n of 1 or more, q16: within 1/600. */
 static int32_t inverse_root(uint32_t n)
@@ -150,7 +158,10 @@ static void begin_row(struct pen *p, int32_t v)
 }
 
 /* Returns the sine of an elevation, q8, whatever its sign. */
-static int32_t sine_of(int32_t rise, int32_t inverse) { return min_i32(abs_i32((rise >> 10) * inverse) >> 19, 256); }
+static int32_t sine_of(int32_t rise, int32_t inverse)
+{
+    return min_i32(abs_i32(clamp_i32(rise >> 10, -65535, 65535) * inverse) >> 19, 256);
+}
 
 static void find_point(struct point *out, const struct pen *p, int32_t u)
 {
@@ -168,6 +179,8 @@ static inline void fill_run(const struct pen *p, int32_t x0, int32_t x1, uint32_
     const struct smear_raster_target *t = p->target;
     x0 = max_i32(x0, t->x0);
     x1 = min_i32(x1, t->x1);
+    if (x0 >= x1)
+        return;
     if (target_is_direct(t))
         for (int k = 0; k < p->rows; k++)
             pixels_fill_narrow(t->direct + p->at[k] + x0, rgb565_nearest(pixel), x1 - x0);
@@ -203,10 +216,12 @@ static void fill_span(const struct pen *p, const struct point *a, const struct p
 /* Returns the part of the exposure for which a point is above the horizon. */
 static int32_t part_above(const struct point *a)
 {
-    int32_t width = a->width, rise = clamp_i32(a->rise, -width, width);
+    int32_t width = a->width, rise = a->rise;
+    if (abs_i32(rise) >= width >> 1)
+        return rise < 0 ? 0 : PART_ONE;
     for (; width >= 1 << 19; width >>= 1)
         rise >>= 1;
-    return clamp_i32(PART_ONE / 2 + rise * PART_ONE / max_i32(width, 1), 0, PART_ONE);
+    return clamp_i32(PART_ONE / 2 + rise * PART_ONE / width, 0, PART_ONE);
 }
 
 /* Returns the colour of a point that the horizon may pass. What is seen of a half then is half as high as its highest, in the mean. */
@@ -251,15 +266,14 @@ static void fill(const smear_sky *sky, const struct smear_raster_target *t)
     const int32_t across = abs_i32(own[RISE_X]), along = abs_i32(own[RISE_Y]);
     /* Twice the length, within 7 %. */
     struct pen p = { .sky = sky, .target = t, .pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2) };
-    take_half(&p.half[0], sky->horizon, sky->zenith);
-    take_half(&p.half[1], sky->ground, sky->nadir);
+    __builtin_memcpy(p.half, &own[HALVES], sizeof p.half);
     for (int32_t y = t->y0; y < t->y1;) {
         const int32_t first = y & -rows, end = min_i32(first + rows, t->y1);
         struct point a, b;
         int32_t x = t->x0 & -span;
         p.rows = end - y;
         for (int32_t k = 0; k < p.rows; k++)
-            p.at[k] = target_row(&t->window_rows, t, y + k);
+            p.at[k] = target_row(target_is_direct(t) ? &t->window_rows : &t->color_rows, t, y + k);
         begin_row(&p, height - 2 * first - rows);
         find_point(&a, &p, 2 * x - width);
         for (; x < t->x1; x += span, a = b) {
@@ -273,6 +287,8 @@ static void fill(const smear_sky *sky, const struct smear_raster_target *t)
         y = end;
     }
 }
+
+SMEAR_STATIC_ASSERT(HALVES + 2 * sizeof(struct half) / sizeof(int32_t) == sizeof ((smear_sky *)0)->own / sizeof(int32_t), "own");
 
 const smear_sky_kind smear_sky_gradient = { aim, fill };
 

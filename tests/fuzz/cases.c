@@ -337,7 +337,7 @@ static void make_draw(struct fuzz_case *c, int i)
     smear_material *m = &c->material[i];
     *m = (smear_material){
         .texture = look & 1 ? &c->texture[source_range(s, 0, CASE_TEXTURES - 1)] : NULL,
-        .alpha = (uint8_t)(look & 6 ? SMEAR_OPAQUE : source_range(s, 0, SMEAR_BLEND)),
+        .alpha = (uint8_t)(look & 6 ? SMEAR_OPAQUE : source_range(s, 0, SMEAR_SHADOW)),
         .unlit = look >> 4 & 1,
         .double_sided = look >> 5 & 1,
         .bilinear = look >> 6 & 1,
@@ -662,8 +662,16 @@ static void make_lights(struct fuzz_case *c)
         c->lights.lamp_diffuse[i] = (uint16_t)source_word(s);
         c->lights.lamp[i] = about(c, 0, 3 << 16);
     }
-    c->scene.lights = &c->lights;
-    c->frame.scene = source_chance(s, 4) ? &c->scene : NULL;
+}
+
+/* What is beyond one light and one colour. */
+static void make_scene(struct fuzz_case *c)
+{
+    struct source *s = &c->source;
+    make_lights(c);
+    c->sky = (smear_sky)SMEAR_SKY(source_word(s), source_word(s), source_word(s), source_word(s));
+    c->scene = (smear_scene){ SMEAR_WITH_SKY && source_chance(s, 4) ? &c->sky : NULL, source_chance(s, 4) ? &c->lights : NULL };
+    c->frame.scene = c->scene.sky != NULL || c->scene.lights != NULL ? &c->scene : NULL;
 }
 
 void case_frame(struct fuzz_case *c, int k)
@@ -680,7 +688,7 @@ void case_frame(struct fuzz_case *c, int k)
     if (k == 0 || source_chance(s, keeps ? 6 : 2))
         make_fog(c);
     if (k == 0 || source_chance(s, keeps ? 6 : 2))
-        make_lights(c);
+        make_scene(c);
     if (c->fog.far_plane <= c->camera[0].near_plane)
         c->frame.fog = NULL;
 }

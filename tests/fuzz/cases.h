@@ -71,6 +71,7 @@ struct fuzz_case {
     smear_points points;
     smear_overlay overlay;
     smear_fog fog;
+    smear_sky sky;
     smear_lights lights;
     smear_scene scene;
     smear_frame frame;

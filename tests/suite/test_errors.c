@@ -246,7 +246,7 @@ static void test_the_text_of_a_bad_draw_names_the_field_and_the_rest_is_drawn(vo
         case 1: mesh.position = NULL; break;
         case 2: mesh.index = NULL; break;
         case 3: texture.texels = NULL, name = "draw.material"; break;
-        case 4: material.alpha = SMEAR_BLEND + 1, name = "draw.material"; break;
+        case 4: material.alpha = SMEAR_SHADOW + 1, name = "draw.material"; break;
         default: break;
         }
         names(smear_submit(r.ctx, &d), name);

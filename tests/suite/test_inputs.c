@@ -2,6 +2,8 @@
 /* test_inputs.c - what is kept from frame to frame (desc.reuse) depends on every field of every struct that a frame points to:
  * each bit of each is turned, and turned back, and the pictures are those of a context that keeps nothing. The lists of fields
  * name all that the structs have: a new field does not compile until it has a line here. Host only. */
+#include "smear_scene.h"
+
 #include "tests/rig.h"
 
 #include "smear_overlay.h"
@@ -38,7 +40,6 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 #define LIGHTS(N, A, P, S) \
     P(smear_lights, shader) A(smear_lights, direction, 4, ANY) A(smear_lights, diffuse, 2, ANY) A(smear_lights, lamp_diffuse, 2, ANY) \
         A(smear_lights, lamp, 4, ANY) N(smear_lights, reach, 4, ANY)
-#define SCENE(N, A, P, S) P(smear_scene, sky) P(smear_scene, lights)
 #define FOG(N, A, P, S) N(smear_fog, color, 4, ANY) N(smear_fog, near_plane, 4, ANY) N(smear_fog, far_plane, 4, ANY)
 #define SHUTTER(N, A, P, S) \
     N(smear_shutter, degrees, 2, ANY) N(smear_shutter, exposure, 1, ANY) N(smear_shutter, poses, 1, ANY) N(smear_shutter, mode, 1, ANY) \
@@ -50,6 +51,10 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
     N(smear_frame, budget, 4, ANY) N(smear_frame, clear, 4, ANY) P(smear_frame, light) P(smear_frame, fog) S(smear_frame, shutter) \
     S(smear_frame, filter) A(smear_frame, scale, 2, ANY) P(smear_frame, layer) N(smear_frame, layer_count, 1, NONE) \
                     N(smear_frame, edges, 1, REFUSED) P(smear_frame, overlay) P(smear_frame, scene)
+#define SKY(N, A, P, S) \
+    N(smear_sky, zenith, 4, ANY) N(smear_sky, horizon, 4, ANY) N(smear_sky, ground, 4, ANY) N(smear_sky, nadir, 4, ANY) \
+        A(smear_sky, own, 4, NONE) P(smear_sky, kind)
+#define SCENE(N, A, P, S) P(smear_scene, sky) P(smear_scene, lights)
 #define IMAGE(N, A, P, S) \
     P(smear_image, pixels) P(smear_image, palette) N(smear_image, width, 2, 64) N(smear_image, height, 2, 64) N(smear_image, cells, 2, 4) \
         N(smear_image, format, 1, ANY)
@@ -70,7 +75,7 @@ enum { WIDTH = 64, HEIGHT = 32, PIXELS = WIDTH * HEIGHT };
 #define LISTS(X) \
     X(TRANSFORM, smear_transform) X(MESH, smear_mesh) X(TEXTURE, smear_texture) X(MATERIAL, smear_material) X(CAMERA, smear_camera) \
     X(DRAW, smear_draw) X(LIGHT, smear_light) X(LIGHTS, smear_lights) X(SCENE, smear_scene) X(FOG, smear_fog) \
-    X(SHUTTER, smear_shutter) X(FRAME, smear_frame) X(IMAGE, smear_image) \
+    X(SKY, smear_sky) X(SHUTTER, smear_shutter) X(FRAME, smear_frame) X(IMAGE, smear_image) \
                 X(FONT, smear_font) X(ITEM, smear_overlay_item) X(POINT, smear_point) X(POINTS, smear_points) X(OVERLAY, smear_overlay)
 
 /* REFUSED: any, but a display that is kept goes with none. */
@@ -121,6 +126,8 @@ struct scene_of_all {
     smear_draw draw;
     smear_light light;
     smear_fog fog;
+    smear_sky sky;
+    smear_scene extras;
     smear_image image;
     smear_font font;
     smear_overlay_item item[5];
@@ -128,7 +135,6 @@ struct scene_of_all {
     smear_points points;
     smear_overlay overlay;
     smear_lights lights;
-    smear_scene more;
     smear_frame frame;
 };
 
@@ -178,6 +184,8 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->camera = s->before = camera_at(0, 0, 0, 0);
     s->light = (smear_light){ { 10000, 20000, 30000 }, { 20000, 21000, 22000 }, { 40000, 39000, 38000 } };
     s->fog = (smear_fog){ 0x406080, q16(1), q16(20) };
+    s->sky = (smear_sky)SMEAR_SKY(0x4060a0, 0xc0d0e0, 0x60705f, 0x202010);
+    s->extras = (smear_scene){ &s->sky, &s->lights };
     s->draw = (smear_draw){ .mesh = &s->mesh, .material = &s->material, .now = &s->now };
     s->image = (smear_image){ .pixels = s->pixels, .palette = s->palette, .width = 8, .height = 8, .cells = 3,
                               .format = SMEAR_IMAGE_PALETTE4 };
@@ -193,10 +201,9 @@ static void make_all(struct scene_of_all *s, uint32_t seed, int size, uint8_t me
     s->points = (smear_points){ s->point, 2 };
     s->overlay = (smear_overlay){ s->item, 3, &s->points };
     s->frame = (smear_frame){ .camera = &s->camera, .method = method, .clear = 0x102030, .light = &s->light, .fog = &s->fog,
-                              .shutter.frame_us = 20000, .overlay = &s->overlay, .scene = &s->more };
+                              .shutter.frame_us = 20000, .overlay = &s->overlay, .scene = &s->extras };
     s->lights = (smear_lights){ &smear_lights_shader, { 20000, -10000, 30000 }, { 9000, 8000, 7000 }, { 30000, 20000, 10000 },
                                 { q16(0.3), q16(0.4), q16(-3) }, q16(4) };
-    s->more.lights = &s->lights;
 }
 
 /* ------------------------------------------------------------------ what is shown */
@@ -326,7 +333,8 @@ static void turn_all(void)
     TURN(smear_light, &scene.light);
     TURN(smear_fog, &scene.fog);
     TURN(smear_lights, &scene.lights);
-    TURN(smear_scene, &scene.more);
+    TURN(smear_sky, &scene.sky);
+    TURN(smear_scene, &scene.extras);
     TURN(smear_shutter, &scene.frame.shutter);
     TURN(smear_frame, &scene.frame);
     TURN(smear_image, &scene.image);

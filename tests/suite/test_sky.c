@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_sky.c - skies against the elevation of every pixel in doubles, sharp and the mean of instants; the same sky in every format,
  * however the frame is cut; what is refused. Host only. */
+#include <smear_scene.h>
+
 #include "tests/rig.h"
 #include "tools/player/crew.h"
-
-#include <smear_scene.h>
 
 enum { WIDTH = 240, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, INSTANTS = 256, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
 

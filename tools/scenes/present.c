@@ -743,6 +743,7 @@ static bool present(struct presenter *p, double time, const struct present_optio
         reference = p->kept_reference;
     }
     reach_all(p, blurred, reference, &reach);
+    out->extras = (smear_scene){ 0 };
     if (o->lights.has_sun)
         fill_sun(out, &o->lights);
     const bool lit = o->lights.has_second || o->lights.gloss || o->lights.reach > 0.0;
