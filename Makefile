@@ -332,7 +332,7 @@ help:
 ALL_SUITES := $(patsubst test_%.c,%,$(notdir $(wildcard tests/unit/test_*.c tests/suite/test_*.c)))
 SUITES     := $(ALL_SUITES)
 # Suites that need neither libc nor floating point: they run on every target, too.
-UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster shader tables texture,$(ALL_SUITES))
+UNIT_SUITES := $(filter anim bins clip convert fixed fixmath kernels math path raster scene shader tables texture,$(ALL_SUITES))
 # Suites that feed the library wild input: also under sanitizers, with every promise checked.
 SAN_SUITES := $(filter anim apart api bins bounds budget clip convert convert_tool curve fixed fixmath flow foreign inputs jobs jpeg jumps kernels light math math_error matrix motion overlay \
               path points present raster ribbon sight sketch space states still tables texture transform view x11,$(ALL_SUITES))
