@@ -38,7 +38,7 @@ static inline size_t smear_memory_needed(int result)
 
 /* Bytes of one of each thing, at most, with pointers of 4 bytes and of 8: layout.c compares. */
 #define SMEAR_BY_POINTER_(narrow, wide) (sizeof(void *) < 8 ? (narrow) : (wide))
-#define SMEAR_CONTEXT_BYTES (SMEAR_BY_POINTER_(1480u, 1808u) + (SMEAR_WITH_LIGHTS ? 64u : 0u))      /* the context itself */
+#define SMEAR_CONTEXT_BYTES (SMEAR_BY_POINTER_(1480u, 1816u) + (SMEAR_WITH_LIGHTS ? 64u : 0u))      /* the context itself */
 #define SMEAR_FILTERING_BYTES SMEAR_BY_POINTER_(304u, 328u)     /* what filters keep beside a window */
 #define SMEAR_SUBMITTED_BYTES SMEAR_BY_POINTER_(188u, 224u)     /* a draw with its transforms */
 #define SMEAR_SAMPLER_BYTES SMEAR_BY_POINTER_(44u, 56u) /* its texture's sampler */

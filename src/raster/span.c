@@ -31,22 +31,23 @@ void smear_span_level(const struct setup *s, const struct span *p)
 }
 #endif
 
-/* Darkens a pixel that so much of a shadow covers already as if only the darkest of them did. Its top byte keeps how dark that is. */
-static inline uint32_t shadow_pixel(uint32_t pixel, uint32_t shadow, smear_transfer transfer)
+/* Blends a colour over a pixel, or a shadow: as if of all that cover the pixel only the darkest did, whose alpha its top byte keeps. */
+static inline uint32_t blended_pixel(uint32_t pixel, uint32_t over, bool shadow, smear_transfer transfer)
 {
-    const uint32_t had = pixel_alpha(pixel), has = pixel_alpha(shadow);
-    if (has <= had)
+    const uint32_t has = pixel_alpha(over), had = shadow ? pixel_alpha(pixel) : 0;
+    if (shadow && has <= had)
         return pixel;
-    return pixel_blend(pixel & 0xffffffu, shadow, had == 0 ? has : (has - had) * 255u / (255u - had), transfer) | has << 24;
+    const uint32_t part = had == 0 ? has : (has - had) * 255u / (255u - had);
+    return pixel_blend(pixel & 0xffffffu, over, part, transfer) | (shadow ? has << 24 : 0);
 }
 
 void smear_span_shadow(const struct setup *s, const struct span *p)
 {
     const smear_transfer transfer = frame_transfer(s->frame);
     uint32_t *color = (uint32_t *)p->color, z = p->z;
-    for (int32_t i = 0; i < p->b - p->a; i++, z += (uint32_t)p->dz)
+    for (int32_t i = 0; !SMEAR_SMALL_CODE && i < p->b - p->a; i++, z += (uint32_t)p->dz)
         if (z >> 16 > p->depth[i])
-            color[i] = shadow_pixel(color[i], s->color, transfer);
+            color[i] = blended_pixel(color[i], s->color, true, transfer);
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -260,16 +261,16 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
-    if (draw_is_shadow(s->draw)) {
+    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = shadow_pixel(*color, *in, frame_transfer(s->frame));
+                *color = blended_pixel(*color, *in, true, frame_transfer(s->frame));
         return;
     }
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = pixel_blend(*color, *in, pixel_alpha(*in), frame_transfer(s->frame));
+                *color = blended_pixel(*color, *in, SMEAR_SMALL_CODE && draw_is_shadow(s->draw), frame_transfer(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {
