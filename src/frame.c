@@ -60,13 +60,13 @@ static int render_sharp(struct smear_context *c)
 
 /* ------------------------------------------------------------------ a frame */
 
-/* Methods blur what is in the window, but for its background: that is the mean of the exposure. SMEAR_CAMERA blurs that, too. */
+/* What is behind everything is the mean of the exposure, but where filters blur that, too. */
 static void aim_sky(struct smear_context *c)
 {
-    const uint8_t method = c->frame.method;
-    const struct smear_instant middle = method == SMEAR_CAMERA ? smear_instant_middle(&c->shot) : smear_instant_now;
-    const bool mean = method != SMEAR_NONE && method != SMEAR_CAMERA && c->shot.camera_moves;
-    c->rows.sky->kind->aim(c->rows.sky, &c->shot, mean ? NULL : &middle, c->rows.window.width, c->rows.raster.transfer);
+    const bool blurs = smear_method_is_filter(c->frame.method) && frame_has_depth_velocity(&c->rows.raster);
+    const struct smear_instant one = blurs ? smear_instant_middle(&c->shot) : smear_instant_now;
+    const bool mean = !blurs && c->frame.method != SMEAR_NONE && c->shot.camera_moves;
+    c->rows.sky->kind->aim(c->rows.sky, &c->shot, mean ? NULL : &one, c->rows.window.width, c->rows.raster.transfer);
 }
 
 /* Settings of stages that hold for the frame. */
