@@ -6,8 +6,8 @@
  *     scene.sky = &sky;
  *     frame.scene = &scene;               // and smear_begin, smear_submit, smear_render as ever
  *
- * Lights are copied by smear_begin, a sky is read, and its `own` written, until smear_render returns. Colours are 0xRRGGBB, sRGB-encoded; light is linear,
- * 65535 is one. */
+ * Lights are copied by smear_begin; a sky is read, and its `own` written, until smear_render returns. Colours are 0xRRGGBB,
+ * sRGB-encoded; light is linear, 65535 is one. */
 #ifndef SMEAR_SCENE_H
 #define SMEAR_SCENE_H
 

@@ -4,7 +4,6 @@
 #include <smear_scene.h>
 
 #include "tests/rig.h"
-#include "tools/player/crew.h"
 
 enum { WIDTH = 240, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, INSTANTS = 256, ALL_METHODS = (1 << SMEAR_METHOD_COUNT) - 2 };
 
@@ -177,6 +176,44 @@ static void test_every_method_blurs_it_with_the_camera(void)
         for (int method = SMEAR_NONE + 1; method < SMEAR_METHOD_COUNT; method++)
             for (int k = 0; k < (method == SMEAR_AUTO ? 3 : 1); k++)
                 check_turn(&turns[i], method, i % 2 == 0, method == SMEAR_AUTO ? 0 : (int)i % 3, targets[k]);
+}
+
+/* Behind draws, before a camera that moves: as near to the mean of 64 instants as each target asks. */
+static void test_sketches_and_drafts_have_it_behind_their_draws(void)
+{
+    static uint32_t truth[PIXELS];
+    static const uint16_t target[] = { 0, SMEAR_BALANCED, SMEAR_DRAFT, SMEAR_SKETCH };
+    static const double most[] = { 0, 2.5, 6, 10 };
+    const smear_desc desc = desc_of(ALL_METHODS | SMEAR_SET_SKETCH);
+    for (int i = 0; i < 4; i++) {
+        struct rig r;
+        struct scene s;
+        smear_sky sky = sky_of(0);
+        const smear_scene extras = { .sky = &sky };
+        make_scene(&s, 0.2, i == 0 ? SMEAR_ACCUMULATE : SMEAR_AUTO);
+        smear_camera open = s.camera, close = s.camera;
+        open.pose = smear_compose(open.pose, smear_rotate_x(SMEAR_DEGREES(3)));
+        close.pose = smear_compose(close.pose, smear_rotate_x(SMEAR_DEGREES(357)));
+        s.frame.open = &open;
+        s.frame.close = &close;
+        s.frame.shutter.poses = 1;
+        s.frame.scene = &extras;
+        s.frame.target = target[i];
+        s.frame.samples = i == 0 ? 64 : 0;
+        if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK)) {
+            const uint32_t *got = (const uint32_t *)(const void *)r.picture;
+            double sum = 0;
+            for (int k = 0; i != 0 && k < PIXELS; k++)
+                for (int c = 0; c < 24; c += 8)
+                    sum += pow((double)(truth[k] >> c & 255u) - (double)(got[k] >> c & 255u), 2);
+            if (i == 0)
+                memcpy(truth, got, sizeof truth);
+            const double error = sqrt(sum / (3.0 * PIXELS));
+            if (!CHECK(error <= most[i]) || getenv("SMEAR_SHOW") != NULL)
+                printf("  target %d: %.3f\n", target[i], error);
+        }
+        rig_end(&r);
+    }
 }
 
 #include "build/suites/sky.h"
