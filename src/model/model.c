@@ -434,7 +434,7 @@ static void fill_tables(const struct model_tables *t, const struct blob *b)
     for (uint32_t i = 0; i < blob_count(b, BLOB_MATERIAL); i++, material++) {
         smear_material *m = &t->material[i];
         *m = (smear_material){ .alpha = material->alpha, .cutoff = material->cutoff, .unlit = material->unlit,
-                               .double_sided = material->double_sided, .bilinear = material->bilinear & 15u,
+                               .double_sided = material->double_sided, .bilinear = (uint8_t)(material->bilinear & 15u),
                                .gloss = material->gloss, .shine = (uint8_t)(material->bilinear >> 4) };
         m->texture = material->texture != SMEAR_MODEL_NONE ? t->texture + material->texture : NULL;
         for (int k = 0; k < 4; k++)
