@@ -6,18 +6,19 @@
 
 enum {
     ACROSS = 6,                     /* vertices of a row: grass, kerb, road, kerb, grass lie between them */
-    ROWS = COURSE_CHUNK + 1,
-    TREES = 4, TREE_CORNERS = 5,    /* a pyramid */
-    VERTICES = ROWS * ACROSS + TREES * TREE_CORNERS,
-    TRIANGLES = COURSE_CHUNK * (ACROSS - 1) * 2 + TREES * 4,
+    TREE_CORNERS = 5,               /* a pyramid */
+    PAIR = 2 * ACROSS + TREE_CORNERS,       /* vertices of two segments: their first rows, a tree */
+    PAIR_TRIANGLES = 2 * (ACROSS - 1) * 2 + 4,
+    PAIRS = COURSE_SEGMENTS / 2, SEEN = COURSE_SEEN / 2 + 1,
+    TRIANGLES = SEEN * PAIR_TRIANGLES,
     STEPS = 5                       /* log2 of vertex steps in a metre */
 };
 
 static smear_vec3 middle[COURSE_SEGMENTS], beside[COURSE_SEGMENTS];     /* beside: a metre to the right */
-static int16_t position[COURSE_CHUNKS][VERTICES * 3];
+/* The circuit, and so much of its beginning once more that what is seen lies in one piece from any pair on. */
+static int16_t position[(PAIRS + SEEN) * PAIR + ACROSS][3];
 static uint16_t corner[TRIANGLES * 3];
 static uint8_t color[TRIANGLES * 4];
-static smear_mesh mesh[COURSE_CHUNKS];
 
 static int32_t times(int32_t length, int32_t factor_q24)
 {
@@ -65,31 +66,29 @@ int32_t course_bend(int32_t along)
 
 /* ------------------------------------------------------------------ meshes */
 
-static int16_t *put(int16_t *to, smear_vec3 p)
+static void put(int vertex, smear_vec3 p)
 {
-    *to++ = (int16_t)(p.x >> (16 - STEPS));
-    *to++ = (int16_t)(p.y >> (16 - STEPS));
-    *to++ = (int16_t)(p.z >> (16 - STEPS));
-    return to;
+    position[vertex][0] = (int16_t)(p.x >> (16 - STEPS));
+    position[vertex][1] = (int16_t)(p.y >> (16 - STEPS));
+    position[vertex][2] = (int16_t)(p.z >> (16 - STEPS));
 }
 
-static void find_positions(int chunk)
+static void put_row(int vertex, int32_t segment)
 {
     static const int32_t across[ACROSS] = { SMEAR_Q16(-30), SMEAR_Q16(-6), SMEAR_Q16(-5), SMEAR_Q16(5), SMEAR_Q16(6), SMEAR_Q16(30) };
-    const int32_t first = chunk * COURSE_CHUNK;
-    int16_t *to = position[chunk];
-    for (int32_t row = 0; row < ROWS; row++)
-        for (int i = 0; i < ACROSS; i++)
-            to = put(to, course_place((first + row) << 16, across[i], 0));
-    for (int32_t i = 0; i < TREES; i++) {
-        const int32_t along = (first + 2 * i + 1) << 16, wide = SMEAR_Q16(1.4), deep = SMEAR_Q16(0.2);
-        const int32_t right = ((i + chunk) & 1) != 0 ? SMEAR_Q16(9) + i * SMEAR_Q16(1) : SMEAR_Q16(-9) - chunk % 3 * SMEAR_Q16(2);
-        to = put(to, course_place(along, right, SMEAR_Q16(4) + i * SMEAR_Q16(0.4)));
-        to = put(to, course_place(along - deep, right - wide, 0));
-        to = put(to, course_place(along - deep, right + wide, 0));
-        to = put(to, course_place(along + deep, right + wide, 0));
-        to = put(to, course_place(along + deep, right - wide, 0));
-    }
+    for (int i = 0; i < ACROSS; i++)
+        put(vertex + i, course_place(segment << 16, across[i], 0));
+}
+
+static void put_tree(int vertex, int32_t pair)
+{
+    const int32_t i = pair % 4, group = pair / 4, along = (2 * pair + 1) << 16, wide = SMEAR_Q16(1.4), deep = SMEAR_Q16(0.2);
+    const int32_t right = ((i + group) & 1) != 0 ? SMEAR_Q16(9) + i * SMEAR_Q16(1) : SMEAR_Q16(-9) - group % 3 * SMEAR_Q16(2);
+    put(vertex, course_place(along, right, SMEAR_Q16(4) + i * SMEAR_Q16(0.4)));
+    put(vertex + 1, course_place(along - deep, right - wide, 0));
+    put(vertex + 2, course_place(along - deep, right + wide, 0));
+    put(vertex + 3, course_place(along + deep, right + wide, 0));
+    put(vertex + 4, course_place(along + deep, right - wide, 0));
 }
 
 static void add_triangle(int *count, int a, int b, int c, uint32_t rgb)
@@ -101,39 +100,42 @@ static void add_triangle(int *count, int a, int b, int c, uint32_t rgb)
     ++*count;
 }
 
-/* Corners and colours are those of every chunk. */
+/* Corners and colours are those of any pairs. */
 static void make_corners(void)
 {
     static const uint32_t strip[ACROSS - 1][2] = { { 0x4f9a3c, 0x5aa845 }, { 0xd02c2c, 0xf2f2f2 }, { 0x5a5d66, 0x63666f },
                                                    { 0xd02c2c, 0xf2f2f2 }, { 0x4f9a3c, 0x5aa845 } };
     static const uint32_t leaves[4] = { 0x1f6b3a, 0x2b8047, 0x17552d, 0x236f3d };
     int count = 0;
-    for (int row = 0; row < COURSE_CHUNK; row++)
-        for (int i = 0; i + 1 < ACROSS; i++) {
-            const int a = row * ACROSS + i, b = a + ACROSS;
-            add_triangle(&count, a, a + 1, b + 1, strip[i][row & 1]);
-            add_triangle(&count, a, b + 1, b, strip[i][row & 1]);
-        }
-    for (int i = 0; i < TREES; i++)
-        for (int side = 0; side < 4; side++) {
-            const int top = ROWS * ACROSS + i * TREE_CORNERS;
+    for (int pair = 0; pair < SEEN; pair++) {
+        const int first = pair * PAIR, top = first + 2 * ACROSS;
+        for (int row = 0; row < 2; row++)
+            for (int i = 0; i + 1 < ACROSS; i++) {
+                const int a = first + row * ACROSS + i, b = row == 0 ? a + ACROSS : first + PAIR + i;
+                add_triangle(&count, a, a + 1, b + 1, strip[i][row]);
+                add_triangle(&count, a, b + 1, b, strip[i][row]);
+            }
+        for (int side = 0; side < 4; side++)
             add_triangle(&count, top, top + 1 + side, top + 1 + (side + 1) % 4, leaves[side]);
-        }
+    }
 }
 
 void course_make(void)
 {
     find_middle();
     make_corners();
-    for (int chunk = 0; chunk < COURSE_CHUNKS; chunk++) {
-        find_positions(chunk);
-        mesh[chunk] = (smear_mesh){ .position = position[chunk], .vertex_count = VERTICES, .index = corner,
-                                    .triangle_count = TRIANGLES, .face_color = color, .shift = STEPS };
-        smear_mesh_find_bounds(&mesh[chunk]);
+    for (int pair = 0; pair < PAIRS + SEEN; pair++) {
+        put_row(pair * PAIR, 2 * pair);
+        put_row(pair * PAIR + ACROSS, 2 * pair + 1);
+        put_tree(pair * PAIR + 2 * ACROSS, pair % PAIRS);
     }
+    put_row((PAIRS + SEEN) * PAIR, 2 * (PAIRS + SEEN));
 }
 
-const smear_mesh *course_chunk(int chunk)
+const smear_mesh *course_ahead(int32_t along)
 {
-    return &mesh[(chunk % COURSE_CHUNKS + COURSE_CHUNKS) % COURSE_CHUNKS];
+    static smear_mesh mesh = { .vertex_count = SEEN * PAIR + ACROSS, .index = corner, .triangle_count = TRIANGLES,
+                               .face_color = color, .shift = STEPS };
+    mesh.position = position[wrapped(along >> 16) / 2 * PAIR];
+    return &mesh;
 }

@@ -11,8 +11,7 @@
 
 enum {
     COURSE_SEGMENTS = 96,           /* of about 7 metres */
-    COURSE_CHUNK = 8,               /* segments that are one mesh */
-    COURSE_CHUNKS = COURSE_SEGMENTS / COURSE_CHUNK,
+    COURSE_SEEN = 26,               /* segments that one looks ahead */
     COURSE_LAP = COURSE_SEGMENTS << 16,
     COURSE_HALF_ROAD = 5 << 16
 };
@@ -20,8 +19,8 @@ enum {
 /* Makes the circuit. */
 void course_make(void);
 
-/* The road and what stands beside it, eight segments from 8 x chunk on. */
-const smear_mesh *course_chunk(int chunk);
+/* The road and what stands beside it, COURSE_SEEN segments from a place on; until the next call. */
+const smear_mesh *course_ahead(int32_t along);
 
 /* A place in the world, `up` above the ground. */
 smear_vec3 course_place(int32_t along, int32_t right, int32_t up);

@@ -44,3 +44,14 @@ game-test: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 ## boards: what the game's frames cost
 game-cost: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(GAME_SCREEN) $(GAME_STEP)
+
+# How far the pictures of a screen are from the truth: of this machine, as all machines draw them.
+build/host/game_error: $(call host_objects,tests/target/game_error.c $(filter-out %/main.c,$(wildcard platform/game/*.c)) $(LIB_SRC))
+	$(call say,LD)
+	@mkdir -p $(@D)
+	$(HOST_CC) -o $@ $^ -lm
+
+.PHONY: game-error
+## boards: how far the race's pictures on GAME_SCREEN are from the truth, in codes
+game-error: build/host/game_error
+	$< $(GAME_SCREEN)

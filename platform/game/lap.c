@@ -2,7 +2,9 @@
 /* lap.c - see lap.h. */
 #include "platform/game/lap.h"
 
-const struct lap_keys lap_keys[] = {
+static const struct lap_keys {
+    uint8_t keys, frames;
+} lap_keys[] = {
     { 0, 63 }, { 8, 3 }, { 0, 6 }, { 4, 12 }, { 0, 18 }, { 8, 6 }, { 0, 3 }, { 8, 3 }, { 0, 3 }, { 8, 3 },
     { 0, 3 }, { 8, 6 }, { 0, 3 }, { 8, 6 }, { 0, 3 }, { 8, 18 }, { 0, 6 }, { 8, 3 }, { 0, 12 }, { 8, 3 },
     { 0, 3 }, { 8, 24 }, { 0, 3 }, { 8, 3 }, { 0, 42 }, { 4, 33 }, { 0, 3 }, { 4, 3 }, { 0, 15 }, { 8, 3 },
@@ -25,4 +27,13 @@ const struct lap_keys lap_keys[] = {
     { 4, 3 }, { 0, 3 }, { 4, 3 }, { 0, 6 }, { 8, 3 }, { 0, 3 }, { 8, 3 }, { 10, 3 }, { 0, 3 }
 };
 
-const int lap_keys_count = sizeof lap_keys / sizeof *lap_keys;
+unsigned lap_held(struct lap *lap)
+{
+    enum { COUNT = sizeof lap_keys / sizeof *lap_keys };
+    while (lap->left == 0 && lap->event < COUNT)
+        lap->left = lap_keys[lap->event++].frames;
+    if (lap->left == 0)
+        return 0;
+    lap->left--;
+    return lap_keys[lap->event - 1].keys;
+}

@@ -5,11 +5,12 @@
 
 #include <stdint.h>
 
-struct lap_keys {
-    uint8_t keys, frames;           /* display_key */
+/* How far it has been played: its next keys, and frames that the last ones are still held. */
+struct lap {
+    int event, left;
 };
 
-extern const struct lap_keys lap_keys[];
-extern const int lap_keys_count;
+/* Returns what is held in the next frame, display_key; 0 when it is over. */
+unsigned lap_held(struct lap *lap);
 
 #endif

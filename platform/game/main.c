@@ -4,11 +4,14 @@
  *     game [show]                  plays it on the display
  *     game check [SCREEN [STEP]]   drives the recorded race and prints the CRC of every STEPth frame, and the times
  *     game cost [SCREEN [STEP]]    what frames of it cost, in the units of platform.h's clock
+ *     game drive [SCREEN [FROM [COUNT]]]   shows COUNT frames of the recorded race from FROM on, as fast as they come: frames per
+ *                                          second of the display's clock
  *
- * Keys: left and right steer, down brakes, start begins again. Who presses none for a while sees the recorded race. */
+ * Keys: left and right steer, down brakes, start begins again, A shows the picture blurred, one half of it sharp, sharp. Who
+ * presses none for a while sees the recorded race. */
 #include "platform/game/game.h"
 #include "platform/game/lap.h"
-#include "platform/game/view.h"
+#include "platform/game/screen.h"
 
 #include "platform/display.h"
 #include "platform/platform.h"
@@ -16,39 +19,23 @@
 #include "platform/words.h"
 
 #include <stdbool.h>
+#include <string.h>
 
 #ifndef GAME_SCREEN
 #define GAME_SCREEN "pico"
 #endif
 
-/* Names are those of the demo's screens (platform/demo_player.c); "pico" is a panel of 128x128. Triangle lists have room for
- * what is in view at once. Slow boards draw sketches. */
-#define SCREEN(name, w, h, pixels, buffers, px, columns, triangles, also)                                               \
-    { name, { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,                \
-              .max_triangles = triangles, .max_draws = VIEW_DRAWS, .reuse.one_pose = 1,                                 \
-              .methods = SMEAR_SET(SMEAR_AUTO) | (also) } }
-
-static const struct screen {
-    const char *name;
-    smear_desc desc;
-} screens[] = {
-    SCREEN("pico", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420, SMEAR_SET_SKETCH),
-    SCREEN("pico-128", 128, 128, SMEAR_RGB565_SWAPPED, 2, 16, 64, 420, SMEAR_SET_SKETCH),
-    SCREEN("pico-240", 240, 240, SMEAR_RGB565_SWAPPED, 2, 16, 96, 480, SMEAR_SET_SKETCH),
-    SCREEN("pico-320", 320, 240, SMEAR_RGB565_SWAPPED, 2, 16, 48, 480, SMEAR_SET_SKETCH),
-    SCREEN("gba", 120, 80, SMEAR_RGB555, 1, 16, 0, 420, SMEAR_SET_SKETCH),
-    SCREEN("pi-320", 320, 240, SMEAR_RGB565, 1, 32, 320, 800, 0),
-    SCREEN("pi-640", 640, 480, SMEAR_RGB565, 1, 32, 640, 800, 0),
-    SCREEN("linux", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800, 0),
-    SCREEN("window", 640, 480, SMEAR_XRGB8888, 1, 0, 0, 800, 0),
-    SCREEN("page", 320, 240, SMEAR_XRGB8888, 1, 0, 0, 800, 0)
-};
-
 static struct {
     smear_context *ctx;
     smear_desc desc;
+    struct view_way way;
     struct race race;
-    int event, left;                /* of the recorded race: its next keys, and frames that the last ones are still held */
+    struct lap lap;
+    smear_flush_fn *flush;          /* the display's */
+    void *user;
+    uint8_t *half;                  /* room for the right half of a picture, or null */
+    enum { BLURRED, SPLIT, SHARP } shows;
+    enum { PASS, KEEP, JOIN } bands;        /* what happens to them on their way to the display */
 } game;
 
 static int failed(const char *what)
@@ -59,41 +46,67 @@ static int failed(const char *what)
     return 1;
 }
 
-static const struct screen *find_screen(const char *name)
+static uint32_t pixel_bytes(void)
 {
-    for (unsigned i = 0; i < sizeof screens / sizeof *screens; i++)
-        if (is_word(screens[i].name, name))
-            return &screens[i];
-    return NULL;
+    return game.desc.format == SMEAR_XRGB8888 ? 4 : 2;
 }
 
-static int start(const smear_desc *desc)
+static size_t half_bytes(void)
+{
+    return (size_t)(game.desc.width / 2) * (size_t)game.desc.height * pixel_bytes();
+}
+
+static int start(const struct screen *screen, const smear_desc *desc)
 {
     size_t room;
-    void *arena = platform_arena(&room);
+    uint8_t *arena = platform_arena(&room);
+    const size_t size = (smear_memory_size(desc) + 7) & ~(size_t)7;
     game.desc = *desc;
-    game.event = game.left = 0;
+    game.way = screen->way;
+    game.lap = (struct lap){ 0 };
     course_make();
     view_make();
     race_begin(&game.race);
-    return smear_memory_size(desc) > room ? SMEAR_ERR_MEMORY : smear_init(&game.ctx, desc, arena, smear_memory_size(desc));
+    game.half = size + half_bytes() <= room ? arena + size : NULL;
+    return size > room ? SMEAR_ERR_MEMORY : smear_init(&game.ctx, desc, arena, size);
 }
 
-/* Returns what is held in the next frame of the recorded race. */
-static unsigned recorded_keys(void)
+/* `frames` after the one before. */
+static int draw_frame(uint32_t frames)
 {
-    while (game.left == 0 && game.event < lap_keys_count)
-        game.left = lap_keys[game.event++].frames;
-    if (game.left == 0)
-        return 0;
-    game.left--;
-    return lap_keys[game.event - 1].keys;
-}
-
-static int draw_frame(void)
-{
-    const int result = view_submit(game.ctx, &game.race, &game.desc);
+    const int result = view_submit(game.ctx, &game.race, &game.desc, &game.way, frames);
     return result == SMEAR_OK ? smear_render(game.ctx) : result;
+}
+
+/* The frame is drawn twice: blurred, of which the right half is kept, and sharp, into which it is put. Bands are whole rows. */
+static int take_band(void *user, const smear_band *band)
+{
+    const uint32_t bytes = (uint32_t)(game.desc.width / 2) * pixel_bytes();
+    uint8_t *at = (uint8_t *)(uintptr_t)band->pixels + (uint32_t)game.desc.width * pixel_bytes() - bytes;
+    uint8_t *kept = game.half + (uint32_t)band->y * bytes;
+    (void)user;
+    for (int y = 0; game.bands != PASS && y < band->height; y++, at += band->stride, kept += bytes)
+        memcpy(game.bands == KEEP ? kept : at, game.bands == KEEP ? at : kept, bytes);
+    if (game.bands != KEEP)
+        return game.flush(game.user, band);
+    if (game.desc.bands == 2)
+        smear_band_done(game.ctx);
+    return 0;
+}
+
+static int draw_shown(uint32_t frames)
+{
+    int result = SMEAR_OK;
+    game.way.method = game.shows == SHARP ? SMEAR_NONE : SMEAR_AUTO;
+    game.way.split = game.shows == SPLIT;
+    game.bands = game.shows == SPLIT ? KEEP : PASS;
+    if (game.shows == SPLIT)
+        result = draw_frame(frames);
+    if (result == SMEAR_OK && game.shows == SPLIT) {
+        game.way.method = SMEAR_NONE;
+        game.bands = JOIN;
+    }
+    return result == SMEAR_OK ? draw_frame(frames) : result;
 }
 
 /* ------------------------------------------------------------------ the recorded race */
@@ -112,7 +125,8 @@ static uint32_t read_clock(void *user)
     return platform_clock();
 }
 
-/* Drives it to the end, and draws every stepth frame and the one before it. */
+/* Drives it to the end, and draws every stepth frame and those that the board would have shown before it, the first of which begins
+ * after a cut: as a sketch may depend on the frame before, costs are of the fourth. */
 static int replay(const struct screen *screen, uint32_t step, bool costs)
 {
     smear_desc desc = screen->desc;
@@ -122,15 +136,17 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
     desc.debug.crc = !costs;
     desc.debug.clock = costs ? read_clock : NULL;
     platform_clock_start();
-    int result = start(&desc);
+    int result = start(screen, &desc);
+    const uint32_t most = costs ? 3 : 1;
+    uint32_t left = most;           /* frames until the one that counts, of those that are drawn */
     while (result == SMEAR_OK && game.race.finished == 0 && game.race.frame < 10000) {
-        race_step(&game.race, recorded_keys(), true);
-        const uint32_t since = game.race.frame % step;
-        if (since != 0 && since != step - 1)
+        race_step(&game.race, lap_held(&game.lap), true);
+        if ((game.race.frame + left * screen->frames) % step != 0)
             continue;
         const uint32_t before = platform_clock();
-        result = draw_frame();
-        if (since != 0 || result != SMEAR_OK)
+        result = draw_frame(left == most ? 0 : screen->frames);
+        left = left > 0 ? left - 1 : most;
+        if (left != most || result != SMEAR_OK)
             continue;
         const uint32_t cost = platform_clock_count(platform_clock() - before);
         smear_get_stats(game.ctx, &stats);
@@ -160,18 +176,20 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
 
 /* ------------------------------------------------------------------ somebody plays */
 
+enum { MOST = 6 };                  /* frames of the race in a turn: after a pause it does not jump */
+
 static struct {
     uint32_t gone, skipped;         /* frames so far: that the race went on by, and that it did not wait for */
     uint32_t idle;                  /* frames without a key */
     unsigned before;                /* keys of the turn before */
     bool plays_itself;
+    uint32_t counted_since, counted;
 } turn;
 
 /* Returns how many frames of 1/30 s the race goes on by, so that it takes as long on any machine: where one is drawn more slowly
  * some are not drawn. 0: it is too early for the next. */
 static uint32_t frames_due(void)
 {
-    enum { MOST = 6 };      /* after a pause the race does not jump */
     const uint32_t due = display_time() * 3 / 100 - turn.gone - turn.skipped;
     if (due <= MOST)
         return due;
@@ -181,17 +199,44 @@ static uint32_t frames_due(void)
 
 int game_open(const char *name)
 {
-    const struct screen *screen = find_screen(name != NULL ? name : GAME_SCREEN);
+    const struct screen *screen = screen_find(name != NULL ? name : GAME_SCREEN);
     smear_desc desc = { 0 };
     if (screen != NULL)
         desc = screen->desc;
     if (screen == NULL || !display_open(&desc))
         return failed("there is no display for this screen");
-    const int result = start(&desc);
+    game.flush = desc.flush;
+    game.user = desc.user;
+    desc.flush = take_band;
+    desc.reuse.buffer_age = 0;      /* the camera moves */
+    const int result = start(screen, &desc);
     if (result != SMEAR_OK)
         return failed(smear_error_text(result));
     display_attach(game.ctx);
     return 0;
+}
+
+/* Goes on by so many frames, draws the last one and shows it. */
+static int go_on(uint32_t frames, unsigned keys)
+{
+    for (uint32_t i = 0; i < frames; i++)
+        race_step(&game.race, turn.plays_itself ? lap_held(&game.lap) : keys, i == 0);
+    const int result = draw_shown(frames);
+    if (result == SMEAR_OK)
+        display_show();
+    return result;
+}
+
+/* Frames per second, counted for a second. */
+static void count_frame(void)
+{
+    const uint32_t gone = display_time() - turn.counted_since;
+    turn.counted++;
+    if (gone < 1000)
+        return;
+    game.way.rate = (uint16_t)((turn.counted * 1000 + gone / 2) / gone);
+    turn.counted_since += gone;
+    turn.counted = 0;
 }
 
 int game_turn(void)
@@ -201,32 +246,63 @@ int game_turn(void)
     if (due == 0 && display_wait())
         return SMEAR_OK;
     const unsigned keys = display_keys(), pressed = keys & ~turn.before;
+    const bool drives = (keys & ~(unsigned)KEY_A) != 0;
     due = due != 0 ? due : 1;
     turn.before = keys;
     turn.gone += due;
-    turn.idle = keys != 0 ? 0 : turn.idle + due;
-    const bool again = (pressed & KEY_START) != 0 || (turn.plays_itself && keys != 0) || (!turn.plays_itself && turn.idle >= PATIENCE)
+    turn.idle = drives ? 0 : turn.idle + due;
+    const bool again = (pressed & KEY_START) != 0 || (turn.plays_itself && drives) || (!turn.plays_itself && turn.idle >= PATIENCE)
                     || (turn.plays_itself && game.race.finished != 0 && game.race.frame > game.race.finished + 90);
     if (again) {
         turn.plays_itself = turn.idle >= PATIENCE;
-        game.event = game.left = 0;
+        game.lap = (struct lap){ 0 };
         race_begin(&game.race);
     }
-    for (uint32_t i = 0; i < due; i++)
-        race_step(&game.race, turn.plays_itself ? recorded_keys() : keys, i == 0);
-    const int result = draw_frame();
-    if (result == SMEAR_OK)
-        display_show();
-    return result;
+    if ((pressed & KEY_A) != 0)
+        game.shows = game.shows == SHARP ? BLURRED : game.shows == BLURRED && game.half != NULL ? SPLIT : SHARP;
+    game.way.waits = turn.plays_itself;
+    count_frame();
+    return go_on(due, keys);
+}
+
+/* A first frame, of which the others' poses come, is not counted. */
+static int drive(const char *name, uint32_t from, uint32_t count)
+{
+    int result = game_open(name);
+    if (result != 0)
+        return result;
+    while (game.race.frame + 1 < from)
+        race_step(&game.race, lap_held(&game.lap), true);
+    turn.plays_itself = true;
+    uint32_t began = 0, before = 0;
+    for (uint32_t i = 0; i <= count && result == SMEAR_OK; i++) {
+        const uint32_t now = display_time(), due = (now - before) * 3 / 100;
+        before = due > 0 ? before + due * 100 / 3 : now;
+        began = i == 1 ? now : began;
+        result = go_on(due < 1 || i == 0 ? 1 : due > MOST ? MOST : due, 0);
+    }
+    if (result != SMEAR_OK)
+        return failed(smear_error_text(result));
+    const uint32_t tenths = count * 10000 / (display_time() - began);
+    platform_print("frames ");
+    print_decimal(from);
+    platform_print(" to ");
+    print_decimal(game.race.frame);
+    platform_print(": ");
+    print_decimal(tenths / 10);
+    platform_print(".");
+    print_decimal(tenths % 10);
+    platform_print(" per second\n");
+    return 0;
 }
 
 int main(int argc, char **argv)
 {
     const char *command = argc > 1 ? argv[1] : "show";
-    const struct screen *screen = find_screen(argc > 2 ? argv[2] : GAME_SCREEN);
+    const struct screen *screen = screen_find(argc > 2 ? argv[2] : GAME_SCREEN);
     const uint32_t step = argc > 3 ? read_decimal(argv[3]) : 10;
-    if (screen == NULL || step < 2)
-        return failed("usage: game [show | check | cost [SCREEN [STEP]]], SCREEN pico, gba, linux ... (main.c), STEP at least 2");
+    if (screen == NULL || step <= 3u * screen->frames)
+        return failed("usage: game [show | check | cost | drive [SCREEN [STEP]]], SCREEN of screen.c, STEP 10 or more");
     if (is_word(command, "show")) {
         int result = game_open(screen->name);
         if (result != 0)
@@ -235,7 +311,9 @@ int main(int argc, char **argv)
             result = game_turn();
         return failed(smear_error_text(result));
     }
+    if (is_word(command, "drive"))
+        return drive(screen->name, argc > 3 ? step : 60, argc > 4 ? read_decimal(argv[4]) : 30);
     if (is_word(command, "check") || is_word(command, "cost"))
         return replay(screen, step, is_word(command, "cost"));
-    return failed("show, check or cost");
+    return failed("show, check, cost or drive");
 }

@@ -20,7 +20,7 @@ struct shape {
     smear_mesh mesh;
 };
 
-static struct shape car, gate;
+static struct shape car, small_car, gate;
 
 /* Front, right, back, left and top; what lies on the ground is not seen from below. */
 static void add_box(struct shape *s, const struct box *b)
@@ -64,14 +64,18 @@ void view_make(void)
         { -8, 0, -15, 8, 5, -9, 0x505058 }, { -9, 0, 8, 9, 5, 14, 0x505058 }, { -6, 2, -19, 6, 6, 17, 0xffffff },
         { -4, 6, -5, 4, 9, 7, 0x586070 }, { -9, 9, 14, 9, 11, 18, 0xf0f0f0 }
     };
+    static const struct box far_parts[] = { { -8, 0, -17, 8, 6, 15, 0xd8d8d8 }, { -9, 6, 14, 9, 11, 17, 0xf0f0f0 } };
     static const struct box posts[] = {
         { -52, 0, -2, -48, 48, 2, 0xe8e8e8 }, { 48, 0, -2, 52, 48, 2, 0xe8e8e8 }, { -52, 36, -1, 52, 48, 1, 0x2050c0 }
     };
     make_shape(&car, parts, 5);
+    make_shape(&small_car, far_parts, 2);
     make_shape(&gate, posts, 3);
 }
 
 /* ------------------------------------------------------------------ poses */
+
+enum { CAMERA_BACK = 88000 };       /* segments behind the car, q16, at most */
 
 static const smear_vec3 up = { 0, 65536, 0 };
 
@@ -90,7 +94,7 @@ static smear_transform pose_of(const struct race_car *c)
 
 static smear_camera camera_of(const struct race_car *c)
 {
-    const int32_t back = 76000 + scaled(12000, c->speed);
+    const int32_t back = CAMERA_BACK - scaled(12000, race_top_speed() - c->speed);
     const smear_vec3 eye = course_place(c->along - back, c->right / 8 * 7, SMEAR_Q16(3.2));
     const smear_vec3 target = course_place(c->along + 90000, c->right / 8 * 7, SMEAR_Q16(0.6));
     smear_camera camera = smear_perspective(SMEAR_DEGREES(58), SMEAR_Q16(0.5), SMEAR_Q16(170));
@@ -101,17 +105,25 @@ static smear_camera camera_of(const struct race_car *c)
 /* ------------------------------------------------------------------ draws */
 
 /* Numbers by which the library knows from frame to frame what is what. */
-enum { ID_CHUNK = 1, ID_GATE = ID_CHUNK + COURSE_CHUNKS, ID_CAR };
+enum { ID_COURSE = 1, ID_GATE, ID_CAR };
+
+/* Segments, q16, from which cars are small and things are not seen. */
+enum { SMALL = 9 << 16, FAR = COURSE_SEEN << 16 };
+
+/* Segments that a place lies ahead of where a car's camera is, q16. */
+static int32_t ahead_of(const struct race_car *c, int32_t along)
+{
+    const int32_t ahead = (along - c->along + CAMERA_BACK) % COURSE_LAP;
+    return ahead < 0 ? ahead + COURSE_LAP : ahead;
+}
 
 static int submit_course(smear_context *ctx, const struct race_car *c)
 {
     static const smear_material paint = { .unlit = 1 }, post = { .unlit = 1, .double_sided = 1 };
-    const int first = (int)((c->along >> 16) - 2 + COURSE_SEGMENTS) / COURSE_CHUNK;
-    int result = SMEAR_OK;
-    for (int i = first; i < first + VIEW_CHUNKS && result == SMEAR_OK; i++) {
-        const smear_draw draw = { .id = (uint32_t)(ID_CHUNK + i % COURSE_CHUNKS), .mesh = course_chunk(i), .material = &paint };
-        result = smear_submit(ctx, &draw);
-    }
+    const smear_draw course = { .id = ID_COURSE, .mesh = course_ahead(c->along - CAMERA_BACK), .material = &paint };
+    const int result = smear_submit(ctx, &course);
+    if (ahead_of(c, 0) > FAR)
+        return result;
     const smear_transform at = smear_look_at(course_place(0, 0, 0), course_place(65536, 0, 0), up);
     const smear_draw draw = { .id = ID_GATE, .mesh = &gate.mesh, .material = &post, .now = &at };
     return result == SMEAR_OK ? smear_submit(ctx, &draw) : result;
@@ -125,8 +137,12 @@ static int submit_cars(smear_context *ctx, const struct race *race)
     };
     int result = SMEAR_OK;
     for (int i = 0; i < RACE_CARS && result == SMEAR_OK; i++) {
+        const int32_t ahead = ahead_of(&race->car[0], race->car[i].along);
+        if (ahead > FAR)
+            continue;
         const smear_transform pose = pose_of(&race->car[i]);
-        const smear_draw draw = { .id = (uint32_t)(ID_CAR + i), .mesh = &car.mesh, .material = &paint[i], .now = &pose };
+        const struct shape *const seen = ahead < SMALL ? &car : &small_car;
+        const smear_draw draw = { .id = (uint32_t)(ID_CAR + i), .mesh = &seen->mesh, .material = &paint[i], .now = &pose };
         result = smear_submit(ctx, &draw);
     }
     return result;
@@ -150,10 +166,10 @@ static void show_sparks(const struct race *race)
 
 /* ------------------------------------------------------------------ over the picture */
 
-enum { ITEMS = 6, LETTERS = 16 };
+enum { CLOCK, PLACE, WORD, BAR, SPEED, RATE, LEFT, RIGHT, ITEMS, LETTERS = 16 };
 
 static smear_overlay_item item[ITEMS];
-static char text[3][LETTERS];
+static char text[4][LETTERS];
 
 static char *put_number(char *to, uint32_t value, int digits)
 {
@@ -179,7 +195,14 @@ static void put_text(char *to, const char *from)
         ;
 }
 
-static void write_text(const struct race *race)
+static const char *word_of(const struct race *race, const struct view_way *way)
+{
+    if (way->waits)
+        return race->frame % 32 < 22 ? "PRESS START" : "";
+    return race->frame <= RACE_START ? "READY" : race->finished != 0 ? "FINISH" : race->frame < RACE_START + 30 ? "GO" : "";
+}
+
+static void write_text(const struct race *race, const struct view_way *way)
 {
     static const char *const places[RACE_CARS] = { "1ST", "2ND", "3RD", "4TH" };
     const bool runs = race->lap > 0 && race->finished == 0;
@@ -187,41 +210,66 @@ static void write_text(const struct race *race)
     put_text(text[1], "LAP 1/3 ");
     text[1][4] = (char)('0' + (race->lap < 1 ? 1 : race->lap > RACE_LAPS ? RACE_LAPS : race->lap));
     put_text(text[1] + 8, places[race->place - 1]);
-    put_text(text[2], race->frame <= RACE_START ? "READY" : race->finished != 0 ? "FINISH" : race->frame < RACE_START + 30 ? "GO" : "");
+    put_text(text[2], word_of(race, way));
+    put_text(put_number(text[3], way->rate, way->rate < 100 ? 2 : 3), "");
 }
 
-/* A time and a place above, a word in the middle, the speed below. */
-static const smear_overlay *overlay_of(const struct race *race, int16_t width, int16_t height)
+static smear_overlay_item letters(int x, int y, const char *words, const smear_font *font, int scale)
 {
-    static const smear_overlay overlay = { .item = item, .count = ITEMS, .points = &sparks };
-    const bool large = width >= 200;
-    const int16_t letter = large ? 16 : 8, edge = large ? 6 : 2;
-    const uint16_t bar = (uint16_t)(width / 3);
-    write_text(race);
+    return (smear_overlay_item){ .x = (int16_t)x, .y = (int16_t)y, .text = words, .font = font, .scale = (uint8_t)scale };
+}
+
+static void set_color(smear_overlay_item *to, uint32_t rgba)
+{
+    for (int i = 0; i < 4; i++)
+        to->color[i] = (uint8_t)(rgba >> (24 - 8 * i));
+}
+
+static smear_overlay_item box(int x, int y, int width, int height, uint32_t rgba)
+{
+    smear_overlay_item made = { .x = (int16_t)x, .y = (int16_t)y, .width = (uint16_t)width, .height = (uint16_t)height };
+    set_color(&made, rgba);
+    return made;
+}
+
+/* A time and a place above, a word in the middle, the speed below, and frames per second. */
+static const smear_overlay *overlay_of(const struct race *race, const struct view_way *way, int width, int height)
+{
+    static smear_overlay overlay = { .item = item, .points = &sparks };
+    const smear_font *const bold = &smear_font_8x8, *const small = &smear_font_6x8;
+    const int letter = width >= 200 ? 16 : 8, edge = width >= 200 ? 6 : 2, bar = width / 3, low = height - edge - 8;
+    write_text(race, way);
     show_sparks(race);
-    int16_t middle = width;
+    int middle = 0;
     for (const char *c = text[2]; *c != '\0'; c++)
-        middle = (int16_t)(middle - 2 * letter);
-    const smear_font *clock = width < 128 ? &smear_font_6x8 : &smear_font_8x8;       /* beside the place */
-    item[0] = (smear_overlay_item){ .x = edge, .y = edge, .text = text[0], .font = clock, .scale = (uint8_t)(letter / 8) };
-    item[1] = (smear_overlay_item){ .x = (int16_t)(width - edge - 66), .y = edge, .text = text[1], .font = &smear_font_6x8,
-                                    .color = { 255, 240, 150, 255 } };
-    item[2] = (smear_overlay_item){ .x = (int16_t)(middle / 2), .y = (int16_t)(height / 3), .text = text[2],
-                                    .font = &smear_font_8x8, .scale = (uint8_t)(letter / 4), .color = { 255, 225, 60, 255 } };
-    item[3] = (smear_overlay_item){ .x = edge, .y = (int16_t)(height - edge - 5), .width = (uint16_t)(bar + 2), .height = 5,
-                                    .color = { 0, 0, 0, 140 } };
-    item[4] = (smear_overlay_item){ .x = (int16_t)(edge + 1), .y = (int16_t)(height - edge - 4), .height = 3,
-                                    .width = (uint16_t)scaled(bar, race->car[0].speed), .color = { 90, 230, 90, 255 } };
-    item[5] = (smear_overlay_item){ .width = 0 };
+        middle++;
+    const int large = middle * 2 * letter <= width ? letter / 4 : letter / 8;
+    item[CLOCK] = letters(edge, edge, text[0], width < 128 ? small : bold, letter / 8);      /* beside the place */
+    item[PLACE] = letters(width - edge - 66, edge, text[1], small, 1);
+    item[WORD] = letters((width - middle * 8 * large) / 2, height / 3, text[2], bold, large);
+    item[BAR] = box(edge, height - edge - 5, bar + 2, 5, 0x0000008c);
+    item[SPEED] = box(edge + 1, height - edge - 4, scaled(bar, race->car[0].speed), 3, 0x5ae65aff);
+    item[RATE] = letters(width - edge - 18, low, text[3], small, 1);
+    item[LEFT] = letters(width / 2 - 34, low, "SHARP", small, 1);
+    item[RIGHT] = letters(width / 2 + 4, low, "BLUR", small, 1);
+    set_color(&item[PLACE], 0xfff096ff);
+    set_color(&item[WORD], 0xffe13cff);
+    overlay.count = way->split ? ITEMS : way->rate != 0 ? LEFT : RATE;
     return &overlay;
 }
 
-int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc)
+int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc, const struct view_way *way, uint32_t frames)
 {
+    enum { FRAME_US = 33333 };
     const smear_camera camera = camera_of(&race->car[0]);
-    const smear_frame frame = { .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1,
-                                .target = (desc->methods & SMEAR_SET_SKETCH) != 0 ? SMEAR_SKETCH : SMEAR_DRAFT,
-                                .overlay = overlay_of(race, desc->width, desc->height), .shutter.path = SMEAR_PATH_LINE };
+    /* Streaks are as long on slow machines as on fast ones. */
+    const smear_frame frame = {
+        .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
+        .method = way->method, .target = way->target, .samples = way->samples, .budget = way->budget,
+        .overlay = way->bare ? NULL : overlay_of(race, way, desc->width, desc->height),
+        .shutter = { .mode = SMEAR_SHUTTER_FIXED, .reference_hz = 30, .frame_us = (frames != 0 ? frames : 1) * FRAME_US,
+                     .path = SMEAR_PATH_LINE }
+    };
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);

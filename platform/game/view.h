@@ -5,13 +5,24 @@
 
 #include "platform/game/race.h"
 
-/* Draws at most: chunks, a gate, cars. */
-enum { VIEW_CHUNKS = 4, VIEW_DRAWS = VIEW_CHUNKS + 1 + RACE_CARS };
+/* Draws at most: the course, a gate, cars. */
+enum { VIEW_DRAWS = 2 + RACE_CARS };
+
+/* How a frame is drawn, and what lies over it. */
+struct view_way {
+    uint8_t method;                 /* smear_method */
+    uint8_t bare;                   /* 1: nothing lies over the picture */
+    uint8_t waits;                  /* 1: for somebody to press start */
+    uint8_t split;                  /* 1: its left half is shown sharp, its right half blurred */
+    uint16_t rate;                  /* frames per second that are shown; 0: not known */
+    uint16_t target, samples;       /* smear_frame */
+    uint32_t budget;
+};
 
 void view_make(void);
 
-/* Begins a frame of a context of this desc and submits all that is seen of it: a sketch where there is room for it. Returns a
- * smear_result. */
-int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc);
+/* Begins a frame of a context of this desc, so many frames of 1/30 s after the one before, 0: after a cut, and submits all that is
+ * seen of it. Returns a smear_result. */
+int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc, const struct view_way *way, uint32_t frames);
 
 #endif
