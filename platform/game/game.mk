@@ -11,7 +11,8 @@ GAME_SCREEN ?= $(DEMO_SCREEN)
 GAME_STEP   ?= 200
 # The screens whose race game-test drives.
 GAME_CHECKED ?= $(GAME_SCREEN)
-GAME_OBJ    := $(patsubst %.c,$(BUILD)/%.o,$(wildcard platform/game/*.c))
+SOUND_SRC   ?= platform/common/silence.c
+GAME_OBJ    := $(patsubst %.c,$(BUILD)/%.o,$(wildcard platform/game/*.c) platform/sound.c $(SOUND_SRC))
 
 $(BUILD)/platform/game/main.o: CFLAGS += -D'GAME_SCREEN="$(GAME_SCREEN)"'
 

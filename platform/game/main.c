@@ -2,13 +2,15 @@
 /* main.c - a race over three laps.
  *
  *     game [show]                  plays it on the display
- *     game check [SCREEN [STEP]]   drives the recorded race and prints the CRC of every STEPth frame, and the times
+ *     game check [SCREEN [STEP]]   drives the recorded race and prints the CRC of every STEPth frame, the times, and a
+ *                                  checksum of what is heard
  *     game cost [SCREEN [STEP]]    what frames of it cost, in the units of platform.h's clock
  *     game drive [SCREEN [FROM [COUNT]]]   shows COUNT frames of the recorded race from FROM on, as fast as they come: frames per
  *                                          second of the display's clock
  *
  * Keys: left and right steer, down brakes, start begins again, A shows the picture blurred, one half of it sharp, sharp. Who
  * presses none for a while sees the recorded race. */
+#include "platform/game/engine.h"
 #include "platform/game/game.h"
 #include "platform/game/lap.h"
 #include "platform/game/screen.h"
@@ -125,6 +127,17 @@ static uint32_t read_clock(void *user)
     return platform_clock();
 }
 
+/* Returns the checksum with those of a frame. */
+static uint32_t add_samples(uint32_t sum, struct sound_voice *voice)
+{
+    static int16_t sample[SOUND_FRAME];
+    const struct sound_tone tone = engine_tone(&game.race);
+    sound_samples(voice, &tone, sample, SOUND_FRAME);
+    for (int i = 0; i < SOUND_FRAME; i++)
+        sum = (sum ^ (uint16_t)sample[i]) * 16777619u;
+    return sum;
+}
+
 /* Drives it to the end, and draws every stepth frame and those that the board would have shown before it, the first of which begins
  * after a cut: as a sketch may depend on the frame before, costs are of the fourth. */
 static int replay(const struct screen *screen, uint32_t step, bool costs)
@@ -138,9 +151,12 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
     platform_clock_start();
     int result = start(screen, &desc);
     const uint32_t most = costs ? 3 : 1;
+    struct sound_voice voice = { 0 };
+    uint32_t heard = 0;
     uint32_t left = most;           /* frames until the one that counts, of those that are drawn */
     while (result == SMEAR_OK && game.race.finished == 0 && game.race.frame < 10000) {
         race_step(&game.race, lap_held(&game.lap), true);
+        heard = costs ? 0 : add_samples(heard, &voice);
         if ((game.race.frame + left * screen->frames) % step != 0)
             continue;
         const uint32_t before = platform_clock();
@@ -169,7 +185,9 @@ static int replay(const struct screen *screen, uint32_t step, bool costs)
     platform_print(costs ? ", " : ", best lap ");
     if (!costs)
         print_decimal(game.race.best);
-    platform_print(costs ? platform_clock_unit : "");
+    platform_print(costs ? platform_clock_unit : ", sound ");
+    if (!costs)
+        print_hex(heard);
     platform_print("\n");
     return game.race.finished == 0;
 }
@@ -219,8 +237,11 @@ int game_open(const char *name)
 /* Goes on by so many frames, draws the last one and shows it. */
 static int go_on(uint32_t frames, unsigned keys)
 {
-    for (uint32_t i = 0; i < frames; i++)
+    for (uint32_t i = 0; i < frames; i++) {
         race_step(&game.race, turn.plays_itself ? lap_held(&game.lap) : keys, i == 0);
+        const struct sound_tone tone = engine_tone(&game.race);
+        sound_play(&tone);
+    }
     const int result = draw_shown(frames);
     if (result == SMEAR_OK)
         display_show();

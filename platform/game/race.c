@@ -41,6 +41,7 @@ static void strike(struct race *r, int32_t side)
 {
     const struct race_car *c = &r->car[0];
     struct race_spark *oldest = &r->spark[0];
+    r->struck = true;
     for (int i = 0; i < RACE_SPARKS; i++)
         if (r->spark[i].age == 0 || (oldest->age != 0 && r->spark[i].age > oldest->age))
             oldest = &r->spark[i];
@@ -137,6 +138,7 @@ static void count_laps(struct race *r)
 void race_step(struct race *r, unsigned keys, bool seen)
 {
     r->frame++;
+    r->struck = false;
     move_sparks(r, seen);
     if (r->frame <= RACE_START)
         return;

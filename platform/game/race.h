@@ -27,6 +27,7 @@ struct race {
     uint32_t frame, noise;
     int lap;                        /* of the player: 0 before the line, 1 ... */
     uint32_t lap_began, best, finished;         /* frames; 0: not yet */
+    bool struck;                    /* the player's car touched something in this frame */
     int place;                      /* 1 is the first; kept once the race is over */
 };
 

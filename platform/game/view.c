@@ -211,7 +211,7 @@ static void write_text(const struct race *race, const struct view_way *way)
     text[1][4] = (char)('0' + (race->lap < 1 ? 1 : race->lap > RACE_LAPS ? RACE_LAPS : race->lap));
     put_text(text[1] + 8, places[race->place - 1]);
     put_text(text[2], word_of(race, way));
-    put_text(put_number(text[3], way->rate, way->rate < 100 ? 2 : 3), "");
+    put_text(way->rate == 0 ? text[3] : put_number(text[3], way->rate, way->rate < 100 ? 2 : 3), "");
 }
 
 static smear_overlay_item letters(int x, int y, const char *words, const smear_font *font, int scale)
@@ -260,15 +260,13 @@ static const smear_overlay *overlay_of(const struct race *race, const struct vie
 
 int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc, const struct view_way *way, uint32_t frames)
 {
-    enum { FRAME_US = 33333 };
     const smear_camera camera = camera_of(&race->car[0]);
     /* Streaks are as long on slow machines as on fast ones. */
     const smear_frame frame = {
         .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
         .method = way->method, .target = way->target, .samples = way->samples, .budget = way->budget,
         .overlay = way->bare ? NULL : overlay_of(race, way, desc->width, desc->height),
-        .shutter = { .mode = SMEAR_SHUTTER_FIXED, .reference_hz = 30, .frame_us = (frames != 0 ? frames : 1) * FRAME_US,
-                     .path = SMEAR_PATH_LINE }
+        .shutter = { .degrees = (uint16_t)(180 / (frames != 0 ? frames : 1)), .path = SMEAR_PATH_LINE }
     };
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)

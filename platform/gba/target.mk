@@ -48,6 +48,7 @@ SYMBOLS_HOOKS := gba_enter_stage|gba_place
 STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/gba/gba.ld)
 
 DISPLAY_SRC := platform/gba/display.c
+SOUND_SRC   := platform/gba/sound.c
 DEMO_SCREEN := gba
 DEMO_LOOPS  := gba:1 oled:6 gba-full:6
 SHOW = $(SCREENSHOT)

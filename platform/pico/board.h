@@ -9,14 +9,14 @@
 enum { NO_PIN = 255, CHIP_RP2040 = 2040, CHIP_RP2350 = 2350, BUS_PARALLEL = 8 };
 
 #define BOARD(name, chip, width, height, x, y, madctl, inverted, bus, clk, data, rd, cs, dc, reset, light, bus_khz, khz, up, \
-              down, left, right, a, start, level, led, te)                                                               \
+              down, left, right, a, start, level, led, te, sound)                                                        \
     enum {                                                                                                               \
         name##_CHIP = CHIP_##chip, name##_WIDTH = width, name##_HEIGHT = height, name##_X = x, name##_Y = y,             \
         name##_MADCTL = madctl, name##_INVERTED = inverted, name##_BUS = bus, name##_CLK = clk, name##_DATA = data,      \
         name##_RD = rd, name##_CS = cs, name##_DC = dc, name##_RESET = reset, name##_LIGHT = light,                      \
         name##_BUS_KHZ = bus_khz, name##_CLOCK_KHZ = khz, name##_UP = up, name##_DOWN = down, name##_LEFT = left,              \
         name##_RIGHT = right, name##_A = a, name##_START = start, name##_LEVEL = level, name##_LED = led,                \
-        name##_TE = te                                                                                                   \
+        name##_TE = te, name##_SOUND = sound                                                                             \
     };
 #include "boards.h"
 #undef BOARD

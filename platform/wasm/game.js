@@ -2,7 +2,7 @@
 // game.js - the game in a page: its loop, clock, keys and canvas. display.c has the other side.
 "use strict";
 const at = id => document.getElementById(id), canvas = at("picture");
-const KEYS = { ArrowLeft: 4, a: 4, ArrowRight: 8, d: 8, ArrowDown: 2, s: 2, " ": 2, Enter: 32 };
+const KEYS = { ArrowLeft: 4, a: 4, ArrowRight: 8, d: 8, ArrowDown: 2, s: 2, " ": 2, Enter: 32, x: 16 };
 const keysDown = new Set(), pointers = new Map();       // names of keys; bits that fingers hold
 let w, said = "", before = 0, time = 0, shown = 0, ticket = 0, picture, canvasSize = "";
 let counted = { since: 0, frames: 0, spent: 0 };
@@ -80,6 +80,32 @@ at("pads").addEventListener("click", event => {
     setTimeout(() => pointers.delete("key"), 150);
 });
 
+// ------------------------------------------------------------------ the sound
+
+const HZ = 15000;                                       // platform/sound.h
+let audio = null, heard = 0;
+
+at("sound").addEventListener("click", () => {
+    if (audio === null) audio = new AudioContext();
+    else if (audio.state === "running") audio.suspend();
+    else audio.resume();
+    at("sound").classList.toggle("held");
+});
+
+// What a turn sounds like comes after what is heard already; what would come late is left out.
+function hear() {
+    const count = w.wasm_take_samples();
+    if (count === 0 || audio === null || audio.state !== "running") return;
+    const start = Math.max(heard, audio.currentTime + 0.02);
+    if (start > audio.currentTime + 0.3) return;
+    const buffer = audio.createBuffer(1, count, HZ), source = audio.createBufferSource();
+    buffer.getChannelData(0).set(Float32Array.from(new Int16Array(w.memory.buffer, w.wasm_samples(), count), s => s / 65536));
+    source.buffer = buffer;
+    source.connect(audio.destination);
+    source.start(start);
+    heard = start + count / HZ;
+}
+
 // ------------------------------------------------------------------ the picture
 
 // As large as fits, each pixel a square of whole pixels of the screen.
@@ -110,6 +136,7 @@ function turn(now) {
         w.wasm_set(Math.floor(time), held());
         said = "";
         const result = w.game_turn();
+        hear();
         if (result !== 0) return fatal("The race has stopped: error " + result + " " + said);
     } catch (error) {
         return fatal("The race has stopped: " + (error && error.message || error));

@@ -28,6 +28,7 @@ RUN       := node platform/wasm/run.mjs
 RUN_BENCH := $(RUN)
 
 DISPLAY_SRC  := platform/wasm/display.c
+SOUND_SRC    := platform/wasm/sound.c
 DEMO_SCREEN  := linux
 GAME_SCREEN  := page
 GAME_CHECKED := page linux $(if $(PAGE),,pico gba)
