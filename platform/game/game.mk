@@ -46,6 +46,11 @@ game-test: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 game-cost: $(BUILD)/game$(EXE) $(RUN_NEEDS)
 	$(RUN_BENCH) $< cost $(GAME_SCREEN) $(GAME_STEP)
 
+.PHONY: game-rates
+## figures: the game's frames per second while driving, on emulated machines; RATES="pico gba pico2"
+game-rates:
+	$(of_make) sh platform/game_rates.sh $(or $(RATES),pico gba pico2)
+
 # How far the pictures of a screen are from the truth: of this machine, as all machines draw them.
 build/host/game_error: $(call host_objects,tests/target/game_error.c $(filter-out %/main.c,$(wildcard platform/game/*.c)) $(LIB_SRC))
 	$(call say,LD)
@@ -53,6 +58,6 @@ build/host/game_error: $(call host_objects,tests/target/game_error.c $(filter-ou
 	$(HOST_CC) -o $@ $^ -lm
 
 .PHONY: game-error
-## boards: how far the race's pictures on GAME_SCREEN are from the truth, in codes
+## figures: how far the race's pictures on GAME_SCREEN are from the truth, in codes
 game-error: build/host/game_error
 	$< $(GAME_SCREEN)

@@ -57,3 +57,19 @@ pico-hot: build/demo/props.c
 	done
 	sh platform/pico/hot.sh $(BUILD)/hot/build/demo.elf $(HOT_BYTES) $(BUILD)/hot/0:0 $(foreach n,1 2 3 4,$(BUILD)/hot/1:16) > $(BUILD)/hot/hot.ld
 	mv $(BUILD)/hot/hot.ld platform/pico/hot.ld
+
+# The same of the game, but for what is done once or to go through the race up to where it is driven.
+GAME_HOT_BYTES ?= 50000
+
+.PHONY: pico-game-hot
+## again: what of the game lies in a Pico's RAM
+pico-game-hot:
+	@mkdir -p $(BUILD)/hot
+	echo '/* nothing */' > $(BUILD)/hot/hot.ld
+	PICO_HOT=$(abspath $(BUILD)/hot) $(PROJECT) $(BUILD)/hot/build game $(BOARD)
+	for from in 250 500; do \
+	    $(RUN) --exact 1 --profile $(BUILD)/hot/$$from $(BUILD)/hot/build/game.elf drive $(DEMO_SCREEN) $$from 5 || exit 1; \
+	done
+	sh platform/pico/hot.sh $(BUILD)/hot/build/game.elf $(GAME_HOT_BYTES) $(BUILD)/hot/250 $(BUILD)/hot/500 | \
+	    sed 's/pico-hot/pico-game-hot/; /race_step\|demo_main\|find_middle\|smear_math_normalize\|course/d' > $(BUILD)/hot/hot.ld
+	mv $(BUILD)/hot/hot.ld platform/pico/game/hot.ld
