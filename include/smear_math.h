@@ -12,6 +12,7 @@
  *     angles         smear_sin smear_cos
  *     transforms     smear_move smear_scale smear_rotate_x smear_rotate_y smear_rotate_z smear_rotate_axis
  *                    smear_from_euler smear_from_quaternion smear_compose smear_apply smear_inverse_rigid
+ *     shadows        smear_shadow_on smear_blob_under
  *     cameras        smear_look_at smear_focal_from_fov smear_perspective
  *
  * What it does not. No floating point at run time, no 64-bit division, no tables, no state. The bits are equal on all
@@ -374,6 +375,49 @@ static inline smear_transform smear_inverse_rigid(smear_transform t)
                                                               t.origin[2]));
     }
     return inverse;
+}
+
+/* ------------------------------------------------------------------ shadows, of smear_scene.h */
+
+/* Where the blob lies for something of that radius, 127 units at most, above the ground. */
+static inline smear_transform smear_blob_under(smear_vec3 thing, int32_t ground, int32_t radius)
+{
+    const int32_t factor = radius > 127 * 65536 ? 127 * SMEAR_BASIS_ONE : radius * 256;
+    return smear_compose(smear_move(thing.x, ground, thing.z), smear_scale(factor, SMEAR_BASIS_ONE, factor));
+}
+
+/* Takes every place to where its shadow falls on the plane through `point` at right angles to `normal`, in light that comes from
+ * `light`. Both may have any length. A 512th of heights is left, so that the sides that light meets are the fronts. Light along the
+ * plane or from below it is taken for one from two degrees above. */
+static inline smear_transform smear_shadow_on(smear_vec3 point, smear_vec3 normal, smear_vec3 light)
+{
+    int32_t n[3], l[3], i, j;
+    int32_t cosine, over, height;
+    smear_transform t;
+    n[0] = normal.x;
+    n[1] = normal.y;
+    n[2] = normal.z;
+    l[0] = light.x;
+    l[1] = light.y;
+    l[2] = light.z;
+    if (!smear_math_normalize(n, 3))
+        n[1] = 1 << 30;
+    if (!smear_math_normalize(l, 3))
+        l[1] = 1 << 30;
+    cosine = smear_math_product(n[0], l[0]) + smear_math_product(n[1], l[1]) + smear_math_product(n[2], l[2]);       /* q28 */
+    if (cosine < 1 << 23)
+        cosine = 1 << 23;
+    over = (int32_t)(0x7fffffffu / ((uint32_t)cosine >> 13));       /* q16 of 1 / cosine: then by a step of Newton's */
+    over = (int32_t)((int64_t)over * ((1 << 29) - ((int64_t)over * cosine >> 16)) >> 20);                            /* q24 */
+    height = smear_math_narrow(((int64_t)n[0] * point.x + (int64_t)n[1] * point.y + (int64_t)n[2] * point.z) >> 30);
+    for (i = 0; i < 3; i++) {
+        int32_t along = (int32_t)((int64_t)l[i] * over >> 30);          /* q24: per unit of height above the plane */
+        along -= along >> 9;
+        for (j = 0; j < 3; j++)
+            t.basis[3 * i + j] = (i == j ? SMEAR_BASIS_ONE : 0) - (int32_t)((int64_t)along * n[j] >> 30);
+        t.origin[i] = smear_math_narrow((int64_t)along * height >> 24);
+    }
+    return t;
 }
 
 /* ------------------------------------------------------------------ cameras */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_shadow.c - shadows against rays in doubles: from each pixel to the ground, and from there to the light; a round one against
  * the opacity of its mesh there. No pixel is darkened twice. All methods draw them, and blur them. Host only. */
+#include <smear_math.h>
 #include <smear_scene.h>
 
 #include "tests/rig.h"

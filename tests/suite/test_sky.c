@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_sky.c - skies against the elevation of every pixel in doubles, sharp and the mean of instants; the same sky in every format,
  * however the frame is cut; what is refused. Host only. */
+#include <smear_math.h>
 #include <smear_scene.h>
 
 #include "tests/rig.h"

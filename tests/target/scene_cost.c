@@ -4,6 +4,7 @@
  * the units of platform.h's clock. */
 #include "platform/platform.h"
 #include "platform/print.h"
+#include "smear_math.h"
 #include "smear_scene.h"
 
 #include <stdbool.h>

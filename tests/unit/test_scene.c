@@ -3,6 +3,7 @@
  * machine. Needs neither libc nor floating point. */
 #include "tests/test.h"
 
+#include <smear_math.h>
 #include <smear_scene.h>
 
 enum { WIDTH = 80, HEIGHT = 60, ONE = 1 << 16 };
