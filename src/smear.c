@@ -98,7 +98,8 @@ void smear_frame_keep(struct smear_context *c, const smear_frame *f)
     c->frame.layer = NULL;
     c->frame.scene = NULL;
     c->rows.overlay = f->overlay;
-    c->rows.sky = SMEAR_WITH_SKY && f->scene != NULL ? f->scene->sky : NULL;
+    if (SMEAR_WITH_SKY)
+        c->rows.sky = f->scene != NULL ? f->scene->sky : NULL;
 }
 
 /* Cuts at the fog's far plane, and clears to its colour. */

@@ -180,7 +180,7 @@ void smear_row_blend(struct smear_rows *rows, int row)
         return;
     struct row_job job = { .rows = rows, .row = row };
     row_advance_blended(rows, row);
-    if (rows->refill == NULL && rows->blend == SMEAR_NO_TRIANGLE)
+    if (!SMEAR_SMALL_CODE && rows->refill == NULL && rows->blend == SMEAR_NO_TRIANGLE)
         return;
     smear_row_run(rows, blend_job, &job, FILL_BLENDED);
 }

@@ -79,7 +79,8 @@ void smear_sun_make(struct smear_sun *sun, const smear_light *light)
         square += (uint32_t)(d[i] * d[i]);
     }
     const int32_t length = (int32_t)max_u32(length_from(square), 1);        /* 15 to 16 bits */
-    sun->lights = NULL;
+    if (SMEAR_WITH_LIGHTS)
+        sun->lights = NULL;
     sun->white = true;
     for (int i = 0; i < 3; i++) {
         sun->direction[i] = d[i] * 16384 / length;
