@@ -316,7 +316,7 @@ static void blur_columns(const struct smear_lines *lines, const struct smear_win
             blur_within(lines, w, t, x, next, y0, y1);
             continue;
         }
-        next = min_i32(x + LINE_BORDER, x1);
+        next = min_i32((x & -LINE_BORDER) + LINE_BORDER, x1);       /* the same ones, wherever x0 and x1 are */
         struct taps clamped = taps_within(t, -x, w->width - next, t->up, t->down);
         clamped.sparse = false;
         blur_within(lines, w, &clamped, x, next, y0, y1);

@@ -292,6 +292,24 @@ static void test_eight_workers_draw_what_one_does(void)
     }
 }
 
+/* Jobs end at any tile: taps that are cut off at the frame's border are shared by the same pixels wherever. */
+static void test_columns_of_any_job_are_the_same(void)
+{
+    for (int width = 33; width <= 72; width++)
+        for (int kind = 0; kind < KINDS; kind++) {
+            smear_desc desc = sketch_desc();
+            desc.width = (int16_t)width;
+            desc.tile = desc.reach = 8;
+            uint8_t *want = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
+            struct rig r;
+            desc.workers = (uint8_t)(2 + width % 7);
+            if (rig_begin(&r, &desc, false) && draw_by_all(&r, (enum kind)kind) && !CHECK(want != NULL && same_picture(&r, want)))
+                say("    kind %d, %d columns, %d workers\n", kind, width, desc.workers);
+            rig_end(&r);
+            free(want);
+        }
+}
+
 /* Root mean square difference, codes. */
 static double difference(const uint8_t *a, const uint8_t *b, int pixels)
 {
