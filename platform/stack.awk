@@ -11,11 +11,17 @@
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
     reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_work is given, by any file
-    reach["src/display/row.c"] = "(draws\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"         # draws.c: a row whose triangles find no room at once
+    reach["src/display/row.c"] = "(draws\\.c|sky\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"  # draws.c: a row whose triangles find no room at once; skies
+    reach["src/methods/sharp.c"] = reach["src/methods/smooth.c"] = "sky\\.c:fill(\\.|$)"
+    reach["src/frame.c"] = reach["src/accumulate/accumulate.c"] = "sky\\.c:aim(\\.|$)"
+    reach["src/smear.c"] = "lights\\.c:begin(\\.|$)"
+    reach["src/draws.c"] = "lights\\.c:see(\\.|$)"
+    reach["src/geometry/vertex.c"] = "lights\\.c:shade_"
+    reach["src/display/overlay.c"] = "(^|:)(turned|line)_(find_box|draw_row)(\\.|$)"
     reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
-    reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general)(\\.|$)"
+    reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general|level|shadow)(\\.|$)"
     reach["src/raster/raster.h"] = "(^|:)flush_ready(\\.|$)"   # sharp.c: between triangles of a row
     if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"

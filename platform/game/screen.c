@@ -9,7 +9,8 @@
 #define SCREEN(word, w, h, pixels, buffers, px, columns, triangles, also, codes, steps)                                      \
     { .name = word, .frames = steps, .way.target = codes,                                                                \
       .desc = { .width = w, .height = h, .format = pixels, .bands = buffers, .tile = px, .strip = columns,               \
-                .max_triangles = triangles, .max_draws = VIEW_DRAWS, .reuse.one_pose = 1,                                 \
+                .max_triangles = triangles, .max_draws = (also) == 0 ? VIEW_DRAWS + VIEW_SHADOWS : VIEW_DRAWS,           \
+                .reuse.one_pose = 1,                                                                               \
                 .methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_NONE) | (also) } }
 
 static const struct screen screens[] = {

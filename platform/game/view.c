@@ -2,7 +2,9 @@
 /* view.c - see view.h. The camera follows the player's car along the road, so that bends are seen before they come. */
 #include "platform/game/view.h"
 
+#include <smear_math.h>
 #include <smear_overlay.h>
+#include <smear_scene.h>
 
 /* ------------------------------------------------------------------ shapes of boxes */
 
@@ -14,9 +16,10 @@ struct box {
 };
 
 struct shape {
-    int16_t position[BOXES * 8 * 3];
-    uint16_t corner[BOXES * BOX_TRIANGLES * 3];
-    uint8_t color[BOXES * BOX_TRIANGLES * 4];
+    int16_t position[(BOXES * 8 + 4) * 3];
+    uint16_t corner[(BOXES * BOX_TRIANGLES + 2) * 3];
+    uint8_t color[(BOXES * BOX_TRIANGLES + 2) * 4];
+    uint32_t boxes;                 /* triangles without a shadow's, which are the last two */
     smear_mesh mesh;
 };
 
@@ -57,6 +60,23 @@ static void make_shape(struct shape *s, const struct box *box, int count)
     smear_mesh_find_bounds(&s->mesh);
 }
 
+/* A dark patch below a car: the shadow of machines on which a soft one is too dear. */
+static void add_shade(struct shape *s)
+{
+    static const int8_t at[4][3] = { { -9, 1, 16 }, { 9, 1, 16 }, { 9, 1, -17 }, { -9, 1, -17 } };
+    static const uint8_t side[6] = { 0, 1, 2, 0, 2, 3 };
+    smear_mesh *m = &s->mesh;
+    s->boxes = m->triangle_count;
+    for (int i = 0; i < 12; i++)
+        s->position[3 * m->vertex_count + i] = at[i / 3][i % 3];
+    for (int i = 0; i < 6; i++)
+        s->corner[3 * m->triangle_count + (uint32_t)i] = (uint16_t)(m->vertex_count + side[i]);
+    for (int i = 0; i < 8; i++)
+        s->color[4 * m->triangle_count + (uint32_t)i] = i % 4 == 3 ? 255 : 28;
+    m->vertex_count = (uint16_t)(m->vertex_count + 4);
+    m->triangle_count += 2;
+}
+
 void view_make(void)
 {
     /* Wheels in two pairs, the body, a cabin, a wing. Forward is -z. */
@@ -70,6 +90,8 @@ void view_make(void)
     };
     make_shape(&car, parts, 5);
     make_shape(&small_car, far_parts, 2);
+    add_shade(&car);
+    add_shade(&small_car);
     make_shape(&gate, posts, 3);
 }
 
@@ -105,7 +127,7 @@ static smear_camera camera_of(const struct race_car *c)
 /* ------------------------------------------------------------------ draws */
 
 /* Numbers by which the library knows from frame to frame what is what. */
-enum { ID_COURSE = 1, ID_GATE, ID_CAR };
+enum { ID_COURSE = 1, ID_GATE, ID_CAR, ID_SHADOW = ID_CAR + RACE_CARS };
 
 /* Segments, q16, from which cars are small and things are not seen. */
 enum { SMALL = 9 << 16, FAR = COURSE_SEEN << 16 };
@@ -129,7 +151,14 @@ static int submit_course(smear_context *ctx, const struct race_car *c)
     return result == SMEAR_OK ? smear_submit(ctx, &draw) : result;
 }
 
-static int submit_cars(smear_context *ctx, const struct race *race)
+/* What turns and grows with the ground below a car: the blob, as long and as wide as the car. */
+static smear_transform shadow_of(const smear_transform *pose)
+{
+    const smear_transform size = smear_scale(SMEAR_Q24(1.6), SMEAR_BASIS_ONE, SMEAR_Q24(2.9));
+    return smear_compose(*pose, smear_compose(smear_move(0, SMEAR_Q16(0.02), 0), size));
+}
+
+static int submit_cars(smear_context *ctx, const struct race *race, bool soft)
 {
     static const smear_material paint[RACE_CARS] = {
         { .color = { 255, 60, 40, 255 }, .unlit = 1 }, { .color = { 60, 120, 255, 255 }, .unlit = 1 },
@@ -141,9 +170,14 @@ static int submit_cars(smear_context *ctx, const struct race *race)
         if (ahead > FAR)
             continue;
         const smear_transform pose = pose_of(&race->car[i]);
-        const struct shape *const seen = ahead < SMALL ? &car : &small_car;
+        struct shape *const seen = ahead < SMALL ? &car : &small_car;
+        seen->mesh.triangle_count = seen->boxes + (soft ? 0u : 2u);
         const smear_draw draw = { .id = (uint32_t)(ID_CAR + i), .mesh = &seen->mesh, .material = &paint[i], .now = &pose };
+        const smear_transform under = shadow_of(&pose);
+        const smear_draw shadow = { .id = (uint32_t)(ID_SHADOW + i), .mesh = &smear_blob, .material = &smear_blob_material, .now = &under };
         result = smear_submit(ctx, &draw);
+        if (result == SMEAR_OK && soft)
+            result = smear_submit(ctx, &shadow);
     }
     return result;
 }
@@ -260,10 +294,14 @@ static const smear_overlay *overlay_of(const struct race *race, const struct vie
 
 int view_submit(smear_context *ctx, const struct race *race, const smear_desc *desc, const struct view_way *way, uint32_t frames)
 {
+    static smear_sky sky = SMEAR_SKY(0x3a78c8, 0xb8dcf4, 0x8fb08c, 0x4c8044);
+    static const smear_scene scene = { .sky = &sky };
+    const bool rich = desc->width >= 128;       /* on a Game Boy a sky takes an eighth of a frame */
+    const bool soft = desc->max_draws >= VIEW_DRAWS + VIEW_SHADOWS;
     const smear_camera camera = camera_of(&race->car[0]);
     /* Streaks are as long on slow machines as on fast ones. */
     const smear_frame frame = {
-        .camera = &camera, .clear = 0x86c5f0, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
+        .camera = &camera, .clear = 0x86c5f0, .scene = rich ? &scene : NULL, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
         .method = way->method, .target = way->target, .samples = way->samples, .budget = way->budget,
         .overlay = way->bare ? NULL : overlay_of(race, way, desc->width, desc->height),
         .shutter = { .degrees = (uint16_t)(180 / (frames != 0 ? frames : 1)), .path = SMEAR_PATH_LINE }
@@ -271,5 +309,5 @@ int view_submit(smear_context *ctx, const struct race *race, const smear_desc *d
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);
-    return result == SMEAR_OK ? submit_cars(ctx, race) : result;
+    return result == SMEAR_OK ? submit_cars(ctx, race, soft) : result;
 }

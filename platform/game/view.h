@@ -5,8 +5,8 @@
 
 #include "platform/game/race.h"
 
-/* Draws at most: the course, a gate, cars. */
-enum { VIEW_DRAWS = 2 + RACE_CARS };
+/* Draws at most: the course, a gate, cars; and, where a desc has room for them, soft shadows of these. */
+enum { VIEW_DRAWS = 2 + RACE_CARS, VIEW_SHADOWS = RACE_CARS };
 
 /* How a frame is drawn, and what lies over it. */
 struct view_way {

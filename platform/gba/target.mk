@@ -18,8 +18,8 @@ LDLIBS  += -lgcc
 $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CFLAGS += -marm
 
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
-# Fog makes hot functions larger than fast memory has room for.
-CFLAGS += -DSMEAR_WITH_FOG=0
+# Fog makes hot functions larger than fast memory has room for, further lights the stack.
+CFLAGS += -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_LIGHTS=0
 CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_SMALL_CODE=0 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
 $(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/filter/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o $(BUILD)/src/raster/tiny_draw.o: CFLAGS += -Os
 

@@ -9,7 +9,7 @@ include platform/cortexm/cortexm.mk
 # What the panel has no use for takes memory of strips: the rest goes to triangles. Golden frames want it: cortex-m3 draws
 # them, with the same instructions.
 CFLAGS       += -DSMEAR_WITH_LINEAR=0 -DSMEAR_WITH_TIMEMASK=0 -DSMEAR_WITH_CURVES=0 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 \
-                -DSMEAR_WITH_FILTERS=0
+                -DSMEAR_WITH_FILTERS=0 -DSMEAR_WITH_LIGHTS=0
 TARGET_TESTS :=
 
 DISPLAY_SRC := platform/lm3s6965evb/display.c

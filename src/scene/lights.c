@@ -378,7 +378,7 @@ SMEAR_INLINE void shade(struct smear_color *out, const struct smear_assembly *d,
     out->channel[3] = (uint16_t)alpha;
 }
 
-static void shade_face(struct smear_color *out, const struct smear_assembly *d, const struct smear_face *face)
+static void shade_middle(struct smear_color *out, const struct smear_assembly *d, const struct smear_face *face)
 {
     struct fall f;
     light_face(&f, &d->lights, d, face);
@@ -514,6 +514,6 @@ static bool see(struct smear_lights_seen *l, const struct smear_lights_used *use
     return l->has_lamp || l->has_second || l->gloss != 0;
 }
 
-const struct smear_shader smear_lights_shader = { begin, see, shade_face };
+const struct smear_shader smear_lights_shader = { begin, see, shade_middle };
 
 #endif
