@@ -301,7 +301,8 @@ int view_submit(smear_context *ctx, const struct race *race, const smear_desc *d
     const smear_camera camera = camera_of(&race->car[0]);
     /* Streaks are as long on slow machines as on fast ones. */
     const smear_frame frame = {
-        .camera = &camera, .clear = 0x86c5f0, .scene = rich ? &scene : NULL, .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
+        .camera = &camera, .clear = 0x86c5f0, .scene = rich ? &scene : NULL,
+        .light_space = SMEAR_LIGHT_ENCODED, .cut = race->frame <= 1 || frames == 0,
         .method = way->method, .target = way->target, .samples = way->samples, .budget = way->budget,
         .overlay = way->bare ? NULL : overlay_of(race, way, desc->width, desc->height),
         .shutter = { .degrees = (uint16_t)(180 / (frames != 0 ? frames : 1)), .path = SMEAR_PATH_LINE }

@@ -35,7 +35,8 @@ static int32_t step_of(const smear_camera *camera, int32_t width, int32_t height
         return 0;
     const int zeros = count_leading_zeros_64(x), shift = 53 - zeros;
     const uint64_t step = ((uint64_t)recip_norm_precise((uint32_t)(x << zeros >> 32)) << 10) >> (shift + 10);
-    const uint64_t most = (1u << 30) / (uint32_t)max_i32(width, height);
+    /* Half pixels of points beside the frame, by a span of its width or of eight pixels at most, times that have 31 bits. */
+    const uint64_t most = (1u << 30) / (3u * (uint32_t)max_i32(width, height) + 16u);
     return (int32_t)(step < most ? step : most);
 }
 
@@ -106,7 +107,7 @@ static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smea
     int rows = 0, span = SPAN_LEAST;
     while (1 << rows < ROWS_MOST && contrast * pixel << (rows + 1) <= 4u << 20)
         rows++;
-    for (uint32_t wide = pixel << (SPAN_LEAST + 1) >> 8; span < SPAN_MOST && wide < 1u << 12; wide *= 2) {
+    for (uint32_t wide = pixel << (SPAN_LEAST + 1) >> 8; span < SPAN_MOST && 2 << span <= width && wide < 1u << 12; wide *= 2) {
         if (contrast * (wide * wide >> 12) > 12u << 12)
             break;
         span++;

@@ -5,7 +5,6 @@
 #include "tools/image/buffer.h"
 #include "tools/model/obj_text.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,7 +87,7 @@ bool segments_to_header(const uint8_t *bytes, size_t size, double scale, const c
     if (!obj_text_open(bytes, size, &r.text, f))
         return false;
     for (size_t i = 0; name[i] != '\0' && i + 1 < sizeof big; i++)
-        big[i] = (char)toupper((unsigned char)name[i]);
+        big[i] = (char)(name[i] >= 'a' && name[i] <= 'z' ? name[i] - 'a' + 'A' : name[i]);
     buffer_print(&r.out, "/* %s.h - ", name);
     for (; *from != '\0'; from++)               /* nothing that ends the comment */
         buffer_byte(&r.out, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);

@@ -274,7 +274,7 @@ static bool fill_fog(struct presented *out, const struct present_fog *fog, struc
 
 static uint16_t channel_of(unsigned color, int channel, double part)
 {
-    return (uint16_t)lrint(65535 * part * present_srgb_decode((uint8_t)(color >> (16 - 8 * channel))));
+    return (uint16_t)(65535 * part * present_srgb_decode((uint8_t)(color >> (16 - 8 * channel))) + 0.5);
 }
 
 /* Makes a direction of the library's of one of any length. */
