@@ -17,7 +17,7 @@ LDFLAGS += --target=wasm32 -nostdlib -Wl,--no-entry -Wl,--gc-sections -Wl,--stri
 # PAGE=1: the game alone, as the page has it.
 ifeq ($(PAGE),1)
 BUILD  := $(BUILD)/page
-CFLAGS += -Os -DSMEAR_WITH_ALL=0 $(foreach switch,SUBFRAMES OVERLAY RGB BOUNDS,-DSMEAR_WITH_$(switch)=1)
+CFLAGS += -Os -DSMEAR_WITH_ALL=0 $(foreach switch,SUBFRAMES OVERLAY RGB BOUNDS SKY,-DSMEAR_WITH_$(switch)=1)
 # What moves cars takes a small part of a frame.
 $(BUILD)/platform/game/%.o: CFLAGS += -Oz
 endif
