@@ -31,4 +31,4 @@ DISPLAY_SRC  := platform/wasm/display.c
 SOUND_SRC    := platform/wasm/sound.c
 DEMO_SCREEN  := linux
 GAME_SCREEN  := page
-GAME_CHECKED := page linux $(if $(PAGE),,pico gba)
+GAME_CHECKED := page $(if $(PAGE),,linux pico gba)
