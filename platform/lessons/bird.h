@@ -24,10 +24,10 @@
 #define BIRD_NODE_RIGHT_HAND 5
 
 static const smear_material bird_material[4] = {
-    { 0, { 243, 243, 239, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0 },
-    { 0, { 243, 160, 48, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0 },
-    { 0, { 179, 188, 200, 255 }, SMEAR_OPAQUE, 0, 0, 1, 0 },
-    { 0, { 63, 63, 75, 255 }, SMEAR_OPAQUE, 0, 0, 1, 0 },
+    { 0, { 243, 243, 239, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 },
+    { 0, { 243, 160, 48, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 },
+    { 0, { 179, 188, 200, 255 }, SMEAR_OPAQUE, 0, 0, 1, 0, 0, 0 },
+    { 0, { 63, 63, 75, 255 }, SMEAR_OPAQUE, 0, 0, 1, 0, 0, 0 },
 };
 
 static const int16_t bird_position_0[75] = {

@@ -19,7 +19,7 @@ static const uint16_t side[] = {
 static uint16_t planks[32 * 32];
 static const smear_mesh crate = { corner, 0, corner_uv, 0, 0, side, 12, 24, 10, 0, 0, { 0, 0, 0 }, { 0 } };
 static const smear_texture texture = { planks, 0, 32, 32, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP, 0 };
-static const smear_material wood = { &texture, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0 };
+static const smear_material wood = { &texture, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 };
 static uint64_t memory[SMEAR_MEMORY(WIDTH, HEIGHT, TRIANGLES, DRAWS)];
 
 static int flush(void *frame, const smear_band *band)   /* takes finished rows, top to bottom: 0x00RRGGBB */
