@@ -304,6 +304,30 @@ static void light_face(struct fall *f, const struct smear_lights_seen *l, const 
 
 /* ------------------------------------------------------------------ colours */
 
+/* Returns what a channel of material, vertex and face is together, 65535 is one; null: white. */
+static inline uint32_t shading_channel(const struct smear_shading *s, int i, const uint8_t *color, const uint8_t *face_color)
+{
+    uint32_t c = s->base[i];
+    if (color != NULL)
+        c = times_lin(c, smear_srgb_decode[color[i]]);
+    return face_color != NULL ? times_lin(c, smear_srgb_decode[face_color[i]]) : c;
+}
+
+static inline uint16_t shading_alpha(const struct smear_shading *s, const uint8_t *color, const uint8_t *face_color)
+{
+    uint32_t alpha = s->base[3];
+    if (color != NULL)
+        alpha = times_lin(alpha, color[3] * 257u);
+    return (uint16_t)(face_color != NULL ? times_lin(alpha, face_color[3] * 257u) : alpha);
+}
+
+/* Returns a channel of linear light as a working value. */
+static inline uint16_t shading_value(const struct smear_shading *s, uint32_t c)
+{
+    c = min_u32(c, 65535u);
+    return shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
+}
+
 /* Returns the share of the sun that a highlight has, q16. */
 static uint32_t highlight(const struct smear_lights_seen *l, const struct fall *f)
 {
@@ -332,21 +356,9 @@ SMEAR_INLINE uint32_t sum_of(const struct smear_assembly *d, const struct fall *
 static SMEAR_NOINLINE void put_color(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                                      const uint8_t face_color[4], uint32_t light)
 {
-    for (int i = 0; i < 3; i++) {
-        uint32_t c = s->base[i];
-        if (color != NULL)
-            c = times_lin(c, smear_srgb_decode[color[i]]);
-        if (face_color != NULL)
-            c = times_lin(c, smear_srgb_decode[face_color[i]]);
-        c = min_u32(c * light >> 16, 65535u);
-        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
-    }
-    uint32_t alpha = s->base[3];
-    if (color != NULL)
-        alpha = times_lin(alpha, color[3] * 257u);
-    if (face_color != NULL)
-        alpha = times_lin(alpha, face_color[3] * 257u);
-    out->channel[3] = (uint16_t)alpha;
+    for (int i = 0; i < 3; i++)
+        out->channel[i] = shading_value(s, shading_channel(s, i, color, face_color) * light >> 16);
+    out->channel[3] = shading_alpha(s, color, face_color);
 }
 
 /* Shades a colour: as smear_shade, but of all lights, and with the highlight on top of it. */
@@ -357,25 +369,12 @@ SMEAR_INLINE void shade(struct smear_color *out, const struct smear_assembly *d,
     const uint32_t on_top = d->lights.gloss != 0 ? highlight(&d->lights, f) : 0;
     uint32_t light = sum_of(d, f, 0);
     for (int i = 0; i < 3; i++) {
-        uint32_t c = s->base[i];
         if (!d->lights.is_white)
             light = sum_of(d, f, i);
-        if (color != NULL)
-            c = times_lin(c, smear_srgb_decode[color[i]]);
-        if (face_color != NULL)
-            c = times_lin(c, smear_srgb_decode[face_color[i]]);
-        c = c * light >> 16;
-        if (on_top != 0)
-            c += (uint32_t)s->sun->diffuse[i] * on_top >> 16;
-        c = min_u32(c, 65535u);
-        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
+        const uint32_t more = on_top != 0 ? (uint32_t)s->sun->diffuse[i] * on_top >> 16 : 0;
+        out->channel[i] = shading_value(s, (shading_channel(s, i, color, face_color) * light >> 16) + more);
     }
-    uint32_t alpha = s->base[3];
-    if (color != NULL)
-        alpha = times_lin(alpha, color[3] * 257u);
-    if (face_color != NULL)
-        alpha = times_lin(alpha, face_color[3] * 257u);
-    out->channel[3] = (uint16_t)alpha;
+    out->channel[3] = shading_alpha(s, color, face_color);
 }
 
 static void shade_middle(struct smear_color *out, const struct smear_assembly *d, const struct smear_face *face)

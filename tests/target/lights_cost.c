@@ -89,9 +89,11 @@ static bool report(const char *name, smear_light_space light, const smear_lights
     const smear_scene scene = { .lights = lights };
     const uint32_t bare = cost(light, NULL, 0), lit = cost(light, &scene, gloss);
     platform_print(name);
-    print_decimal((lit - bare) / VERTICES);
+    const uint32_t tenths = (lit < bare ? bare - lit : lit - bare) * 10 / VERTICES;
+    platform_print(lit < bare ? "-" : "");
+    print_decimal(tenths / 10);
     platform_print(".");
-    print_decimal((lit - bare) * 10 / VERTICES % 10);
+    print_decimal(tenths % 10);
     platform_print(" of ");
     print_decimal(bare);
     platform_print("\n");
