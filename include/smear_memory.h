@@ -82,7 +82,7 @@ static inline size_t smear_memory_needed(int result)
 #define SMEAR_TRIANGLES_BYTES_(t) ((t) * (SMEAR_TEMPORAL_TRIANGLE_BYTES + 8u) + (t) / 192u)
 /* Instants, sums, depths and finished pixels of a strip; what is known of a row's tiles and blocks of 8 x 8 pixels. */
 #define SMEAR_STRIP_BYTES_(w, T, columns) \
-    ((columns) * (T) * 14u + 512u + ((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
+    ((columns) * (T) * 14u + ((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
 #define SMEAR_WORKER_BYTES_(w, T) SMEAR_STRIP_BYTES_(w, T, SMEAR_COLUMNS_(w))
 /* Colour and depth of a row of tiles; the band; the last triangles of each row. */
 #define SMEAR_ROWS_BYTES_(w, h, T, bits) \
@@ -94,7 +94,7 @@ static inline size_t smear_memory_needed(int result)
 #define SMEAR_SKETCH_COLUMNS_(w, T) ((T) == 8u ? SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u) : (w) > 128u ? 144u : SMEAR_UP_(w, T))
 #define SMEAR_SKETCH_ROWS_(w, h, T, bits) \
     (SMEAR_STRIP_BYTES_(w, T, SMEAR_SKETCH_COLUMNS_(w, T)) + (w) * (3u * (T) + SMEAR_REACH_(h)) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
-     + (SMEAR_SKETCH_COLUMNS_(w, T) * (T) * 10u + 512u < (w) * (T) * 4u ? (w) * (T) * 4u : 0u) + SMEAR_UP_(w, 8u) * (T) * 5u / 8u \
+     + (SMEAR_SKETCH_COLUMNS_(w, T) * (T) * 10u < (w) * (T) * 4u ? (w) * (T) * 4u : 0u) + SMEAR_UP_(w, 8u) * (T) * 5u / 8u \
      + ((h) + (T) - 1u) / (T) * 36u + 256u)
 #define SMEAR_SKETCH_TWICE_(d) (SMEAR_MIN_(3u * (d), 65536u - (d)) * SMEAR_SEGMENT_BYTES + (d) * SMEAR_FLOW_BYTES)
 #define SMEAR_SKETCH_OF_(w, h, t, d, f, ...) \

@@ -61,12 +61,9 @@ struct subframes {
     struct smear_space *space;  /* of the segment that was asked for last */
     int32_t shift[2];           /* smooth edges: how far what moves is shifted along x and y at this instant, q8 px */
 
-    /* What may be seen in the tile. Triangles beyond those listed are found by walking on from here. */
-    uint32_t *listed;           /* moving triangles, then blended triangles */
-    int32_t fills;              /* of the store that it took to list them; or 0 */
-    uint32_t moving_listed, all_listed;
-    uint32_t moving_rest, blend_rest;
-    uint32_t moving_seen;       /* moving triangles that may be seen, whether they are listed or not */
+    /* What may be seen in the tile. */
+    int32_t fills;              /* of the store that it took to find out */
+    uint32_t moving_seen;       /* moving triangles */
     bool closes;                /* gaps, for which it counts what is in front */
     uint32_t lowest, highest;   /* depth codes of the background; 0 where none are closed */
     uint32_t nearest;           /* nothing that moves or is blended comes nearer */

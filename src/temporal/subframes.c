@@ -18,15 +18,11 @@
 #include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
-enum {
-    LISTED = 128,               /* triangles of the tiles that are remembered; others are looked for at each instant */
-    SUM_WORDS = 2               /* of a packed sum */
-};
+enum { SUM_WORDS = 2 };         /* of a packed sum */
 
 size_t smear_subframes_work(int32_t width, int32_t height)
 {
-    return (size_t)(width * height) * (SUM_WORDS * sizeof(uint32_t) + sizeof(uint16_t))
-         + LISTED * sizeof(uint32_t);
+    return (size_t)(width * height) * (SUM_WORDS * sizeof(uint32_t) + sizeof(uint16_t));
 }
 
 /* ------------------------------------------------------------------ lists of the tile */
@@ -83,54 +79,14 @@ static void end_list(struct subframes *f, const struct subframe_box *whole)
     }
 }
 
-/* Lists what may be seen. True when something moves. */
-static SMEAR_NOINLINE bool list(struct subframes *f)
-{
-    const struct smear_tile_run *t = f->t;
-    const struct smear_bins *g = t->frame->bins;
-    uint32_t n = 0;
-    const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
-    begin_list(f, &whole);
-    for (f->moving_rest = 0; f->moving_rest < t->moving_count && n < LISTED; f->moving_rest++) {
-        const struct smear_moving_triangle *m = &t->moving[f->moving_rest];
-        if (subframes_see(f, m)) {
-            f->listed[n++] = m->triangle;
-            note(f, m);
-        }
-    }
-    for (uint32_t i = f->moving_rest; i < t->moving_count; i++)
-        if (subframes_see(f, &t->moving[i]))
-            note(f, &t->moving[i]);
-    bool moves = n != 0;
-    f->moving_listed = n;
-    f->blends = false;
-    for (f->blend_rest = t->blend; f->blend_rest != SMEAR_NO_TRIANGLE && n < LISTED;) {
-        if (touches(f, f->blend_rest)) {
-            f->listed[n++] = f->blend_rest;
-            note_blended(f, f->blend_rest, &moves);
-        }
-        f->blend_rest = bins_triangle(g, f->blend_rest)->next;
-    }
-    f->all_listed = n;
-    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE && !(f->blends && moves && !f->plans); i = bins_triangle(g, i)->next)
-        if (touches(f, i))
-            note_blended(f, i, &moves);
-    if (!f->blends)
-        f->blend_rest = SMEAR_NO_TRIANGLE;
-    end_list(f, &whole);
-    return moves;
-}
-
 /* ------------------------------------------------------------------ several fills */
 
-/* Begins to go through triangles of the tiles that come in several fills, or goes on: then none are listed. */
+/* Begins to go through triangles of the tiles that come in several fills, or goes on. */
 static bool fill(struct subframes *f, int kinds, bool next)
 {
     if (!f->refilled->fill(f->refilled, kinds, next))
         return false;
     f->space->segment = NULL;           /* segments are others now */
-    f->moving_listed = f->all_listed = f->moving_rest = 0;
-    f->blend_rest = f->refilled->blend;
     return true;
 }
 
@@ -151,13 +107,11 @@ static void draw_moving_triangle(const struct subframes *f, struct smear_raster_
     }
 }
 
-static void draw_listed(const struct subframes *f, int32_t time, struct subframe_box *all)
+static void draw_filled(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     struct smear_raster_pass pass;
     smear_raster_begin(&pass, f->t->frame, &f->work);
-    for (uint32_t i = 0; i < f->moving_listed; i++)
-        draw_moving_triangle(f, &pass, f->listed[i], time, all);
-    for (uint32_t i = f->moving_rest; i < f->t->moving_count; i++)
+    for (uint32_t i = 0; i < f->t->moving_count; i++)
         if (subframes_see(f, &f->t->moving[i]))
             draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
 }
@@ -165,10 +119,10 @@ static void draw_listed(const struct subframes *f, int32_t time, struct subframe
 static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
 {
     if (f->refilled == NULL)
-        draw_listed(f, time, all);
+        draw_filled(f, time, all);
     else
         for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
-            draw_listed(f, time, all);
+            draw_filled(f, time, all);
 }
 
 enum blend_step {
@@ -183,7 +137,7 @@ static void blend_one(const struct subframes *f, struct smear_raster_pass *pass,
     const struct smear_bins *g = f->t->frame->bins;
     bool moves = g->segment[bins_triangle(g, triangle)->segment].path;
     struct posed p;
-    if ((step == BLEND_BOX && !moves) || (step == BLEND_BACKGROUND && moves))
+    if ((step == BLEND_BOX && !moves) || (step == BLEND_BACKGROUND && moves) || (moves && !touches(f, triangle)))
         return;
     for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f))
         if (step == BLEND_BOX)
@@ -192,16 +146,13 @@ static void blend_one(const struct subframes *f, struct smear_raster_pass *pass,
             draw(&p, pass);
 }
 
-static SMEAR_RARE void blend_listed(const struct subframes *f, int32_t time, enum blend_step step,
+static SMEAR_RARE void blend_filled(const struct subframes *f, int32_t time, enum blend_step step,
                                     const struct smear_raster_target *target, struct subframe_box *all)
 {
     struct smear_raster_pass pass;
     if (step != BLEND_BOX)
         smear_raster_begin(&pass, f->t->frame, target);
-    for (uint32_t i = f->moving_listed; i < f->all_listed; i++)
-        blend_one(f, &pass, f->listed[i], time, step, all);
-    for (uint32_t i = f->blend_rest; i != SMEAR_NO_TRIANGLE;
-         i = bins_triangle(f->t->frame->bins, i)->next)
+    for (uint32_t i = f->t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(f->t->frame->bins, i)->next)
         blend_one(f, &pass, i, time, step, all);
 }
 
@@ -209,10 +160,10 @@ static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_step 
                              const struct smear_raster_target *target, struct subframe_box *all)
 {
     if (f->refilled == NULL)
-        blend_listed(f, time, step, target, all);
+        blend_filled(f, time, step, target, all);
     else
         for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
-            blend_listed(f, time, step, target, all);
+            blend_filled(f, time, step, target, all);
 }
 
 /* The work planes within a box. */
@@ -247,9 +198,9 @@ static struct subframe_box draw_instant(struct subframes *f, int32_t time)
     return all;
 }
 
-/* Does what list() does, where nothing can be listed: the same, as instants depend on it. The store has the first triangles. Those
- * that move are drawn in the middle of the exposure with it, where that is `wanted`. */
-static SMEAR_RARE bool list_refilled(struct subframes *f, bool wanted, struct subframe_box *middle)
+/* Finds what may be seen, fill by fill; true when something moves. What moves is drawn in the middle of the exposure with it, where
+ * that is `wanted`. */
+static SMEAR_NOINLINE bool list(struct subframes *f, bool wanted, struct subframe_box *middle)
 {
     const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
@@ -265,9 +216,9 @@ static SMEAR_RARE bool list_refilled(struct subframes *f, bool wanted, struct su
             if (touches(f, i))
                 note_blended(f, i, &moves);
         if (wanted)
-            draw_listed(f, time, middle);
+            draw_filled(f, time, middle);
         f->fills++;
-    } while (fill(f, FILL_MOVING | FILL_BLENDED, true));
+    } while (f->refilled != NULL && fill(f, FILL_MOVING | FILL_BLENDED, true));
     end_list(f, &whole);
     if (wanted && f->blends)
         blend_instant(f, time, middle);
@@ -293,8 +244,8 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
 /* Returns what an instant costs, about, in instructions. */
 static uint32_t cost_of(const struct subframes *f, const struct subframe_box *box)
 {
-    enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000 };
-    return min_u32(f->moving_seen, LISTED) * TRIANGLE + (uint32_t)pixels_in(box) * PIXEL + RUN;
+    enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000, MOST = 128 };
+    return min_u32(f->moving_seen, MOST) * TRIANGLE + (uint32_t)pixels_in(box) * PIXEL + RUN;
 }
 
 /* Returns the least number from `part` of n, in 1/256, on that shares no divisor with n. */
@@ -425,15 +376,14 @@ static inline void make(struct subframes *f, struct smear_space *space, const st
     };
     space->segment = NULL;
     space->seen = 0;
-    f->listed = (uint32_t *)t->work;
-    f->sums = packed_sums_in(f->listed + LISTED, pixels);
+    f->sums = packed_sums_in((uint32_t *)t->work, pixels);
     f->work = *s;
     f->work.velocity8 = NULL;
     f->work.velocity16 = NULL;
     f->work.inspect = NULL;
     f->work.moving = NULL;
     f->work.color = t->out;
-    f->work.depth = (uint16_t *)(void *)(f->listed + LISTED + SUM_WORDS * pixels);
+    f->work.depth = (uint16_t *)(void *)((uint32_t *)t->work + SUM_WORDS * pixels);
     f->work.color_rows = f->work.window_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
 }
 
@@ -457,14 +407,12 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     smear_subframe_take_background(&f);
     struct subframe_box middle = no_box;
     uint32_t samples = 0;
-    if (f.refilled != NULL ? list_refilled(&f, f.plans, &middle) : list(&f)) {
+    if (list(&f, f.plans, &middle)) {
         all = no_box;
         if (is_still && !f.blends) {
             all = draw_instant(&f, SHUTTER_CLOSE / 2);
             return (uint32_t)pixels_in(&all);
         }
-        if (f.plans && f.refilled == NULL)
-            middle = draw_instant(&f, smear_shutter_instant(t->shutter, 0, 1));
         samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)
@@ -483,7 +431,7 @@ uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int3
     struct subframe_box all = no_box;
     make(&f, &space, t, 1);
     const struct subframe_box box = { max_i32(x0 & ~15, f.work.x0), f.work.y0, min_i32((x1 + 15) & ~15, f.work.x1), f.work.y1 };
-    f.work.color = f.listed + LISTED;       /* of no use to anybody */
+    f.work.color = (uint32_t *)t->work;       /* of no use to anybody */
     smear_subframe_restore_depth(&f, &box);
     f.work = within(&f, &box);
     part.background.x0 = box.x0;
