@@ -81,21 +81,21 @@ static inline size_t smear_memory_needed(int result)
 /* Entries, vertices, a place in a row's list; a segment for each 50000 words. */
 #define SMEAR_TRIANGLES_BYTES_(t) ((t) * (SMEAR_TEMPORAL_TRIANGLE_BYTES + 8u) + (t) / 192u)
 /* Instants, sums, depths and finished pixels of a strip; what is known of a row's tiles and blocks of 8 x 8 pixels. */
-#define SMEAR_STRIP_BYTES_(w, T, columns) \
-    ((columns) * (T) * 14u + ((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
-#define SMEAR_WORKER_BYTES_(w, T) SMEAR_STRIP_BYTES_(w, T, SMEAR_COLUMNS_(w))
+#define SMEAR_STRIP_BYTES_(T, columns) ((columns) * (T) * 14u)
+#define SMEAR_TILES_BYTES_(w, T) (((w) + (T) - 1u) / (T) * 21u + SMEAR_UP_(w, 8u) * (T) / 8u)
+#define SMEAR_WORKER_BYTES_(w, T) SMEAR_STRIP_BYTES_(T, SMEAR_COLUMNS_(w))
 /* Colour and depth of a row of tiles; the band; the last triangles of each row. */
 #define SMEAR_ROWS_BYTES_(w, h, T, bits) \
-    (SMEAR_WORKER_BYTES_(w, T) + (w) * SMEAR_MIN_(T, h) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
+    (SMEAR_WORKER_BYTES_(w, T) + SMEAR_TILES_BYTES_(w, T) + (w) * SMEAR_MIN_(T, h) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
      + ((h) + (T) - 1u) / (T) * 12u)
 /* Sketches: at least the reach; two tile rows and the reach of colour and depth, and one more that lines have blurred, and once more
  * its colours where sums have no room for them; what blocks of four rows show, and what moves by itself there. Draws have flows. */
 #define SMEAR_SKETCH_TILE_(h) ((h) <= 179 ? 8u : (h) <= 339 ? 16u : (h) <= 659 ? 32u : 64u)
 #define SMEAR_SKETCH_COLUMNS_(w, T) ((T) == 8u ? SMEAR_MIN_(SMEAR_UP_(w, 8u), 64u) : (w) > 128u ? 144u : SMEAR_UP_(w, T))
 #define SMEAR_SKETCH_ROWS_(w, h, T, bits) \
-    (SMEAR_STRIP_BYTES_(w, T, SMEAR_SKETCH_COLUMNS_(w, T)) + (w) * (3u * (T) + SMEAR_REACH_(h)) * 6u + SMEAR_BAND_BYTES_(w, T, bits) \
+    (SMEAR_STRIP_BYTES_(T, SMEAR_SKETCH_COLUMNS_(w, T)) + SMEAR_TILES_BYTES_(w, T) + (w) * (3u * (T) + SMEAR_REACH_(h)) * 6u \
      + (SMEAR_SKETCH_COLUMNS_(w, T) * (T) * 10u < (w) * (T) * 4u ? (w) * (T) * 4u : 0u) + SMEAR_UP_(w, 8u) * (T) * 5u / 8u \
-     + ((h) + (T) - 1u) / (T) * 36u + 256u)
+     + SMEAR_BAND_BYTES_(w, T, bits) + ((h) + (T) - 1u) / (T) * 36u + 256u)
 #define SMEAR_SKETCH_TWICE_(d) (SMEAR_MIN_(3u * (d), 65536u - (d)) * SMEAR_SEGMENT_BYTES + (d) * SMEAR_FLOW_BYTES)
 #define SMEAR_SKETCH_OF_(w, h, t, d, f, ...) \
     ((SMEAR_FIXED_BYTES_ + SMEAR_TRIANGLES_BYTES_((size_t)(t) != 0 ? (size_t)(t) : 1024u) \

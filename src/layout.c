@@ -69,11 +69,9 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
         return;
     c->assembler.path_limit = d->max_triangles;
     t->moving.moving = arena_take(a, d->max_triangles, sizeof *t->moving.moving);
-    const size_t rows = d->workers > 1 ? 2 : 1;         /* the next one is listed beside this one */
-    t->beside = (int8_t)(rows - 1);
-    t->moving.travel = arena_take(a, rows * (size_t)c->rows.window.columns, sizeof *t->moving.travel);
+    t->moving.travel = arena_take(a, (size_t)c->rows.window.columns, sizeof *t->moving.travel);
     if ((d->methods & SMEAR_SET(SMEAR_AUTO)) != 0)
-        t->moving.blocks.block = arena_take(a, rows * (size_t)block_columns(d->width) * (size_t)block_rows(d->tile),
+        t->moving.blocks.block = arena_take(a, (size_t)block_columns(d->width) * (size_t)block_rows(d->tile),
                                             sizeof *t->moving.blocks.block);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))

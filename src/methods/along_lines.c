@@ -93,7 +93,7 @@ static SMEAR_RARE void draw_movers(struct smear_temporal *self, struct smear_fin
 }
 
 /* Blurs a row whose tiles are listed along lines, as far as it stands still, and finishes it. */
-static SMEAR_RARE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+static SMEAR_RARE int finish_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_window *w = &rows->window;
     const struct smear_damage_run all = { 0, (int)w->columns };
@@ -107,7 +107,7 @@ static SMEAR_RARE int finish_along_lines(struct smear_temporal *self, struct sme
     finish.background.color_rows = finish.background.window_rows = (struct smear_plane_rows){ w->width, 0, w->tile, 0 };
     if (self->lines->movers != 0)
         draw_movers(self, &finish);
-    return smear_finish_run(self, &finish, end, &all);
+    return smear_finish_run(self, &finish, &all);
 }
 
 /* Mixes a picture of a row with those before it. */
@@ -204,11 +204,11 @@ static SMEAR_RARE void draw_pictures(struct smear_temporal *self, struct smear_r
 }
 
 /* Finishes the rows from the first on that is not up to `last`. */
-static int finish_rows(struct smear_temporal *self, struct smear_rows *rows, int last, int end)
+static int finish_rows(struct smear_temporal *self, struct smear_rows *rows, int last)
 {
     for (; self->lines->finished <= last; self->lines->finished++) {
         smear_temporal_begin_row(self, rows, self->lines->finished);
-        const int result = finish_along_lines(self, rows, self->lines->finished, end);
+        const int result = finish_along_lines(self, rows, self->lines->finished);
         if (result != SMEAR_OK)
             return result;
         smear_temporal_end_row(self, rows);
@@ -236,7 +236,7 @@ int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows,
     draw_pictures(self, rows, row);
     const int needed = smear_lines_needed(lines, &rows->window, row_top(rows, row), row_bottom(rows, row), self->chooser.target);
     const bool again = needed > lines->pictures;
-    const int result = finish_rows(self, rows, row == rows->window.rows - 1 && !again ? row : row - 1, *end);
+    const int result = finish_rows(self, rows, row == rows->window.rows - 1 && !again ? row : row - 1);
     if (again) {
         go_on_with(self, rows, needed);
         *end = row;

@@ -2,7 +2,6 @@
 /* temporal.c - see temporal.h.
  *
  *     list        moving triangles of the row, and what they mean for its tiles
- *                 (several cores: while the row before is drawn)
  *     for each run of tiles that must be drawn (one, unless the display keeps some):
  *         static      triangles that do not move, into the row's pixels
  *         finish      tiles by their method (tile_method.h): a copy, subframes of tiles beside each other, or a time
@@ -228,76 +227,27 @@ static void list_job(void *argument, int job, int worker)
 {
     struct smear_finish *f = (struct smear_finish *)argument;
     const struct smear_rows *rows = f->row.rows;
-    const int32_t columns = rows->window.columns, jobs = rows->jobs.workers * LISTS_PER_WORKER;
+    const int32_t columns = rows->window.columns, workers = rows->jobs.workers, jobs = workers == 1 ? 1 : workers * LISTS_PER_WORKER;
     (void)worker;
-    smear_list_columns(&f->moving, &rows->bins, &rows->window, rows->moving, f->top, columns * job / jobs,
+    smear_list_columns(&f->self->moving, &rows->bins, &rows->window, rows->moving, row_top(rows, f->row.row), columns * job / jobs,
                        columns * (job + 1) / jobs);
 }
 
 static void list_tiles(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
-    struct smear_finish finish = { .row = { .rows = rows, .row = row }, .self = self, .moving = self->moving,
-                             .top = row_top(rows, row) };
-    if (rows->moving == SMEAR_NO_TRIANGLE)
-        return;
-    if (rows->jobs.workers == 1)
-        smear_list_columns(&self->moving, &rows->bins, &rows->window, rows->moving, finish.top, 0, rows->window.columns);
-    else
-        smear_jobs_run(&rows->jobs, list_job, &finish, rows->jobs.workers * LISTS_PER_WORKER);
+    struct smear_finish finish = { .row = { .rows = rows, .row = row }, .self = self };
+    const int workers = rows->jobs.workers;
+    if (rows->moving != SMEAR_NO_TRIANGLE)
+        smear_jobs_run(&rows->jobs, list_job, &finish, workers == 1 ? 1 : workers * LISTS_PER_WORKER);
 }
-
-#if SMEAR_WITH_WORKERS
-/* Exchanges the tiles and blocks of this row and of the next one. */
-static void exchange(struct smear_temporal *self, struct smear_row_moving *moving, const struct smear_window *w)
-{
-    moving->travel += self->beside * w->columns;
-    if (moving->blocks.block != NULL)
-        moving->blocks.block += self->beside * block_columns(w->width) * block_rows(w->tile);
-}
-
-/* Begins the next row's lists, for jobs beside those that finish this one. Returns how many there are. */
-static int begin_next(struct smear_finish *f, int end)
-{
-    struct smear_temporal *self = f->self;
-    struct smear_rows *rows = f->row.rows;
-    const int next = f->row.row + 1;
-    if (self->beside == 0 || self->is_listed || rows->refill != NULL || next >= end)
-        return 0;
-    f->moving = self->moving;
-    exchange(self, &f->moving, &rows->window);
-    f->top = row_top(rows, next);
-    smear_list_begin(&f->moving, &rows->window);
-    rows->moving = row_advance(rows, rows->bins.moving_last, rows->moving, next);
-    self->is_listed = true;
-    return rows->moving != SMEAR_NO_TRIANGLE ? rows->jobs.workers * LISTS_PER_WORKER : 0;
-}
-
-/* Takes over what is known of the row; false where nothing is. */
-static bool take_next(struct smear_temporal *self, const struct smear_window *w)
-{
-    if (!self->is_listed)
-        return false;
-    exchange(self, &self->moving, w);
-    self->beside = (int8_t)-self->beside;
-    self->is_listed = false;
-    return true;
-}
-#else
-#define begin_next(f, end) ((void)(end), 0)
-#define take_next(self, w) false
-#endif
 
 /* ------------------------------------------------------------------ strips */
 
-/* Finishes the tiles of the run that lie in a strip; jobs behind the strips are those of list_job(). */
+/* Finishes the tiles of the run that lie in a strip. */
 static void finish_job(void *argument, int strip, int worker)
 {
     const struct smear_finish *f = (const struct smear_finish *)argument;
     const struct smear_window *w = &f->row.rows->window;
-    if (SMEAR_WITH_WORKERS && strip >= f->strips) {
-        list_job(argument, strip - f->strips, worker);
-        return;
-    }
     const int tiles = f->self->strip >> w->tile_shift,
               end = min_i32((strip + 1) * tiles, (job_right(&f->row) + w->tile - 1) >> w->tile_shift);
     for (int column = max_i32(strip * tiles, job_left(&f->row) >> w->tile_shift); column < end;) {
@@ -362,18 +312,18 @@ void smear_draw_run(struct smear_temporal *self, struct smear_finish *f)
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
-int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, int end, const struct smear_damage_run *run)
+int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, const struct smear_damage_run *run)
 {
     struct smear_rows *rows = f->row.rows;
     const uint32_t start = stage_start(rows);
     const int row = f->row.row;
     f->row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
-    const int strips = f->strips = (int)((rows->window.width + self->strip - 1) / self->strip);
+    const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
     if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_kept(self->damage) && rows_have_points(rows)))
         finish_static(f, run->first, run->end, 0);
     else if (rows->refill == NULL)
-        smear_jobs_run(&rows->jobs, finish_job, f, strips + begin_next(f, end));
+        smear_jobs_run(&rows->jobs, finish_job, f, strips);
     else
         for (int strip = 0; strip < strips; strip++)
             finish_job(f, strip, 0);
@@ -398,18 +348,14 @@ static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, 
 static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_bins *bins = &rows->bins;
-    const bool known = take_next(self, &rows->window);
-    if (!known)
-        smear_list_begin(&self->moving, &rows->window);
+    smear_list_begin(&self->moving, &rows->window);
     if (rows->refill != NULL) {
         list_refilled(self, rows, row);
         return;
     }
-    if (!known)
-        rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
+    rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
     smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
-    if (!known)
-        list_tiles(self, rows, row);
+    list_tiles(self, rows, row);
     if (!rows->blends)
         return;
     rows->blend = row_advance(rows, bins->blend_last, rows->blend, row);
@@ -447,7 +393,7 @@ void smear_temporal_end_row(struct smear_temporal *self, const struct smear_rows
 }
 
 /* Draws and finishes a row whose tiles are listed. Not part of what calls it: listing needs the stack, too. */
-static SMEAR_RARE int draw_listed(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+static SMEAR_RARE int draw_listed(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     struct smear_damage_run run = { 0, 0 };
     if (rows->refill == NULL)
@@ -457,17 +403,17 @@ static SMEAR_RARE int draw_listed(struct smear_temporal *self, struct smear_rows
         finish.row.x0 = tile_left(rows, run.first);
         finish.row.x1 = tile_right(rows, run.end - 1);
         smear_draw_run(self, &finish);
-        int result = smear_finish_run(self, &finish, end, &run);
+        int result = smear_finish_run(self, &finish, &run);
         if (result != SMEAR_OK)
             return result;
     }
     return SMEAR_OK;
 }
 
-static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row, int end)
+static int draw_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     smear_temporal_begin_row(self, rows, row);
-    const int result = draw_listed(self, rows, row, end);
+    const int result = draw_listed(self, rows, row);
     if (result != SMEAR_OK)
         return result;
     smear_temporal_end_row(self, rows);
@@ -529,9 +475,6 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int *end)
 {
     const bool plans = self->chooser.method == SMEAR_AUTO;
-#if SMEAR_WITH_WORKERS
-    self->is_listed = false;
-#endif
     self->moving.measures = !temporal_has_lines(self);
     self->moving.blocks.columns = plans && self->moving.measures ? block_columns(rows->window.width) : 0;
     if (plans) {
@@ -541,7 +484,7 @@ int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, in
         rows->stats->target = max_u32(rows->stats->target, (uint32_t)self->chooser.target);
     }
     for (int row = first; row < *end; row++) {
-        const int result = temporal_has_lines(self) ? smear_draw_along_lines(self, rows, row, end) : draw_row(self, rows, row, *end);
+        const int result = temporal_has_lines(self) ? smear_draw_along_lines(self, rows, row, end) : draw_row(self, rows, row);
         if (result != SMEAR_OK)
             return result;
     }

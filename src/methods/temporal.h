@@ -12,8 +12,6 @@ struct smear_temporal {
     struct smear_shutter_times shutter;
     struct smear_chooser chooser;
     struct smear_row_moving moving;     /* of the row being drawn */
-    int8_t beside;                      /* tiles and blocks of the next row lie behind these: 1; before them: -1; nowhere: 0 */
-    bool is_listed;                     /* the next row's triangles are known there already */
     uint8_t *work;                      /* work_bytes per worker */
     uint32_t work_bytes;
     int32_t strip;                      /* tiles that share instants are so many pixels wide together, at most */

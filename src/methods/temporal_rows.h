@@ -10,9 +10,6 @@ struct smear_finish {
     struct row_job row;
     struct smear_temporal *self;
     struct smear_raster_target background;      /* what is static, drawn */
-    struct smear_row_moving moving;             /* what list_job() fills in, of a tile row whose first pixel row is `top` */
-    int32_t top;
-    int strips;
 };
 
 /* Draws the share of a job of what does not move. */
@@ -21,9 +18,8 @@ void smear_background_job(void *argument, int job, int worker);
 /* Draws what does not move of tiles beside each other, and finds where it is. */
 void smear_draw_run(struct smear_temporal *self, struct smear_finish *f);
 
-/* Finishes and hands out tiles [first, last) beside each other whose background is known. `end`: of the tile rows that are
- * assembled. */
-int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, int end, const struct smear_damage_run *run);
+/* Finishes and hands out tiles [first, last) beside each other whose background is known. */
+int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, const struct smear_damage_run *run);
 
 /* Begin and end to finish a row. */
 void smear_temporal_begin_row(struct smear_temporal *self, struct smear_rows *rows, int row);
