@@ -34,25 +34,10 @@ SMEAR_SHARED int count_leading_zeros(uint32_t x)
     if (SMEAR_HAS_CLZ)
         return __builtin_clz(x);
     int n = 0;
-    if (SMEAR_ON_ARMV6M) {
-        uint32_t top = x >> 16;     /* in a register: numbers to compare with take two steps there */
-        SMEAR_KEEP_VALUE(top);
-        if (top == 0) { n += 16; x <<= 16; }
-        top = x >> 24;
-        SMEAR_KEEP_VALUE(top);
-        if (top == 0) { n += 8; x <<= 8; }
-        top = x >> 28;
-        SMEAR_KEEP_VALUE(top);
-        if (top == 0) { n += 4; x <<= 4; }
-        top = x >> 30;
-        SMEAR_KEEP_VALUE(top);
-        if (top == 0) { n += 2; x <<= 2; }
-    } else {
-        if (x < 0x10000u) { n += 16; x <<= 16; }
-        if (x < 0x1000000u) { n += 8; x <<= 8; }
-        if (x < 0x10000000u) { n += 4; x <<= 4; }
-        if (x < 0x40000000u) { n += 2; x <<= 2; }
-    }
+    if (x < 0x10000u) { n += 16; x <<= 16; }
+    if (x < 0x1000000u) { n += 8; x <<= 8; }
+    if (x < 0x10000000u) { n += 4; x <<= 4; }
+    if (x < 0x40000000u) { n += 2; x <<= 2; }
     return n + (int)(~x >> 31);
 }
 
@@ -112,25 +97,6 @@ static inline uint32_t sqrt_by_bits(uint64_t x)
     return (uint32_t)root;
 }
 
-/* Does so by Heron's rule, (r + n / r) / 2, for n in [2^62, 2^64): a table is within 2^-7, then errors of 2^-14 and 2^-28. What is left are
- * a few steps of x's own root. By two divisions, half the instructions of what others do. */
-static inline uint32_t sqrt_by_divisions(uint64_t x)
-{
-    if (x == 0)
-        return 0;
-    const int shift = count_leading_zeros_64(x) & ~1;
-    const uint64_t n = x << shift;
-    uint32_t r16 = (uint32_t)smear_sqrt_q3[n >> 54] << 8 | 128;
-    r16 = (r16 + (uint32_t)(n >> 32) / r16) >> 1;
-    const uint64_t r32 = (uint64_t)r16 << 16;
-    uint64_t r = (r32 + n / r32) >> (1 + (shift >> 1));
-    while (r >> 32 != 0 || r * r > x)
-        r--;
-    while (x - r * r > r * 2u)
-        r++;
-    return (uint32_t)r;
-}
-
 /* Does so by Heron's rule, r + (n - r^2) / 2r, for n in [2^60, 2^62): a line is within 3 %, then errors of 2^-11, 2^-22
  * and less than what the quotients lack. What is left are a few steps of x's own root. */
 static inline uint32_t sqrt_by_reciprocals(uint64_t x)
@@ -157,9 +123,7 @@ static inline uint32_t sqrt_by_reciprocals(uint64_t x)
 /* Returns floor(sqrt(x)), exactly. */
 SMEAR_SHARED uint32_t sqrt_floor_64(uint64_t x)
 {
-    if (SMEAR_SMALL_FILE)
-        return sqrt_by_bits(x);
-    return SMEAR_ON_64 && SMEAR_HAS_MUL64 ? sqrt_by_divisions(x) : sqrt_by_reciprocals(x);
+    return SMEAR_SMALL_FILE ? sqrt_by_bits(x) : sqrt_by_reciprocals(x);
 }
 
 /* Returns 8 sqrt(x) for x < 2^20, relative error below 2^-8 plus 1/2 step. */

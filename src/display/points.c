@@ -208,30 +208,24 @@ enum { TWO = 0xff00ff,
        HALVES = 0x800080,
        BEYOND = 0x1010100 };
 
-/* Adds light. What is beyond a channel's most shows in the bit above it. */
-static SMEAR_NOINLINE void add_runs(const struct brush *b, int32_t runs)
+/* Returns a pixel with light added. What is beyond a channel's most shows in the bit above it. */
+SMEAR_INLINE uint32_t added(uint32_t was, uint32_t red_blue, uint32_t green, uint32_t part)
 {
-    const uint32_t red_blue = b->red_blue, green = b->green, nearest = b->nearest;
-    const uint16_t *weight = b->weight, *row_depth = b->depth;
-    uint32_t *row = b->out;
-    for (const struct run *run = b->run, *const last = run + runs; run < last; run++, row += b->pitch, row_depth += b->depth_pitch) {
-        const uint16_t *depth = row_depth + run->x;
-        uint32_t *out = row + run->x;
-        for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
-            const uint32_t part = ((uint32_t)*weight++ + 64) >> 7;
-            if (part == 0 || *depth > nearest)
-                continue;
-            const uint32_t was = *out, more = ((red_blue * part + HALVES) >> 8 & TWO) | ((green * part + 128) & 0xff00);
-            uint32_t sum = was + more;
-            const uint32_t over = (was ^ more ^ sum) & BEYOND;
-            if (over != 0)
-                sum = (sum - over) | (over - (over >> 8));
-            *out = sum;
-        }
-    }
+    const uint32_t more = ((red_blue * part + HALVES) >> 8 & TWO) | ((green * part + 128) & 0xff00), sum = was + more;
+    const uint32_t over = (was ^ more ^ sum) & BEYOND;
+    return over != 0 ? (sum - over) | (over - (over >> 8)) : sum;
 }
 
-static SMEAR_NOINLINE void blend_runs(const struct brush *b, int32_t runs)
+SMEAR_INLINE uint32_t blended(uint32_t was, uint32_t red_blue, uint32_t green, uint32_t part)
+{
+    const uint32_t old = 256 - part;
+    return (((was & TWO) * old + red_blue * part + HALVES) >> 8 & TWO) | (((was >> 8 & 255) * old + green * part + 128) & 0xff00);
+}
+
+enum way { ADDS, BLENDS, LIGHTS };
+
+/* Draws runs of weighed pixels over what is not nearer. */
+SMEAR_INLINE void draw_runs(const struct brush *b, int32_t runs, enum way way)
 {
     const uint32_t red_blue = b->red_blue, green = b->green, nearest = b->nearest;
     const uint16_t *weight = b->weight, *row_depth = b->depth;
@@ -240,32 +234,24 @@ static SMEAR_NOINLINE void blend_runs(const struct brush *b, int32_t runs)
         const uint16_t *depth = row_depth + run->x;
         uint32_t *out = row + run->x;
         for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
-            const uint32_t part = ((uint32_t)*weight++ + 64) >> 7, old = 256 - part;
+            const uint32_t full = *weight++, part = way == LIGHTS ? full : (full + 64) >> 7;
             if (part == 0 || *depth > nearest)
                 continue;
             const uint32_t was = *out;
-            *out = (((was & TWO) * old + red_blue * part + HALVES) >> 8 & TWO)
-                 | (((was >> 8 & 255) * old + green * part + 128) & 0xff00);
+            *out = way == ADDS     ? added(was, red_blue, green, part)
+                 : way == BLENDS ? blended(was, red_blue, green, part)
+                                 : pixel_make(0, lit_linear(pixel_red(was), b->light[0], part, b->blends),
+                                              lit_linear(pixel_green(was), b->light[1], part, b->blends),
+                                              lit_linear(pixel_blue(was), b->light[2], part, b->blends));
         }
     }
 }
 
-static SMEAR_NOINLINE void light_runs(const struct brush *b, int32_t runs)
-{
-    const uint16_t *weight = b->weight, *row_depth = b->depth;
-    uint32_t *row = b->out;
-    for (const struct run *run = b->run, *const last = run + runs; run < last; run++, row += b->pitch, row_depth += b->depth_pitch) {
-        const uint16_t *depth = row_depth + run->x;
-        uint32_t *out = row + run->x;
-        for (const uint16_t *const end = weight + run->count; weight != end; out++, depth++) {
-            const uint32_t part = *weight++, pixel = *out;
-            if (part != 0 && *depth <= b->nearest)
-                *out = pixel_make(0, lit_linear(pixel_red(pixel), b->light[0], part, b->blends),
-                                  lit_linear(pixel_green(pixel), b->light[1], part, b->blends),
-                                  lit_linear(pixel_blue(pixel), b->light[2], part, b->blends));
-        }
-    }
-}
+static SMEAR_NOINLINE void add_runs(const struct brush *b, int32_t runs) { draw_runs(b, runs, ADDS); }
+
+static SMEAR_NOINLINE void blend_runs(const struct brush *b, int32_t runs) { draw_runs(b, runs, BLENDS); }
+
+static SMEAR_NOINLINE void light_runs(const struct brush *b, int32_t runs) { draw_runs(b, runs, LIGHTS); }
 
 static void draw_part(struct brush *b)
 {

@@ -57,13 +57,7 @@ static void take_row(struct smear_rows *rows, int32_t y, const uint32_t *color, 
             w->moving[x >> w->tile_shift] = 1;
         w->color[at + x] = color[x] & 0xffffffu;
         w->depth[at + x] = depth_code(depth[x], near_plane);
-        if (w->velocity8 != NULL) {
-            w->velocity8[2 * (at + x)] = (int8_t)v[0];
-            w->velocity8[2 * (at + x) + 1] = (int8_t)v[1];
-        } else {
-            w->velocity16[2 * (at + x)] = (int16_t)v[0];
-            w->velocity16[2 * (at + x) + 1] = (int16_t)v[1];
-        }
+        window_velocity_store(w, at + x, v[0], v[1]);
     }
 }
 

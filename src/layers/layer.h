@@ -159,7 +159,6 @@ uint32_t smear_streak_merge(const struct smear_streak *s, const struct smear_lay
 /* The longest velocity of a column as wide as a tile, or of it and its neighbours, 1/8 px. */
 struct smear_layer_cell {
     int16_t x, y;
-    uint8_t any;                /* something is drawn there */
 };
 
 enum { SMEAR_GATHER_TAPS = 64 };

@@ -25,28 +25,21 @@ void smear_gather_cells(const struct smear_layer_area *a)
     struct smear_layer_cell *own = l->cell, *around = l->cell + count;
     for (int32_t i = 0; i < count; i++) {
         struct smear_pixel_velocity longest = { 0, 0 };
-        bool any = false;
-        int32_t x0 = max_i32(i << a->tile_shift, a->group->x0), x1 = min_i32((i + 1) << a->tile_shift, a->group->x1);
-        for (int32_t y = 0; x0 < x1 && y < a->rows; y++) {
-            int32_t x = max_i32(x0, l->row_first[y]), end = min_i32(x1, l->row_end[y]);
-            any = any || x < end;
-            for (int32_t at = y * l->width + x; x < end; x++, at++) {
-                struct smear_pixel_velocity v = velocity_at(l, at);
+        const int32_t x0 = max_i32(i << a->tile_shift, a->group->x0), x1 = min_i32((i + 1) << a->tile_shift, a->group->x1);
+        for (int32_t y = 0; y < a->rows; y++)
+            for (int32_t x = x0; x < x1; x++) {
+                const struct smear_pixel_velocity v = velocity_at(l, y * l->width + x);
                 if (square_of(v) > square_of(longest))
                     longest = v;
             }
-        }
-        own[i] = (struct smear_layer_cell){ (int16_t)longest.x, (int16_t)longest.y, any };
+        own[i] = (struct smear_layer_cell){ (int16_t)longest.x, (int16_t)longest.y };
     }
     for (int32_t i = 0; i < count; i++) {
         around[i] = own[i];
         for (int32_t k = max_i32(i - 1, 0); k <= min_i32(i + 1, count - 1); k++) {
             struct smear_pixel_velocity v = { own[k].x, own[k].y }, best = { around[i].x, around[i].y };
-            if (square_of(v) > square_of(best)) {
-                around[i].x = own[k].x;
-                around[i].y = own[k].y;
-            }
-            around[i].any = around[i].any || own[k].any;
+            if (square_of(v) > square_of(best))
+                around[i] = own[k];
         }
     }
 }
@@ -300,19 +293,11 @@ static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_d
     a->layer->over[at] = passed;
 }
 
-/* Finds the columns that may be reached by what is drawn in the rows around y. */
-static void reached(const struct smear_layer_area *a, int32_t y, int32_t *left, int32_t *right)
+/* Finds the columns that taps may reach the group from. */
+static void reached(const struct smear_layer_area *a, int32_t *left, int32_t *right)
 {
-    const struct smear_layer_rows *l = a->layer;
-    int32_t first = l->width, end = 0;
-    for (int32_t row = max_i32(y - a->top, 0); row < min_i32(y + a->top + 1, a->rows); row++) {
-        if (l->row_first[row] >= l->row_end[row])
-            continue;
-        first = min_i32(first, l->row_first[row]);
-        end = max_i32(end, l->row_end[row]);
-    }
-    *left = max_i32(a->left, first - l->margin - a->top);
-    *right = min_i32(a->right, end - l->margin + a->top);
+    *left = max_i32(a->left, a->group->x0 - a->layer->margin - a->top);
+    *right = min_i32(a->right, a->group->x1 - a->layer->margin + a->top);
 }
 
 uint32_t smear_gather_merge(const struct smear_layer_area *a)
@@ -324,10 +309,10 @@ uint32_t smear_gather_merge(const struct smear_layer_area *a)
     g.taps.over = 16384 / a->samples;
     probes_start(&g, g.top);
     uint32_t taken = 0;
+    int32_t left, right;
+    reached(a, &left, &right);
     for (int32_t y = 0; y < a->height; y++) {
         const uint16_t *depth = a->background_depth + y * a->background_stride;
-        int32_t left, right;
-        reached(a, y + a->top, &left, &right);
         for (int32_t x = left; x < right; x++) {
             const struct smear_layer_cell *cell = &around[(x + l->margin) >> a->tile_shift];
             const struct smear_pixel_velocity top = { cell->x, cell->y };
@@ -349,9 +334,9 @@ uint32_t smear_two_camera_merge(const struct smear_layer_area *a, int32_t vx, in
     const struct smear_layer_rows *l = a->layer;
     const int32_t n = a->samples;
     const uint32_t weight = (uint32_t)((WHOLE + n - 1) / n);
-    for (int32_t y = 0; y < a->height; y++) {
-        int32_t left, right;
-        reached(a, y + a->top, &left, &right);
+    int32_t left, right;
+    reached(a, &left, &right);
+    for (int32_t y = 0; y < a->height; y++)
         for (int32_t x = left; x < right; x++) {
             uint32_t *background = a->background + y * a->background_stride + x;
             uint32_t background_depth = a->group->rank != 0 ? 0 : a->background_depth[y * a->background_stride + x];
@@ -366,6 +351,5 @@ uint32_t smear_two_camera_merge(const struct smear_layer_area *a, int32_t vx, in
             if (sum.weight != 0)
                 *background = sum_pixel(&sum, *background, a->transfer);
         }
-    }
     return (uint32_t)(a->height * (a->right - a->left) * n);
 }

@@ -223,21 +223,8 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     }
 }
 
-/* A displacement, and what it is from one instant to the next: blocks beside each other often have the same. */
-struct divided {
-    int32_t x, y;
-    struct smear_step step;
-};
-
-static inline struct smear_step divided_by(struct divided *d, int32_t x, int32_t y, int32_t instants)
-{
-    if (x != d->x || y != d->y)
-        *d = (struct divided){ x, y, { (int16_t)(x / instants), (int16_t)(y / instants) } };
-    return d->step;
-}
-
 /* Returns how what is seen in the block at a pixel goes on from one instant to the next, if gaps are closed there. */
-static struct smear_step step_at(const struct subframes *f, const struct smear_tile_plan *plan, struct divided *d, int32_t x, int32_t y)
+static struct smear_step step_at(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
 {
     const struct smear_tile_run *t = f->t;
     const int32_t instants = (int32_t)f->instants;
@@ -247,9 +234,9 @@ static struct smear_step step_at(const struct subframes *f, const struct smear_t
     if (instants > b->last)
         return (struct smear_step){ 0, 0 };
     if (b->depth != 0)
-        return divided_by(d, b->x, b->y, instants);
+        return (struct smear_step){ (int16_t)(b->x / instants), (int16_t)(b->y / instants) };
     const struct smear_tile_travel *tile = &plan->travel[(x - t->x0) / t->tile];
-    return divided_by(d, tile->x, tile->y, instants);
+    return (struct smear_step){ (int16_t)(tile->x / instants), (int16_t)(tile->y / instants) };
 }
 
 static inline bool is_alike(struct smear_step a, struct smear_step b) { return a.x == b.x && a.y == b.y; }
@@ -260,7 +247,6 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     const struct smear_raster_target *s = &t->background;
     const int32_t wide = plan != NULL ? BLOCK_PX : t->x1 - t->x0, high = plan != NULL ? BLOCK_PX : s->y1 - s->y0;
     struct smear_step last = { 0, 0 };
-    struct divided divided = { 0, 0, { 0, 0 } };
     struct gap gap;
     gap_make(&gap, f, &last);
     gap.full = sums_light(f) ? smear_light_full(f->instants) : f->instants;
@@ -268,13 +254,13 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
     gap.down = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).down : 0;
     gap.up = sums_light(f) ? (uint32_t)smear_light_instant(0, f->instants, false).up : 0;
     for (int32_t y = s->y0; y < s->y1; y += high) {
-        struct smear_step step = step_at(f, plan, &divided, t->x0, y);
+        struct smear_step step = step_at(f, plan, t->x0, y);
         for (int32_t x = t->x0, end; x < t->x1; x = end) {
             if (!is_alike(step, last))
                 gap_make(&gap, f, &step);
             last = step;
             for (end = x + wide; end < t->x1; end += wide)      /* blocks beside each other that have the same step */
-                if (!is_alike(step = step_at(f, plan, &divided, end, y), last))
+                if (!is_alike(step = step_at(f, plan, end, y), last))
                     break;
             const struct subframe_box b = { max_i32(x, all->x0 - gap.pairs), max_i32(y, all->y0 - gap.pairs),
                                             min_i32(min_i32(end, t->x1), all->x1 + gap.pairs),

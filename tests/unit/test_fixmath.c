@@ -33,7 +33,6 @@
 #define ratio_q30 poor_ratio_q30
 #define sqrt_floor_64 poor_sqrt_floor_64
 #define sqrt_by_bits poor_sqrt_by_bits
-#define sqrt_by_divisions poor_sqrt_by_divisions
 #define sqrt_by_reciprocals poor_sqrt_by_reciprocals
 #define sqrt_q3 poor_sqrt_q3
 #include "base/fixmath.h"
@@ -55,7 +54,6 @@
 #undef ratio_q30
 #undef sqrt_floor_64
 #undef sqrt_by_bits
-#undef sqrt_by_divisions
 #undef sqrt_by_reciprocals
 #undef sqrt_q3
 
