@@ -5,7 +5,7 @@
 
 #include "temporal/moving.h"
 
-/* Bytes of work memory per worker: 7.6 kB, whatever the tile. */
+/* Bytes of work memory per worker: 7.4 kB, whatever the tile. */
 size_t smear_timemask_work(int32_t tile);
 
 struct smear_timemask_settings {

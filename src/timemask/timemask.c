@@ -12,10 +12,7 @@ enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
 
 enum { PIXELS_LOG2 = 7 };       /* entries of a block, at most */
 
-enum {
-    LISTED = 100,                               /* moving triangles that are drawn in order of depth */
-    LOOK_EVERY = 4                              /* after so many it is seen whether the rest is hidden */
-};
+enum { LISTED = 100 };          /* moving triangles that are drawn in order of depth */
 
 /* What the blocks of a tile share. */
 struct job {
@@ -195,7 +192,6 @@ static void paint(struct job *j, const struct timemask_cover *c, const struct pa
             if (code + reach <= behind)
                 continue;
             struct timemask_fragment f;
-            f.low = max_i32(code - reach, 0);
             f.mask = timemask_below(p->first + to) ^ timemask_below(p->first + from);
             if (code - reach <= behind) {
                 f.mask = samples_before_background((code - behind) * 32 - slope * (to - from - 1), slope, p->first + from,
@@ -213,7 +209,7 @@ static void paint(struct job *j, const struct timemask_cover *c, const struct pa
                 f.color = 0;
             }
             f.color |= smear_timemask_color(s, y, run[i]);
-            smear_timemask_samples_add(&j->samples, (uint32_t)(y * j->stride + x), f, code + reach);
+            smear_timemask_samples_add(&j->samples, (uint32_t)(y * j->stride + x), f);
             j->fragments++;
         }
     }
@@ -257,18 +253,6 @@ static void draw_moving(struct job *j, uint32_t i)
     }
 }
 
-/* The listed moving triangles, the nearest first, until the rest is hidden. */
-static void draw_listed(struct job *j)
-{
-    for (uint32_t i = 0; i < j->listed; i++) {
-        if (i != 0 && i % LOOK_EVERY == 0
-            && (int32_t)(j->list[i] >> 16)
-                   <= smear_timemask_samples_hidden(&j->samples, j->width, j->height, j->stride))
-            return;
-        draw_moving(j, listed_moving(j, i));
-    }
-}
-
 /* ------------------------------------------------------------------ blocks */
 
 static void finish_block(const struct job *j)
@@ -294,7 +278,8 @@ static void draw_block(struct job *j)
         list_moving(j);
     }
     for (;;) {
-        draw_listed(j);
+        for (uint32_t i = 0; i < j->listed; i++)
+            draw_moving(j, listed_moving(j, i));
         if (j->next == j->tile->moving_count)
             break;
         list_moving(j);

@@ -98,7 +98,6 @@ struct timemask_samples {
     uint32_t *held;             /* a bit per sample, never 0 in use */
     uint32_t *color;            /* 0xSSRRGGBB, S: the depth's slope */
     uint16_t *depth;            /* code in the middle of the exposure */
-    uint16_t *farthest;         /* no entry is farther than this in a sample it holds */
     uint8_t *count;             /* entries in use */
     int32_t pixels_log2;
     int32_t samples_log2;       /* of the whole exposure */
@@ -111,14 +110,12 @@ struct timemask_fragment {
     uint32_t color;             /* as it is kept */
     int32_t depth;              /* code in the middle of the exposure */
     int32_t slope;              /* timemask_slope_of(color) */
-    int32_t low;                /* code it keeps above */
 };
 
 static inline size_t timemask_samples_bytes(uint32_t pixels)
 {
     return pixels
-         * (TIMEMASK_ENTRIES * (2 * sizeof(uint32_t) + sizeof(uint16_t)) + sizeof(uint32_t) + sizeof(uint16_t)
-            + 1);
+         * (TIMEMASK_ENTRIES * (2 * sizeof(uint32_t) + sizeof(uint16_t)) + sizeof(uint32_t) + 1);
 }
 
 /* Over `memory` of that size, aligned for words. */
@@ -138,13 +135,8 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
-/* Adds what is seen; `high`: code that is not exceeded. */
-void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f, int32_t high);
-
-/* Depth code at or beyond which nothing new is seen in rows of `width`
- * pixels, `stride` apart: 0 while samples are free. */
-int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
-                                      int32_t stride);
+/* Adds what is seen. */
+void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f);
 
 /* The pixel over the background's colour. */
 uint32_t smear_timemask_samples_mean(const struct timemask_samples *b, uint32_t pixel, uint32_t background);

@@ -10,8 +10,7 @@ void smear_timemask_samples_place(struct timemask_samples *b, void *memory, int3
     b->held = b->any + pixels;
     b->color = b->held + TIMEMASK_ENTRIES * pixels;
     b->depth = (uint16_t *)(void *)(b->color + TIMEMASK_ENTRIES * pixels);
-    b->farthest = b->depth + TIMEMASK_ENTRIES * pixels;
-    b->count = (uint8_t *)(b->farthest + pixels);
+    b->count = (uint8_t *)(b->depth + TIMEMASK_ENTRIES * pixels);
     b->pixels_log2 = pixels_log2;
     b->samples_log2 = samples_log2;
     b->transfer = transfer;
@@ -21,7 +20,6 @@ void smear_timemask_samples_clear(struct timemask_samples *b)
 {
     size_t pixels = (size_t)1 << b->pixels_log2;
     __builtin_memset(b->any, 0, pixels * sizeof *b->any);
-    __builtin_memset(b->farthest, 255, pixels * sizeof *b->farthest);
     __builtin_memset(b->count, 0, pixels);
 }
 
@@ -149,11 +147,6 @@ static SMEAR_NOINLINE void merge(struct timemask_samples *b, uint32_t pixel, con
     entry_put(b, pixel, first, &joined);
     if (second < TIMEMASK_ENTRIES)
         entry_put(b, pixel, second, fresh);
-    /* It goes on in the longer's course for the other's samples, too. */
-    int32_t reach = abs_i32(timemask_slope_of(joined.color)) * ((1 << b->samples_log2) - 1) >> 5;
-    int32_t lowest = max_i32((int32_t)joined.depth - reach, 0);
-    if (lowest < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)lowest;
 }
 
 /* ------------------------------------------------------------------ fragments */
@@ -192,8 +185,6 @@ static void contest(struct timemask_samples *b, uint32_t pixel, const struct tim
     if (mask == 0)
         return;
     b->any[pixel] |= mask;
-    if (f->low < b->farthest[pixel])
-        b->farthest[pixel] = (uint16_t)f->low;
     for (uint32_t i = n; i-- > 0;) {
         uint32_t at = (i << b->pixels_log2) + pixel;
         if (is_same(b, at, f->color, f->depth)) {
@@ -210,23 +201,15 @@ static void contest(struct timemask_samples *b, uint32_t pixel, const struct tim
     b->count[pixel] = (uint8_t)(n + 1);
 }
 
-void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f, int32_t high)
+void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f)
 {
     uint32_t any = b->any[pixel], n = b->count[pixel];
-    int32_t farthest = b->farthest[pixel];
-    if ((any & f.mask) != 0 && high <= farthest) {
-        f.mask &= ~any;
-        if (f.mask == 0)
-            return;
-    }
     if ((any & f.mask) != 0 || n == TIMEMASK_ENTRIES) {
         contest(b, pixel, &f);
         return;
     }
     uint32_t at = (n << b->pixels_log2) + pixel, before = at - (1u << b->pixels_log2);
     b->any[pixel] = any | f.mask;
-    if (f.low < farthest)
-        b->farthest[pixel] = (uint16_t)f.low;
     if (n != 0 && is_same(b, before, f.color, f.depth)) {
         b->held[before] |= f.mask;
         return;
@@ -235,20 +218,6 @@ void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, stru
     b->color[at] = f.color;
     b->depth[at] = (uint16_t)f.depth;
     b->count[pixel] = (uint8_t)(n + 1);
-}
-
-int32_t smear_timemask_samples_hidden(const struct timemask_samples *b, int32_t width, int32_t rows,
-                                      int32_t stride)
-{
-    const uint32_t all = UINT32_MAX >> (32 - (1 << b->samples_log2));
-    int32_t farthest = UINT16_MAX;
-    for (int32_t y = 0; y < rows; y++)
-        for (int32_t i = y * stride; i < y * stride + width; i++) {
-            if (b->any[i] != all)
-                return 0;
-            farthest = min_i32(farthest, b->farthest[i]);
-        }
-    return farthest;
 }
 
 /* ------------------------------------------------------------------ means */
