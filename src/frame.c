@@ -12,7 +12,7 @@
 
 #include "draws.h"
 #include "methods/sharp.h"
-#include "needs.h"
+#include "base/compiled.h"
 
 /* ------------------------------------------------------------------ SMEAR_AUTO, SMEAR_SUBFRAMES, SMEAR_TIMEMASK */
 

@@ -6,7 +6,7 @@
 
 #include "display/band.h"
 #include "methods/sharp.h"
-#include "needs.h"
+#include "base/compiled.h"
 #include "others.h"
 
 SMEAR_STATIC_ASSERT(sizeof(struct smear_context) <= SMEAR_CONTEXT_BYTES, "SMEAR_CONTEXT_BYTES");

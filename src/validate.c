@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "base/jobs.h"
 #include "display/pixel_format.h"
-#include "needs.h"
+#include "base/compiled.h"
 #include "others.h"
 #include "smear_memory.h"
 #include "smear_overlay.h"

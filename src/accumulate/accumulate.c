@@ -4,7 +4,7 @@
 
 #include "display/band.h"
 #include "methods/sharp.h"
-#include "needs.h"
+#include "base/compiled.h"
 #include "smear_memory.h"
 
 #if SMEAR_WITH_ACCUMULATE
@@ -22,7 +22,6 @@ struct smear_sums {
     int32_t top;                /* the first pixel row that they hold */
 };
 
-
 void smear_accumulate_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
     struct smear_sums measured, *s = arena_take(a, 1, sizeof *s);
@@ -32,7 +31,6 @@ void smear_accumulate_lay_out(struct smear_context *c, struct smear_arena *a, co
     s->whole = wants(d, SMEAR_SET(SMEAR_ACCUMULATE));
     s->sum = arena_take(a, (size_t)d->width * (size_t)(s->whole ? d->height : row_px(d)), 3 * sizeof *s->sum);
 }
-
 
 /* Returns the sums of pixel row y. */
 static smear_sum *sums_at(const struct smear_sums *s, const struct smear_rows *rows, int32_t y)

@@ -3,7 +3,7 @@
 #include "context.h"
 #include "filter/filtered.h"
 #include "filter/probe.h"
-#include "needs.h"
+#include "base/compiled.h"
 #include "others.h"
 #include "smear_memory.h"
 #include "validate.h"

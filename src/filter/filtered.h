@@ -8,7 +8,6 @@
 #include "base/base.h"
 #include "display/row.h"
 #include "filter/filter.h"
-#include "filter/pingpong.h"
 
 struct smear_filtered {
     const struct smear_window *window;      /* the one that is read: the frame's, or that of half its size */

@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* pingpong.c - plans the passes, and gathers a tile's pixels in one of them. */
-#include "filter/pingpong.h"
+/* pingpong.c - a blur in passes of few taps each, spaced closer from pass to pass: 8 and 8 taps gather like 64. Plans the passes, and
+ * gathers a tile's pixels in one of them.
+ *
+ * After Sousa's directional blurs (GDC 2008, 2013) and their use for motion: velocity and depth are looked
+ * up where the result goes, taps that are nearer than that are left out, so that what is in front does not
+ * bleed over what is behind. Taps lie at even steps to both sides, and a pass covers just one step of the
+ * one before it: then no position counts twice, and the passes are a box. Wide steps come first: the
+ * narrow ones even out what falls between pixels. */
+#include "filter/filter.h"
 
 #include "filter/gather.h"
 

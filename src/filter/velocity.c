@@ -155,7 +155,9 @@ static void displacement_between(const struct setup *s, int32_t x, int32_t y, in
     shorten(out, 22);
 }
 
-void smear_velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
+/* A displacement between two poses, q8 px, times `scale` (q16) is half the exposure's, q16 px. It is brought within the
+ * reach: the direction is kept. */
+static void velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
 {
     for (int i = 0; i < 2; i++)
         out[i] = narrow_sat((int64_t)displacement[i] * scale >> 8);
@@ -177,7 +179,7 @@ void smear_velocity_store(const int32_t displacement[2], int32_t scale, int32_t 
 
 static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
 {
-    smear_velocity_store(displacement, s->frame->velocity_scale, s->frame->reach_q3, out);
+    velocity_store(displacement, s->frame->velocity_scale, s->frame->reach_q3, out);
 }
 
 static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)
@@ -273,5 +275,85 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             here[i] = next[i];
             stored[i] = stored_next[i];
         }
+    }
+}
+
+/* ------------------------------------------------------------------ velocities of what a row's depth codes tell */
+
+static inline bool is_unknown(const struct smear_window *w, int32_t at)
+{
+    return w->velocity8 != NULL ? w->velocity8[2 * at] == SMEAR_VELOCITY_UNKNOWN8
+                                : w->velocity16[2 * at] == SMEAR_VELOCITY_UNKNOWN16;
+}
+
+/* A velocity as it is stored: in 1/8 px, and in 1/256 px per frame for who inspects it. */
+struct kept {
+    int32_t x, y, wide_x, wide_y;
+};
+
+static struct kept velocity_of(const struct smear_reprojection *r, const struct smear_camera_store *store,
+                               int32_t x2, int32_t y2, uint32_t code)
+{
+    int32_t displacement[2], stored[2];
+    smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
+    velocity_store(displacement, store->velocity_scale, store->reach_q3, stored);
+    struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
+    if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
+        k.wide_x = narrow_sat((int64_t)displacement[0] * store->inspect_scale >> 16);
+        k.wide_y = narrow_sat((int64_t)displacement[1] * store->inspect_scale >> 16);
+    }
+    return k;
+}
+
+static inline void keep(const struct smear_window *w, const struct smear_camera_store *store, int32_t at,
+                        struct kept k)
+{
+    window_velocity_store(w, at, k.x, k.y);
+    if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
+        store->inspect[2 * at] = k.wide_x;
+        store->inspect[2 * at + 1] = k.wide_y;
+    }
+}
+
+/* Fills in the pixels of a block; at[j] is where row j of it begins in the window. */
+static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
+                       const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
+                       int32_t columns, int32_t rows)
+{
+    int32_t nearest = -1;
+    for (int32_t j = 0; j < rows; j++)
+        for (int32_t i = x; i < x + columns; i++)
+            if (is_unknown(w, at[j] + i))
+                nearest = max_i32(nearest, w->depth[at[j] + i]);
+    if (nearest < 0)
+        return;
+    struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)nearest);
+    int32_t units = (int32_t)smear_depth_units((uint16_t)nearest), least = units - (units >> 4);
+    bool moves = false;
+    for (int32_t j = 0; j < rows; j++)
+        for (int32_t i = x; i < x + columns; i++) {
+            struct kept own = k;
+            if (!is_unknown(w, at[j] + i))
+                continue;
+            uint16_t code = w->depth[at[j] + i];
+            if ((int32_t)smear_depth_units(code) < least)
+                own = velocity_of(r, store, 2 * i + 1, 2 * (y + j) + 1, code);
+            keep(w, store, at[j] + i, own);
+            moves = moves || (own.x | own.y) != 0;
+        }
+    if (moves)
+        w->moving[x >> w->tile_shift] = 1;
+}
+
+void smear_camera_velocity(const struct smear_window *w, const struct smear_reprojection *r,
+                           const struct smear_camera_store *store, int32_t step, int32_t x0, int32_t x1,
+                           int32_t y0, int32_t y1)
+{
+    for (int32_t y = y0; y < y1; y += step) {
+        int32_t at[4], rows = min_i32(step, y1 - y);
+        for (int32_t j = 0; j < rows; j++)
+            at[j] = window_ring_row(w, y + j) * w->width;
+        for (int32_t x = x0; x < x1; x += step)
+            fill_block(w, r, store, at, x, y, min_i32(step, x1 - x), rows);
     }
 }

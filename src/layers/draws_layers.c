@@ -4,11 +4,10 @@
 
 #include "filter/filtered.h"
 #include "layers/layer.h"
-#include "needs.h"
+#include "base/compiled.h"
 #include "smear_memory.h"
 
 #if SMEAR_WITH_LAYERS
-
 
 static void lay_out_layer_rows(struct smear_layer_rows *r, struct smear_arena *a, const smear_desc *d)
 {

@@ -7,7 +7,7 @@
  *         blur        along lines, into a row of its own
  *         movers      over it, blurred along lines of their own
  *         finish      what is drawn at instants over both, as of any temporal method (temporal.c) */
-#include "methods/temporal_rows.h"
+#include "methods/temporal.h"
 
 #include "kernels/line_means.h"
 

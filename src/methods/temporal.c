@@ -6,7 +6,7 @@
  *         static      triangles that do not move, into the row's pixels
  *         finish      tiles by their method (tile_method.h): a copy, subframes of tiles beside each other, or a time
  *                     mask; then flush */
-#include "methods/temporal_rows.h"
+#include "methods/temporal.h"
 
 #include "display/band.h"
 #include "display/points.h"

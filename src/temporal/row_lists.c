@@ -4,7 +4,6 @@
 
 #include "base/fixmath.h"
 #include "temporal/row_blocks.h"
-#include "temporal/row_space.h"
 
 struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
 {

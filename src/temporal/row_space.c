@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* row_space.c - see row_space.h.
+/* row_space.c - see row_lists.h.
  *
  * With the vertices h0, h1, h2 before the division and p = (x, y, 1) a pixel, the weights of the vertices at p are those with
  * p = sum e_i h_i: e_i goes with (h_j x h_k) p, which is even in the pixel, and so is the place sum e_i o_i at another time
  * before its division. */
-#include "temporal/row_space.h"
+#include "temporal/row_lists.h"
 
 #include "base/fixmath.h"
 

@@ -6,7 +6,6 @@
 #include "geometry/space.h"
 #include "kernels/depth_range.h"
 #include "kernels/packed_sums.h"
-#include "temporal/moving.h"
 #include "temporal/subframes.h"
 
 /* Pixels [x0, x1) x [y0, y1). */

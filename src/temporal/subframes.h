@@ -1,10 +1,47 @@
 /* SPDX-License-Identifier: MIT */
-/* subframes.h - the moving triangles of some tiles drawn again at several instants. */
+/* subframes.h - tiles in which something moves: their triangles drawn again at several instants, or by the time they cover. */
 #ifndef SMEAR_SUBFRAMES_H
 #define SMEAR_SUBFRAMES_H
 
+#include "geometry/path.h"
 #include "kernels/light_sums.h"
-#include "temporal/moving.h"
+#include "raster/target.h"
+
+/* A moving triangle of the tile row, in submission order. */
+struct smear_moving_triangle {
+    uint32_t triangle;
+    uint8_t first, last;        /* tile columns it may touch during the exposure */
+    uint16_t nearest;           /* depth code it does not exceed: larger is nearer */
+};
+
+/* A run of tiles beside each other, or one tile, to be finished by a method that looks at several instants. */
+struct smear_tile_run {
+    const struct smear_raster_frame *frame;
+    const struct smear_shutter_times *shutter;
+    struct smear_raster_target background;      /* what does not move, drawn; only read. Its y0, y1 are the tiles', its
+                                                 * x0, x1, too, or a little beyond */
+    int32_t x0, x1;                             /* columns of pixels of the tiles */
+    const struct smear_moving_triangle *moving; /* of the row: those whose columns meet these are seen here */
+    uint32_t moving_count;
+    int32_t column, last_column;                /* tiles */
+    uint32_t blend;                             /* blended triangles of the row, static and moving ones, or
+                                                 * SMEAR_NO_TRIANGLE */
+    uint32_t *out;                              /* finished working pixels, rows `pitch` apart */
+    int32_t pitch;
+    int32_t tile;                               /* edge, pixels */
+    /* Where the row's triangles do not find room at once (display/row.h), else null: `moving` and `blend` are only some of
+     * them, the first ones or, with `next`, those after; false when there are none left. `kinds`: FILL_MOVING ... Of what
+     * moves, those that are seen in columns [fill_x0, fill_x1) */
+    bool (*fill)(struct smear_tile_run *t, int kinds, bool next);
+    const void *fill_of;
+    int32_t fill_x0, fill_x1;
+    void *work;                                 /* memory of the worker's own */
+};
+
+static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_tile_run *t)
+{
+    return m->first <= t->last_column && m->last >= t->column;
+}
 
 /* Instants of which codes add up in 16 bits: without SMEAR_WITH_LINEAR there are no more. */
 enum {
@@ -32,5 +69,23 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
 /* Finds depths in the middle of the exposure of what is opaque, of columns [x0, x1) of the tiles, when their pixels are done.
  * Returns them, in the work memory, in rows like those of `out`. */
 uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int32_t x1);
+
+/* ------------------------------------------------------------------ time masks */
+
+/* Bytes of work memory per worker: 7.4 kB, whatever the tile. */
+size_t smear_timemask_work(int32_t tile);
+
+struct smear_timemask_settings {
+    int32_t samples;            /* 8, 16 or 32 */
+    int32_t curvature;               /* q8 px: an edge may be off by this much where paths are
+                                 * bent; else the shutter is split */
+    int32_t edge;               /* what an edge may err where it turns: 2^-edge px of contrast
+                                 * squared, per px of its length */
+    int32_t tap;                /* q8 px of travel per texel taken along it, at least 1 */
+};
+
+/* Draws a tile of opaque moving triangles that have paths on the screen: what else there is, is for subframes. Returns the
+ * fragments taken. */
+uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings);
 
 #endif

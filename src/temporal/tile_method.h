@@ -6,7 +6,6 @@
 #include "temporal/lines.h"
 #include "temporal/subframes.h"
 #include "temporal/tile_contrast.h"
-#include "temporal/timemask.h"
 
 enum { STRIP_TILES_MAX = 64 };      /* tiles that may share instants (smear_desc.strip) */
 

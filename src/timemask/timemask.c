@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of
  * the exposure, into time samples over the background; then their mean. */
-#include "temporal/timemask.h"
+#include "temporal/subframes.h"
 
 #include "geometry/path.h"
 #include "timemask/timemask_cover.h"

@@ -3,7 +3,7 @@
  * direct taps, half size; on scenes of the suite. */
 #include "tests/ref/accuracy.h"
 
-#include "filter/pingpong.h"
+#include "filter/filter.h"
 #include "tests/host.h"
 
 /* ------------------------------------------------------------------ taps of passes */

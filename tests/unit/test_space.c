@@ -4,7 +4,7 @@
 #include "geometry/shot.h"
 #include "geometry/space.h"
 
-#include "temporal/row_space.h"
+#include "temporal/row_lists.h"
 
 #include "tests/host.h"
 #include "tests/unit/store.h"
