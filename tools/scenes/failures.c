@@ -71,6 +71,7 @@ const struct image *fail_noise(struct stage *stage, uint32_t seed, uint32_t dark
     return image;
 }
 
+#define GREY 0x303848u
 #define NOISE_DARK 0x182840u
 #define NOISE_LIGHT 0xf4e6c0u
 
@@ -147,14 +148,127 @@ static double still_camera(const struct stage *stage, double time, struct scene_
     return fail_shutters(time);
 }
 
+/* Lines of letters of 5x7 texels at random. */
+static const struct image *text_image(struct stage *stage)
+{
+    enum { EDGE = 256 };
+    struct image *image = stage_image(stage, EDGE, EDGE);
+    uint32_t seed = 5;
+    for (int i = 0; image != NULL && i < EDGE * EDGE; i++)
+        stage_texel(image, i % EDGE, i / EDGE, 0xf0ead8);
+    for (int line = 0; line < EDGE / 12; line++)
+        for (int letter = 0; letter < EDGE / 8; letter++)
+            for (int i = 0; i < 35; i++)
+                if (suite_random(&seed) < 0.5 && image != NULL)
+                    stage_texel(image, letter * 8 + 1 + i % 5, line * 12 + 2 + i / 5, 0x101418);
+    return image;
+}
+
+/* Checks of 3 texels with a grain: what no filter can guess. */
+static const struct image *detail_image(struct stage *stage)
+{
+    enum { EDGE = 256 };
+    struct image *image = stage_image(stage, EDGE, EDGE);
+    uint32_t seed = 14;
+    for (int y = 0; image != NULL && y < EDGE; y++)
+        for (int x = 0; x < EDGE; x++) {
+            double part = 0.25 + 0.5 * ((x / 3 + y / 3) & 1) + 0.25 * suite_random(&seed);
+            stage_texel(image, x, y, mix(NOISE_DARK, NOISE_LIGHT, part));
+        }
+    return image;
+}
+
+/* ------------------------------------------------------------------ what goes straight */
+
+#define CREAM 0xffe9b0u
+#define RED 0xe0402au
+
 static void noise_back(struct stage *stage, uint32_t seed)
 {
     fail_plane(stage, plain_noise(stage, seed), 512, 384, 1);
 }
 
-static void flat_back(struct stage *stage)
+static void flat_back(struct stage *stage, uint32_t rgb)
 {
-    fail_rectangle(stage, 512, 384, 0x303848);
+    fail_rectangle(stage, 512, 384, rgb);
+}
+
+static void text_back(struct stage *stage, uint32_t unused)
+{
+    (void)unused;
+    fail_plane(stage, text_image(stage), 256, 192, 1);
+}
+
+static void detail_back(struct stage *stage, uint32_t unused)
+{
+    (void)unused;
+    fail_plane(stage, detail_image(stage), 256, 192, 1);
+}
+
+/* Rectangles, and discs where there is no height, before a background: where each is at FAIL_TIME, and how far it goes in a frame. The
+ * camera may stand aside, and go, too. Scenes whose things go otherwise, or not all the time, are built so and have a function of time. */
+static const struct straight {
+    const char *name;
+    void (*back)(struct stage *stage, uint32_t of);
+    uint32_t of;                    /* seed or colour */
+    struct {
+        double half_width, half_height;
+        uint32_t rgb;
+        double x, y, z, step_x, step_y;
+    } thing[3];
+    double camera_x, camera_step_x, camera_step_y;
+} straight[] = {
+    { "curve", flat_back, GREY, { { 12, 12, CREAM, 0, 0, 0, 0, 0 } }, 0, 0, 0 },
+    { "long", flat_back, GREY, { { FAIL_LONG_RADIUS, 0, CREAM, 3.4, 1.3, 0, FAIL_LONG_STREAK, 0 } }, 0, 0, 0 },
+    /* The upper one runs to the right, the lower one, in front, to the left; they share 12 rows. */
+    { "opposite", flat_back, GREY, { { 14, 22, CREAM, 0, 16, 0, 20, 0 }, { 14, 22, RED, 0, -16, FRONT, -20, 0 } }, 0, 0, 0 },
+    { "slow", text_back, 0, { { FAIL_SLOW_RADIUS, 0, RED, 0, 0, 0, FAIL_SLOW_STREAK, 0 } }, 0, 0, 0 },
+    { "edge", flat_back, GREY, { { FAIL_EDGE_RADIUS, 0, CREAM, 0, 0, 0, 24, 0 } }, 0, 0, 0 },
+    { "enter", noise_back, 10, { { 12, 36, RED, -92, 0, 0, FAIL_ENTER_STREAK, 0 } }, 0, 0, 0 },
+    /* The same, seen from so far aside that no edge of the frame is near. */
+    { "enter_inside", noise_back, 10, { { 12, 36, RED, -92, 0, 0, FAIL_ENTER_STREAK, 0 } }, -FAIL_ENTER_ASIDE, 0, 0 },
+    { "spawn", noise_back, 13, { { 16, 16, RED, 0, 0, 0, 0, 0 }, { 16, 16, CREAM, 0, 0, 0, 0, 0 } }, 0, 0, 0 },
+    { "hidden", detail_back, 0, { { FAIL_HIDDEN_HALF, FAIL_HIDDEN_HALF, RED, 0, 0, 0, FAIL_HIDDEN_STREAK, 0 } }, 0, 0, 0 },
+    { "jitter", flat_back, GREY, { { 30, 0, CREAM, -48, 0, 0, 16, 0 } }, 0, 0, 0 },
+    { "rate", flat_back, GREY, { { 4, 20, CREAM, 0, 0, 0, FAIL_RATE_SPEED / FAIL_FPS, 0 } }, 0, 0, 0 },
+    { "strobe", flat_back, GREY, { { FAIL_STROBE_WIDTH / 2.0, 20, CREAM, 0, 0, 0, FAIL_STROBE_STEP, 0 } }, 0, 0, 0 },
+    { "subpan", noise_back, 25, { { 0, 0, 0, 0, 0, 0, 0, 0 } }, 0, 4 * 0.92106099400288508, 4 * 0.38941834230865050 },  /* by 0.4 */
+    { "sweep", noise_back, 26, { { 12, 12, RED, 0, 0, 0, 0, 0 } }, 0, 0, 0 },
+    { "roll", noise_back, 28, { { 0, 0, 0, 0, 0, 0, 0, 0 } }, 0, 0, 0 },
+    { "stop", noise_back, 31, { { 16, 16, RED, 0, 0, 0, 0, 0 } }, 0, 0, 0 },
+    /* The square runs behind the left bar and in front of the right one. */
+    { "layers", flat_back, GREY, { { 20, 20, RED, 0, 30, 0, FAIL_LAYER_STREAK, 0 },
+                                   { FAIL_LAYER_BAR / 2.0, 70, 0xfff4d8, -FAIL_LAYER_BAR_X, 0, FRONT, 0, 0 },
+                                   { FAIL_LAYER_BAR / 2.0, 70, 0x2f6fd0, FAIL_LAYER_BAR_X, 0, BACK / 2, 0, 0 } }, 0, 0, 0 },
+    { "ghosts", flat_back, 0, { { 100, 60, 0xffffff, -100, 0, 0, FAIL_GHOST_STREAK, 0 } }, 0, 0, 0 },
+};
+
+static const struct straight *straight_of(const struct stage *stage)
+{
+    const struct straight *s = straight;
+    while (strcmp(s->name, strchr(stage->kind->name, '/') + 1) != 0)
+        s++;
+    return s;
+}
+
+static void straight_build(struct stage *stage)
+{
+    const struct straight *s = straight_of(stage);
+    s->back(stage, s->of);
+    for (int i = 0; i < 3 && s->thing[i].half_width > 0; i++)
+        if (s->thing[i].half_height > 0)
+            fail_rectangle(stage, s->thing[i].half_width, s->thing[i].half_height, s->thing[i].rgb);
+        else
+            add_disc(stage, s->thing[i].half_width, s->thing[i].rgb);
+}
+
+static void straight_move(const struct stage *stage, double time, struct scene_instant *out)
+{
+    const struct straight *s = straight_of(stage);
+    double u = still_camera(stage, time, out);
+    ortho_camera(stage, s->camera_x + s->camera_step_x * u, s->camera_step_y * u, out);
+    for (int i = 0; i + 1 < stage->prop_count; i++)
+        stage_place(out, i + 1, xform_move(s->thing[i].x + s->thing[i].step_x * u, s->thing[i].y + s->thing[i].step_y * u, s->thing[i].z));
 }
 
 /* ------------------------------------------------------------------ 1 rotation */
@@ -191,12 +305,6 @@ static void rotation_move(const struct stage *stage, double time, struct scene_i
 
 /* ------------------------------------------------------------------ 2 curve */
 
-static void curve_build(struct stage *stage)
-{
-    flat_back(stage);
-    fail_rectangle(stage, 12, 12, 0xffe9b0);
-}
-
 /* A parabola: 28 px along; across, the place is 26 times the square of time. */
 static void curve_move(const struct stage *stage, double time, struct scene_instant *out)
 {
@@ -204,72 +312,11 @@ static void curve_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, 1, xform_move(28 * u, 26 * u * u, 0));
 }
 
-/* ------------------------------------------------------------------ 3 long */
-
-static void long_build(struct stage *stage)
-{
-    flat_back(stage);
-    add_disc(stage, FAIL_LONG_RADIUS, 0xffe9b0);
-}
-
-static void long_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_LONG_STREAK * u + 3.4, 1.3, 0));
-}
-
-/* ------------------------------------------------------------------ 4 opposite */
-
-static void opposite_build(struct stage *stage)
-{
-    flat_back(stage);
-    fail_rectangle(stage, 14, 22, 0xffe9b0);
-    fail_rectangle(stage, 14, 22, 0xe0402a);
-}
-
-/* The upper one runs to the right, the lower one, in front, to the left; they share 12 rows. */
-static void opposite_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(20 * u, 16, 0));
-    stage_place(out, 2, xform_move(-20 * u, -16, FRONT));
-}
-
-/* ------------------------------------------------------------------ 5 slow */
-
-/* Lines of letters of 5x7 texels at random. */
-static const struct image *text_image(struct stage *stage)
-{
-    enum { EDGE = 256 };
-    struct image *image = stage_image(stage, EDGE, EDGE);
-    uint32_t seed = 5;
-    for (int i = 0; image != NULL && i < EDGE * EDGE; i++)
-        stage_texel(image, i % EDGE, i / EDGE, 0xf0ead8);
-    for (int line = 0; line < EDGE / 12; line++)
-        for (int letter = 0; letter < EDGE / 8; letter++)
-            for (int i = 0; i < 35; i++)
-                if (suite_random(&seed) < 0.5 && image != NULL)
-                    stage_texel(image, letter * 8 + 1 + i % 5, line * 12 + 2 + i / 5, 0x101418);
-    return image;
-}
-
-static void slow_build(struct stage *stage)
-{
-    fail_plane(stage, text_image(stage), 256, 192, 1);
-    add_disc(stage, FAIL_SLOW_RADIUS, 0xe0402a);
-}
-
-static void slow_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_SLOW_STREAK * u, 0, 0));
-}
-
 /* ------------------------------------------------------------------ 6 thin */
 
 static void thin_build(struct stage *stage)
 {
-    flat_back(stage);
+    flat_back(stage, GREY);
     struct build b = build_begin(stage, BUILD_COLOR);
     build_color(&b, 0xffffff);
     for (int i = -3; i <= 3; i++)
@@ -306,20 +353,6 @@ static void fence_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, 0, xform_move(16 * u, 0, BACK));
 }
 
-/* ------------------------------------------------------------------ 8 edge */
-
-static void edge_build(struct stage *stage)
-{
-    flat_back(stage);
-    add_disc(stage, FAIL_EDGE_RADIUS, 0xffe9b0);
-}
-
-static void edge_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(24 * u, 0, 0));
-}
-
 /* ------------------------------------------------------------------ 9 sprites */
 
 /* Both in the plane z = 0: the one submitted first is in front. */
@@ -333,33 +366,6 @@ static void sprites_move(const struct stage *stage, double time, struct scene_in
 {
     ortho_camera(stage, 0, 0, out);
     stage_place(out, 0, xform_move(16 * fail_shutters(time), 0, 0));
-}
-
-/* ------------------------------------------------------------------ 10 enter, enter_inside */
-
-static void enter_build(struct stage *stage)
-{
-    noise_back(stage, 10);
-    fail_rectangle(stage, 12, 36, 0xe0402a);
-}
-
-static void enter_seen_from(double x, const struct stage *stage, double time,
-                            struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    ortho_camera(stage, x, 0, out);
-    stage_place(out, 1, xform_move(-92 + FAIL_ENTER_STREAK * u, 0, 0));
-}
-
-static void enter_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    enter_seen_from(0, stage, time, out);
-}
-
-/* The same, seen from so far aside that no edge of the frame is near. */
-static void enter_inside_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    enter_seen_from(-FAIL_ENTER_ASIDE, stage, time, out);
 }
 
 /* ------------------------------------------------------------------ 12 teleport, jump, cut */
@@ -398,13 +404,6 @@ static void cut_move(const struct stage *stage, double time, struct scene_instan
 
 /* ------------------------------------------------------------------ 13 spawn */
 
-static void spawn_build(struct stage *stage)
-{
-    noise_back(stage, 13);
-    fail_rectangle(stage, 16, 16, 0xe0402a);
-    fail_rectangle(stage, 16, 16, 0xffe9b0);
-}
-
 /* One moves all the time, below; one above is there from FAIL_SPAWN_FRAME on, goes and comes back.
  * It moves all the while. */
 static void spawn_move(const struct stage *stage, double time, struct scene_instant *out)
@@ -414,34 +413,6 @@ static void spawn_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, 2, xform_move(-80 + 12 * u, 50, 0));
     out->draw[2].hidden = u < FAIL_SPAWN_FRAME - 0.01
                        || (u > FAIL_SPAWN_GONE - 0.01 && u < FAIL_SPAWN_AGAIN - 0.01);
-}
-
-/* ------------------------------------------------------------------ 14 hidden */
-
-/* Checks of 3 texels with a grain: what no filter can guess. */
-static const struct image *detail_image(struct stage *stage)
-{
-    enum { EDGE = 256 };
-    struct image *image = stage_image(stage, EDGE, EDGE);
-    uint32_t seed = 14;
-    for (int y = 0; image != NULL && y < EDGE; y++)
-        for (int x = 0; x < EDGE; x++) {
-            double part = 0.25 + 0.5 * ((x / 3 + y / 3) & 1) + 0.25 * suite_random(&seed);
-            stage_texel(image, x, y, mix(NOISE_DARK, NOISE_LIGHT, part));
-        }
-    return image;
-}
-
-static void hidden_build(struct stage *stage)
-{
-    fail_plane(stage, detail_image(stage), 256, 192, 1);
-    fail_rectangle(stage, FAIL_HIDDEN_HALF, FAIL_HIDDEN_HALF, 0xe0402a);
-}
-
-static void hidden_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_HIDDEN_STREAK * u, 0, 0));
 }
 
 /* ------------------------------------------------------------------ 15 pane */
@@ -558,46 +529,6 @@ static void seams_move(const struct stage *stage, double time, struct scene_inst
     stage_place(out, 1, xform_move(-92 + 2.9 * u, -12 + 0.37 * u, 0));
 }
 
-/* ------------------------------------------------------------------ 20 jitter */
-
-static void jitter_build(struct stage *stage)
-{
-    flat_back(stage);
-    add_disc(stage, 30, 0xffe9b0);
-}
-
-static void jitter_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(-48 + 16 * u, 0, 0));
-}
-
-/* ------------------------------------------------------------------ 21 rate, 22 strobe */
-
-static void rate_build(struct stage *stage)
-{
-    flat_back(stage);
-    fail_rectangle(stage, 4, 20, 0xffe9b0);
-}
-
-static void rate_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_RATE_SPEED * (time - FAIL_TIME), 0, 0));
-}
-
-static void strobe_build(struct stage *stage)
-{
-    flat_back(stage);
-    fail_rectangle(stage, FAIL_STROBE_WIDTH / 2.0, 20, 0xffe9b0);
-}
-
-static void strobe_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_STROBE_STEP * u, 0, 0));
-}
-
 /* ------------------------------------------------------------------ 23 subpixel, subpan */
 
 static void subpixel_build(struct stage *stage)
@@ -613,24 +544,7 @@ static void subpixel_move(const struct stage *stage, double time, struct scene_i
     stage_place(out, 1, xform_move(0.37 + 4 * cos(0.4) * u, 0.21 + 4 * sin(0.4) * u, 0));
 }
 
-static void subpan_build(struct stage *stage)
-{
-    noise_back(stage, 25);
-}
-
-static void subpan_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    ortho_camera(stage, 4 * cos(0.4) * u, 4 * sin(0.4) * u, out);
-}
-
 /* ------------------------------------------------------------------ 24 sweep */
-
-static void sweep_build(struct stage *stage)
-{
-    noise_back(stage, 26);
-    fail_rectangle(stage, 12, 12, 0xe0402a);
-}
 
 /* Every other frame the camera pans another way: 15 degrees further, 8 to 18 px long. */
 static void sweep_move(const struct stage *stage, double time, struct scene_instant *out)
@@ -660,11 +574,6 @@ static void tiny_move(const struct stage *stage, double time, struct scene_insta
 
 /* ------------------------------------------------------------------ 27 roll */
 
-static void roll_build(struct stage *stage)
-{
-    noise_back(stage, 28);
-}
-
 /* 20 degrees per exposure. */
 static void roll_move(const struct stage *stage, double time, struct scene_instant *out)
 {
@@ -675,49 +584,10 @@ static void roll_move(const struct stage *stage, double time, struct scene_insta
 
 /* ------------------------------------------------------------------ 31 stop */
 
-static void stop_build(struct stage *stage)
-{
-    noise_back(stage, 31);
-    fail_rectangle(stage, 16, 16, 0xe0402a);
-}
-
 static void stop_move(const struct stage *stage, double time, struct scene_instant *out)
 {
     double u = still_camera(stage, time, out);
     stage_place(out, 1, xform_move(-60 + 12 * fmin(u, FAIL_STOP_FRAME), 0, 0));
-}
-
-/* ------------------------------------------------------------------ 34 layers */
-
-static void layers_build(struct stage *stage)
-{
-    flat_back(stage);
-    fail_rectangle(stage, 20, 20, 0xe0402a);
-    fail_rectangle(stage, FAIL_LAYER_BAR / 2.0, 70, 0xfff4d8);
-    fail_rectangle(stage, FAIL_LAYER_BAR / 2.0, 70, 0x2f6fd0);
-}
-
-/* The square runs behind the left bar and in front of the right one. */
-static void layers_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(FAIL_LAYER_STREAK * u, 30, 0));
-    stage_place(out, 2, xform_move(-FAIL_LAYER_BAR_X, 0, FRONT));
-    stage_place(out, 3, xform_move(FAIL_LAYER_BAR_X, 0, BACK / 2));
-}
-
-/* ------------------------------------------------------------------ 35 ghosts */
-
-static void ghosts_build(struct stage *stage)
-{
-    fail_rectangle(stage, 512, 384, 0x000000);
-    fail_rectangle(stage, 100, 60, 0xffffff);
-}
-
-static void ghosts_move(const struct stage *stage, double time, struct scene_instant *out)
-{
-    double u = still_camera(stage, time, out);
-    stage_place(out, 1, xform_move(-100 + FAIL_GHOST_STREAK * u, 0, 0));
 }
 
 /* ------------------------------------------------------------------ 37 sign */
@@ -725,7 +595,7 @@ static void ghosts_move(const struct stage *stage, double time, struct scene_ins
 /* Letters of 15x21 px, aslant. */
 static void sign_build(struct stage *stage)
 {
-    flat_back(stage);
+    flat_back(stage, GREY);
     fail_plane(stage, text_image(stage), 72, 30, 3);
 }
 
@@ -770,7 +640,7 @@ static void fan_move(const struct stage *stage, double time, struct scene_instan
 
 static void rotor_build(struct stage *stage)
 {
-    flat_back(stage);
+    flat_back(stage, GREY);
     add_blades(stage, 2, FAIL_ROTOR_RADIUS, 6, 0xfff4d8, 0xe0402a);
 }
 
@@ -800,36 +670,36 @@ static void wheel_move(const struct stage *stage, double time, struct scene_inst
 
 const struct stage_kind failure_flat_kinds[] = {
     {"fail/rotation", 192, 144, FAIL_TIME, 0, rotation_build, rotation_move},
-    {"fail/curve", 192, 144, FAIL_TIME, 0, curve_build, curve_move},
-    {"fail/long", 160, 64, FAIL_TIME, 0, long_build, long_move},
-    {"fail/opposite", 192, 144, FAIL_TIME, 0, opposite_build, opposite_move},
-    {"fail/slow", 192, 96, FAIL_TIME, 0, slow_build, slow_move},
+    {"fail/curve", 192, 144, FAIL_TIME, 0, straight_build, curve_move},
+    {"fail/long", 160, 64, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/opposite", 192, 144, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/slow", 192, 96, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/thin", 256, 128, FAIL_TIME, 0, thin_build, thin_move},
     {"fail/fence", 192, 96, FAIL_TIME, 0, fence_build, fence_move},
-    {"fail/edge", 128, 96, FAIL_TIME, 0, edge_build, edge_move},
+    {"fail/edge", 128, 96, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/sprites", 128, 96, FAIL_TIME, 0, sprites_build, sprites_move},
-    {"fail/enter", 192, 96, FAIL_TIME, 0, enter_build, enter_move},
-    {"fail/enter_inside", 192, 96, FAIL_TIME, 0, enter_build, enter_inside_move},
+    {"fail/enter", 192, 96, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/enter_inside", 192, 96, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/jump", 192, 80, FAIL_TIME, 0, jump_build, jump_move},
     {"fail/teleport", 192, 80, FAIL_TIME, 0, jump_build, teleport_move},
     {"fail/cut", 192, 80, FAIL_TIME, 0, jump_build, cut_move},
-    {"fail/spawn", 192, 160, FAIL_TIME, 0, spawn_build, spawn_move},
-    {"fail/hidden", 128, 96, FAIL_TIME, 0, hidden_build, hidden_move},
+    {"fail/spawn", 192, 160, FAIL_TIME, 0, straight_build, spawn_move},
+    {"fail/hidden", 128, 96, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/pane", 192, 144, FAIL_TIME, 0, pane_build, pane_move},
     {"fail/leaf", 192, 144, FAIL_TIME, 0, leaf_build, leaf_move},
     {"fail/light", 192, 144, FAIL_TIME, 0, light_build, light_move},
     {"fail/seams", 192, 64, FAIL_TIME, 0, seams_build, seams_move},
-    {"fail/jitter", 192, 96, FAIL_TIME, 0, jitter_build, jitter_move},
-    {"fail/rate", 128, 64, FAIL_TIME, 0, rate_build, rate_move},
-    {"fail/strobe", 192, 64, FAIL_TIME, 0, strobe_build, strobe_move},
+    {"fail/jitter", 192, 96, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/rate", 128, 64, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/strobe", 192, 64, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/subpixel", 64, 48, FAIL_TIME, 0, subpixel_build, subpixel_move},
-    {"fail/subpan", 64, 48, FAIL_TIME, 0, subpan_build, subpan_move},
-    {"fail/sweep", 96, 64, FAIL_TIME, 0, sweep_build, sweep_move},
+    {"fail/subpan", 64, 48, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/sweep", 96, 64, FAIL_TIME, 0, straight_build, sweep_move},
     {"fail/tiny", 28, 20, FAIL_TIME, 0, tiny_build, tiny_move},
-    {"fail/roll", 192, 144, FAIL_TIME, 0, roll_build, roll_move},
-    {"fail/stop", 192, 64, FAIL_TIME, 0, stop_build, stop_move},
-    {"fail/layers", 192, 160, FAIL_TIME, 0, layers_build, layers_move},
-    {"fail/ghosts", 128, 64, FAIL_TIME, 0, ghosts_build, ghosts_move},
+    {"fail/roll", 192, 144, FAIL_TIME, 0, straight_build, roll_move},
+    {"fail/stop", 192, 64, FAIL_TIME, 0, straight_build, stop_move},
+    {"fail/layers", 192, 160, FAIL_TIME, 0, straight_build, straight_move},
+    {"fail/ghosts", 128, 64, FAIL_TIME, 0, straight_build, straight_move},
     {"fail/sign", 192, 96, FAIL_TIME, 0, sign_build, sign_move},
     {"fail/fan", 192, 112, FAIL_TIME, 0, fan_build, fan_move},
     {"fail/rotor", 160, 144, FAIL_TIME, 0, rotor_build, rotor_move},
