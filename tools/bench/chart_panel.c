@@ -69,20 +69,19 @@ static void draw_grid(struct svg *svg, const struct panel *p)
     const struct box *b = &p->box;
     char text[32];
     for (int i = 0; i < TICKS; i++) {
-        if (is_on(&p->x, ticks[i])) {
-            double x = at(&p->x, ticks[i]);
+        const double x = at(&p->x, ticks[i]), y = at(&p->y, ticks[i]);
+        if (is_on(&p->x, ticks[i]))
             svg_line(svg, x, b->y, x, b->y + b->height, style);
-            snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
-            if (is_labelled(&p->x, i, 2.6 * p->tick_size, p->name_size == 0.0))
-                svg_text(svg, x, b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
-        }
-        if (is_on(&p->y, ticks[i])) {
-            double y = at(&p->y, ticks[i]);
+        if (is_on(&p->y, ticks[i]))
             svg_line(svg, b->x, y, b->x + b->width, y, style);
-            snprintf(text, sizeof text, "%g", ticks[i]);
-            if (is_labelled(&p->y, i, 1.4 * p->tick_size, false))
-                svg_text(svg, b->x - 6.0, y + 0.35 * p->tick_size, ANCHOR_END, font, text);
-        }
+    }
+    for (int i = 0; i < TICKS; i++) {
+        snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
+        if (is_on(&p->x, ticks[i]) && is_labelled(&p->x, i, 2.6 * p->tick_size, p->name_size == 0.0))
+            svg_text(svg, at(&p->x, ticks[i]), b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
+        snprintf(text, sizeof text, "%g", ticks[i]);
+        if (is_on(&p->y, ticks[i]) && is_labelled(&p->y, i, 1.4 * p->tick_size, false))
+            svg_text(svg, b->x - 6.0, at(&p->y, ticks[i]) + 0.35 * p->tick_size, ANCHOR_END, font, text);
     }
 }
 
@@ -90,16 +89,19 @@ static void draw_grid(struct svg *svg, const struct panel *p)
 static void draw_scale_above(struct svg *svg, const struct panel *p)
 {
     static const double millions[] = { 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000 };
+    enum { COUNT = sizeof millions / sizeof *millions };
     const struct svg_font font = { .size = p->tick_size - 1.0, .color = PANEL_PALE };
     const struct svg_style style = { edge, 1.0, NULL, 0.0 };
     char text[32];
-    for (size_t i = 0; i < sizeof millions / sizeof *millions && p->none > 0.0; i++) {
-        if (!is_on(&p->x, millions[i] / p->none))
+    for (size_t i = 0; i < 2 * COUNT && p->none > 0.0; i++) {       /* marks, then numbers */
+        const double x = at(&p->x, millions[i % COUNT] / p->none);
+        if (!is_on(&p->x, millions[i % COUNT] / p->none))
             continue;
-        double x = at(&p->x, millions[i] / p->none);
-        svg_line(svg, x, p->box.y - 4.0, x, p->box.y, style);
-        snprintf(text, sizeof text, "%g M", millions[i]);
-        svg_text(svg, x, p->box.y - 7.0, ANCHOR_MIDDLE, font, text);
+        snprintf(text, sizeof text, "%g M", millions[i % COUNT]);
+        if (i < COUNT)
+            svg_line(svg, x, p->box.y - 4.0, x, p->box.y, style);
+        else
+            svg_text(svg, x, p->box.y - 7.0, ANCHOR_MIDDLE, font, text);
     }
 }
 

@@ -22,9 +22,17 @@ static void put_escaped(FILE *out, const char *text)
     }
 }
 
+/* Ends the path that is being written, if there is one. */
+static void end_path(struct svg *svg)
+{
+    if (svg->style[0] != '\0')
+        fprintf(svg->out, "\"%s/>\n", svg->style);
+    svg->style[0] = '\0';
+}
+
 bool svg_begin(struct svg *svg, int width, int height, const char *title, struct failure *f)
 {
-    *svg = (struct svg){ NULL, NULL, 0 };
+    *svg = (struct svg){ .out = NULL };
     svg->out = open_memstream(&svg->text, &svg->size);
     if (svg->out == NULL)
         return fail(f, "out of memory");
@@ -40,6 +48,7 @@ bool svg_begin(struct svg *svg, int width, int height, const char *title, struct
 
 bool svg_end(struct svg *svg, const char *path, struct failure *f)
 {
+    end_path(svg);
     fprintf(svg->out, "</svg>\n");
     bool ok = fclose(svg->out) == 0 || fail(f, "out of memory");
     ok = ok && file_write(path, (const uint8_t *)svg->text, svg->size, f);
@@ -49,14 +58,17 @@ bool svg_end(struct svg *svg, const char *path, struct failure *f)
 
 /* ------------------------------------------------------------------ lines */
 
-static void put_style(struct svg *svg, struct svg_style style)
+/* Adds to the path that is being written where that has the same style, else begins one. */
+static void put_path(struct svg *svg, const char *style, const double *x, const double *y, int count, bool closed)
 {
-    fprintf(svg->out, " fill=\"none\" stroke=\"%s\" stroke-width=\"%.4g\"", style.color,
-            style.width);
-    if (style.dash != NULL)
-        fprintf(svg->out, " stroke-dasharray=\"%s\"", style.dash);
-    if (style.opacity > 0.0)
-        fprintf(svg->out, " stroke-opacity=\"%.4g\"", style.opacity);
+    if (strcmp(svg->style, style) != 0) {
+        end_path(svg);
+        fprintf(svg->out, "<path d=\"");
+        snprintf(svg->style, sizeof svg->style, "%s", style);
+    }
+    for (int i = 0; i < count; i++)
+        fprintf(svg->out, "%c%.1f,%.1f", i == 0 ? 'M' : i == 1 ? 'L' : ' ', x[i], y[i]);
+    fputs(closed ? "Z" : "", svg->out);
 }
 
 void svg_line(struct svg *svg, double x0, double y0, double x1, double y1, struct svg_style style)
@@ -65,32 +77,29 @@ void svg_line(struct svg *svg, double x0, double y0, double x1, double y1, struc
     svg_polyline(svg, x, y, 2, style);
 }
 
-static void put_points(struct svg *svg, const double *x, const double *y, int count)
+void svg_polyline(struct svg *svg, const double *x, const double *y, int count, struct svg_style style)
 {
-    for (int i = 0; i < count; i++)
-        fprintf(svg->out, "%s%.1f,%.1f", i > 0 ? " " : "", x[i], y[i]);
-}
-
-void svg_polyline(struct svg *svg, const double *x, const double *y, int count,
-                  struct svg_style style)
-{
-    fprintf(svg->out, "<polyline points=\"");
-    put_points(svg, x, y, count);
-    fprintf(svg->out, "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
-    put_style(svg, style);
-    fprintf(svg->out, "/>\n");
+    char text[sizeof svg->style], dash[40] = "", opacity[40] = "";
+    if (style.dash != NULL)
+        snprintf(dash, sizeof dash, " stroke-dasharray=\"%s\"", style.dash);
+    if (style.opacity > 0.0)
+        snprintf(opacity, sizeof opacity, " stroke-opacity=\"%.4g\"", style.opacity);
+    snprintf(text, sizeof text, " stroke-linejoin=\"round\" stroke-linecap=\"round\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.4g\"%s%s",
+             style.color, style.width, dash, opacity);
+    put_path(svg, text, x, y, count, false);
 }
 
 void svg_area(struct svg *svg, const double *x, const double *y, int count, const char *fill)
 {
-    fprintf(svg->out, "<polygon points=\"");
-    put_points(svg, x, y, count);
-    fprintf(svg->out, "\" fill=\"%s\"/>\n", fill);
+    char text[sizeof svg->style];
+    snprintf(text, sizeof text, " fill=\"%s\"", fill);
+    put_path(svg, text, x, y, count, true);
 }
 
 void svg_rectangle(struct svg *svg, double x, double y, double width, double height,
                    const char *fill, const char *stroke)
 {
+    end_path(svg);
     fprintf(svg->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
             "stroke=\"%s\"/>\n", x, y, width, height, fill, stroke);
 }
@@ -122,6 +131,7 @@ void svg_mark(struct svg *svg, enum chart_mark mark, double x, double y, double 
     double px[MOST_CORNERS], py[MOST_CORNERS];
     const char *fill = filled ? color : "#ffffff";
     if (mark == MARK_CIRCLE) {
+        end_path(svg);
         fprintf(svg->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.2f\" fill=\"%s\" stroke=\"%s\" "
                 "stroke-width=\"1.6\"/>\n", x, y, size, fill, color);
         return;
@@ -133,10 +143,9 @@ void svg_mark(struct svg *svg, enum chart_mark mark, double x, double y, double 
         svg_line(svg, px[1], py[1], px[3], py[3], style);
         return;
     }
-    fprintf(svg->out, "<polygon points=\"");
-    put_points(svg, px, py, count);
-    fprintf(svg->out, "\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.6\" "
-            "stroke-linejoin=\"round\"/>\n", fill, color);
+    char text[sizeof svg->style];
+    snprintf(text, sizeof text, " fill=\"%s\" stroke=\"%s\" stroke-width=\"1.6\" stroke-linejoin=\"round\"", fill, color);
+    put_path(svg, text, px, py, count, true);
 }
 
 /* ------------------------------------------------------------------ text */
@@ -162,9 +171,11 @@ double svg_text_width(struct svg_font font, const char *text)
     return sum * font.size / 1000.0 * (font.bold ? 1.08 : 1.0);
 }
 
-static void put_font(struct svg *svg, struct svg_font font)
+/* `where` has the place and the anchor. */
+static void put_text(struct svg *svg, const char *where, struct svg_font font, const char *text)
 {
-    fprintf(svg->out, " font-size=\"%.4g\" fill=\"%s\"", font.size, font.color);
+    end_path(svg);
+    fprintf(svg->out, "<text %s font-size=\"%.4g\" fill=\"%s\"", where, font.size, font.color);
     if (font.bold)
         fprintf(svg->out, " font-weight=\"bold\"");
     if (font.italic)
@@ -172,25 +183,23 @@ static void put_font(struct svg *svg, struct svg_font font)
     if (font.halo)
         fprintf(svg->out, " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
                 "paint-order=\"stroke\"");
+    fprintf(svg->out, ">");
+    put_escaped(svg->out, text);
+    fprintf(svg->out, "</text>\n");
 }
 
 void svg_text(struct svg *svg, double x, double y, enum svg_anchor anchor, struct svg_font font,
               const char *text)
 {
     static const char *const anchors[] = { "start", "middle", "end" };
-    fprintf(svg->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"", x, y, anchors[anchor]);
-    put_font(svg, font);
-    fprintf(svg->out, ">");
-    put_escaped(svg->out, text);
-    fprintf(svg->out, "</text>\n");
+    char where[80];
+    snprintf(where, sizeof where, "x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"", x, y, anchors[anchor]);
+    put_text(svg, where, font, text);
 }
 
 void svg_text_up(struct svg *svg, double x, double y, struct svg_font font, const char *text)
 {
-    fprintf(svg->out, "<text transform=\"translate(%.1f,%.1f) rotate(-90)\" "
-            "text-anchor=\"middle\"", x, y);
-    put_font(svg, font);
-    fprintf(svg->out, ">");
-    put_escaped(svg->out, text);
-    fprintf(svg->out, "</text>\n");
+    char where[80];
+    snprintf(where, sizeof where, "transform=\"translate(%.1f,%.1f) rotate(-90)\" text-anchor=\"middle\"", x, y);
+    put_text(svg, where, font, text);
 }

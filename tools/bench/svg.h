@@ -14,6 +14,7 @@ struct svg {
     FILE *out;
     char *text;
     size_t size;
+    char style[200];            /* of the path that is being written: lines and marks of one style, one after the other, are one path */
 };
 
 /* On a white ground. `title` is for those who cannot see it. */
