@@ -1,27 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* lights_cost.c - what lights cost per vertex: in the units of platform.h's clock, a frame of 240x240 of a waving ground of 289
  * vertices with normals, all of them seen, and by how much each of them takes longer under further lights. */
-#include "platform/platform.h"
-#include "platform/print.h"
+#include "tests/target/cost.h"
+
 #include "smear_scene.h"
 #include "smear_stats.h"
 
-#include <stdbool.h>
-
-enum { WIDTH = 240, SIDE = 17, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1), FRAMES = 2, ONE = 1 << 16 };
+enum { SIDE = 17, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
 static int16_t position[3 * VERTICES];
 static int8_t normal[3 * VERTICES];
 static uint16_t face[3 * TRIANGLES];
-static smear_context *context;
-
-static int swallow(void *user, const smear_band *band)
-{
-    (void)user;
-    (void)band;
-    smear_band_done(context);
-    return 0;
-}
 
 static uint32_t read_clock(void *user)
 {
@@ -51,8 +40,6 @@ static void make_ground(void)
 /* Returns what triangles of a frame take until they are drawn, with `scene`, which may be null; 0 where it fails. */
 static uint32_t cost(smear_light_space light, const smear_scene *scene, uint8_t gloss)
 {
-    size_t room;
-    void *arena = platform_arena(&room);
     const smear_desc desc = { .width = WIDTH, .height = WIDTH, .format = SMEAR_RGB565, .bands = 2, .methods = SMEAR_SET(SMEAR_NONE),
                               .tile = 16, .max_draws = 1, .max_triangles = TRIANGLES, .flush = swallow,
                               .debug.clock = read_clock };
@@ -64,23 +51,14 @@ static uint32_t cost(smear_light_space light, const smear_scene *scene, uint8_t 
     smear_transform pose = SMEAR_IDENTITY;
     pose.origin[2] = -ONE;
     const smear_draw draw = { .id = 1, .mesh = &ground, .material = &paint, .now = &pose };
-    uint32_t count = 0;
-    int result = smear_init(&context, &desc, arena, room);
-    for (int i = 0; i < FRAMES && result == SMEAR_OK; i++) {     /* the last one counts */
+    uint32_t count = begin_context(&desc);
+    for (int i = 0; i < FRAMES && count != 0; i++) {
         smear_stats stats;
-        result = smear_begin(context, &frame);
-        if (result == SMEAR_OK)
-            result = smear_submit(context, &draw);
-        if (result == SMEAR_OK)
-            result = smear_render(context);
+        count = draw_frame(&frame, &draw, 1);
         smear_get_stats(context, &stats);
-        count = platform_clock_count(stats.time.submit);
+        count = count != 0 ? platform_clock_count(stats.time.submit) : 0;
     }
-    if (result == SMEAR_OK)
-        return count;
-    platform_print(smear_error_text(result));
-    platform_print("\n");
-    return 0;
+    return count;
 }
 
 /* Prints what a vertex takes more than one under the sun alone. */
@@ -114,9 +92,7 @@ int main(int argc, char **argv)
         both.diffuse[k] = second.diffuse[k];
     }
     make_ground();
-    platform_clock_start();
-    platform_print(platform_clock_unit);
-    platform_print(" per vertex beyond the sun's, of a frame of 240x240\n");
+    begin_report(" per vertex beyond the sun's, of a frame of 240x240\n");
     for (int light = 0; light < 2; light++) {
         done = report("second light      ", (smear_light_space)!light, &second, 0) && done;
         done = report("lamp              ", (smear_light_space)!light, &lamp, 0) && done;

@@ -2,13 +2,11 @@
 /* overlay_cost.c - what lies over a frame costs: a line of 20 letters, a needle 100 px long, a sprite of 32x32 that is turned, and 1, 50
  * and 200 points that move 10 px and are 2 px wide. Prints, in the units of platform.h's clock, a frame of 240x240 without them, RGB565
  * in two bands, over a clear and over a shaded square that fills it, and by how much it takes longer with them. */
-#include "platform/platform.h"
-#include "platform/print.h"
+#include "tests/target/cost.h"
+
 #include "smear_overlay.h"
 
-#include <stdbool.h>
-
-enum { WIDTH = 240, POINTS = 200, STREAK = 10, DOT = 2, FRAMES = 2, ONE = 1 << 16 };
+enum { POINTS = 200, STREAK = 10, DOT = 2 };
 
 /* What is drawn, and over what. */
 struct way {
@@ -37,16 +35,7 @@ static const smear_image image = { bits, NULL, 32, 32, 1, SMEAR_IMAGE_MASK1 };
 static const smear_overlay_item needle = { .x = 60, .y = 120, .shape = &smear_shape_line, .to_x = 1385, .to_y = -800, .width = 32 },
                                 sprite = { .x = 100, .y = 100, .shape = &smear_shape_turned, .image = &image, .turn = 5000 };
 
-static smear_context *context;
 static smear_point point[POINTS];
-
-static int swallow(void *user, const smear_band *band)
-{
-    (void)user;
-    (void)band;
-    smear_band_done(context);
-    return 0;
-}
 
 /* Returns the next of a row of numbers below `end`, the same on every machine. */
 static int32_t random_below(uint32_t *seed, uint32_t end)
@@ -83,8 +72,6 @@ static void make_points(void)
 /* Returns what a frame takes with `overlay`, which may be null; 0 where it fails. */
 static uint32_t cost(const struct way *w, const smear_overlay *overlay)
 {
-    size_t room;
-    void *arena = platform_arena(&room);
     const smear_desc desc = {
         .width = WIDTH, .height = WIDTH, .reach = 12, .format = SMEAR_RGB565, .bands = 2,
         .methods = (uint16_t)SMEAR_SET(w->method), .tile = 16, .strip = w->method == SMEAR_NONE ? 0 : WIDTH,
@@ -100,22 +87,10 @@ static uint32_t cost(const struct way *w, const smear_overlay *overlay)
     for (int k = 0; k < 9; k += 4)
         pose.basis[k] = 2 << 20;
     const smear_draw draw = { .id = 1, .mesh = &square, .material = &unlit, .now = &pose };
-    uint32_t count = 0;
-    int result = smear_init(&context, &desc, arena, room);
-    for (int i = 0; i < FRAMES && result == SMEAR_OK; i++) {     /* the last one counts */
-        const uint32_t before = platform_clock();
-        result = smear_begin(context, &frame);
-        if (w->drawn && result == SMEAR_OK)
-            result = smear_submit(context, &draw);
-        if (result == SMEAR_OK)
-            result = smear_render(context);
-        count = platform_clock_count(platform_clock() - before);
-    }
-    if (result == SMEAR_OK)
-        return count;
-    platform_print(smear_error_text(result));
-    platform_print("\n");
-    return 0;
+    uint32_t count = begin_context(&desc);
+    for (int i = 0; i < FRAMES && count != 0; i++)
+        count = draw_frame(&frame, &draw, w->drawn);
+    return count;
 }
 
 static bool report(const struct way *w)
@@ -155,9 +130,7 @@ int main(int argc, char **argv)
     (void)argv;
     bool done = true;
     make_points();
-    platform_clock_start();
-    platform_print(platform_clock_unit);
-    platform_print(" per frame of 240x240, and by how much more with what lies over it\n");
+    begin_report(" per frame of 240x240, and by how much more with what lies over it\n");
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
         done = report(&ways[i]) && done;
     return done ? 0 : 1;

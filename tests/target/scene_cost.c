@@ -2,14 +2,12 @@
 /* scene_cost.c - what smear_scene.h costs: a frame of 240x240 over a ground that fills its lower half, and by how much longer it
  * takes with a sky, a round shadow, and the shadow of a ball of 96 triangles on the ground; of these, how many pixels they darken. In
  * the units of platform.h's clock. */
-#include "platform/platform.h"
-#include "platform/print.h"
+#include "tests/target/cost.h"
+
 #include "smear_math.h"
 #include "smear_scene.h"
 
-#include <stdbool.h>
-
-enum { WIDTH = 240, FRAMES = 2, ONE = 1 << 16, AROUND = 8, RINGS = 6, CORNERS = AROUND * (RINGS + 1) };
+enum { AROUND = 8, RINGS = 6, CORNERS = AROUND * (RINGS + 1) };
 
 enum extra { NOTHING, SKY, BLOB, PLANAR, EXTRAS };
 
@@ -35,7 +33,6 @@ static uint16_t ball_side[AROUND * RINGS * 6];
 static const smear_mesh ball = { .position = ball_corner, .index = ball_side, .vertex_count = CORNERS,
                                  .triangle_count = AROUND * RINGS * 2, .shift = 8 };
 
-static smear_context *context;
 static uint16_t picture[2][WIDTH * WIDTH];
 static uint16_t *shown;
 
@@ -68,17 +65,14 @@ static void make_ball(void)
 /* Returns what a frame takes with an extra; 0 where it fails. */
 static uint32_t cost(const struct way *w, enum extra extra)
 {
-    size_t room;
-    void *arena = platform_arena(&room);
     const smear_desc desc = { .width = WIDTH, .height = WIDTH, .format = SMEAR_RGB565, .max_draws = 4, .max_triangles = 300,
                               .methods = (uint16_t)(SMEAR_SET(w->method) | (w->method == SMEAR_AUTO ? SMEAR_SET_SKETCH : 0)),
                               .flush = keep };
     smear_sky sky = SMEAR_SKY(0x3060b0, 0xc0d8f0, 0x708060, 0x303820);
     const smear_scene scene = { .sky = extra == SKY ? &sky : NULL };
     const smear_transform fall = smear_shadow_on(smear_vec(0, 0, 0), smear_vec(0, ONE, 0), smear_vec(ONE / 4, ONE, ONE / 4));
-    uint32_t count = 0;
-    int result = smear_init(&context, &desc, arena, room);
-    for (int i = 0; i < FRAMES && result == SMEAR_OK; i++) {     /* the last one counts */
+    uint32_t count = begin_context(&desc);
+    for (int i = 0; i < FRAMES && count != 0; i++) {
         smear_camera eye = smear_perspective(SMEAR_DEGREES(50), ONE / 10, 0);
         eye.pose = smear_compose(smear_move(0, 2 * ONE, 8 * ONE), smear_rotate_x((uint32_t)(w->turn * (i - 1) - 2000) << 16));
         const smear_frame frame = { .camera = &eye, .method = (uint8_t)w->method, .clear = 0x203040, .target = SMEAR_DRAFT,
@@ -86,24 +80,12 @@ static uint32_t cost(const struct way *w, enum extra extra)
         const smear_vec3 thing = smear_vec(w->step * i, ONE, 0);
         const smear_transform place = extra == BLOB ? smear_blob_under(thing, 0, ONE)
                                                     : smear_compose(fall, smear_move(thing.x, thing.y, thing.z));
-        const smear_draw floor_draw = { .id = 1, .mesh = &ground, .material = &paint };
-        const smear_draw shadow = { .id = 2, .mesh = extra == BLOB ? &smear_blob : &ball,
-                                    .material = extra == BLOB ? &smear_blob_material : &smear_shadow_material, .now = &place };
-        const uint32_t before = platform_clock();
-        result = smear_begin(context, &frame);
-        if (result == SMEAR_OK)
-            result = smear_submit(context, &floor_draw);
-        if (result == SMEAR_OK && extra >= BLOB)
-            result = smear_submit(context, &shadow);
-        if (result == SMEAR_OK)
-            result = smear_render(context);
-        count = platform_clock_count(platform_clock() - before);
+        const smear_draw draws[2] = { { .id = 1, .mesh = &ground, .material = &paint },
+                                      { .id = 2, .mesh = extra == BLOB ? &smear_blob : &ball,
+                                        .material = extra == BLOB ? &smear_blob_material : &smear_shadow_material, .now = &place } };
+        count = draw_frame(&frame, draws, extra >= BLOB ? 2 : 1);
     }
-    if (result == SMEAR_OK)
-        return count;
-    platform_print(smear_error_text(result));
-    platform_print("\n");
-    return 0;
+    return count;
 }
 
 static bool report(const struct way *w)
@@ -136,9 +118,7 @@ int main(int argc, char **argv)
     (void)argv;
     bool done = true;
     make_ball();
-    platform_clock_start();
-    platform_print(platform_clock_unit);
-    platform_print(" per frame of 240x240, and by how much more with what a scene has\n");
+    begin_report(" per frame of 240x240, and by how much more with what a scene has\n");
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
         done = report(&ways[i]) && done;
     return done ? 0 : 1;
