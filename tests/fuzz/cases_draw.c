@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* cases_draw.c - draws cases of the generator, each twice: by other workers, in other parts, at another address. The pictures
- * must be equal, and every call of a valid case must succeed. A finding ends the program, and says where it was. */
+/* cases_draw.c - draws cases of the generator, each twice: by other workers, in other parts, at another address, some of them with
+ * pixels that are not doubled or meshes without bounds. What displays show must be equal, and every call of a valid case must succeed.
+ * A finding ends the program, and says where it was. */
 #include "tests/fuzz/cases_draw.h"
 
 #include "tests/fuzz/cases.h"
@@ -44,6 +45,7 @@ struct rig {
     uint8_t *shown[AGE_MAX], *into; /* bytes of buffers that are shown, rows from top to bottom */
     size_t pitch, rows;
     int frame, next_row, next_column, band, fail_at;
+    bool boundless;                 /* draws meshes without their bounds */
     uint32_t seen;
 };
 
@@ -58,10 +60,11 @@ static int lines_of(const smear_desc *d)
     return d->height << ((d->display.doubled & SMEAR_DOUBLED_Y) != 0);
 }
 
+static const uint8_t bits_of[] = { 32, 16, 16, 16, 8, 8, 4, 1, 8 };
+
 static size_t pitch_of(const smear_desc *d)
 {
-    static const uint8_t bits[] = { 32, 16, 16, 16, 8, 8, 4, 1, 8 };
-    return ((size_t)columns_of(d) * bits[d->format] + 7) / 8;
+    return ((size_t)columns_of(d) * bits_of[d->format] + 7) / 8;
 }
 
 static size_t rows_of(const smear_desc *d, int rows)
@@ -248,8 +251,15 @@ static int rig_frame(struct rig *r, const struct fuzz_case *c)
     if (result != SMEAR_OK)
         return result;
     for (int i = 0; i < c->draws; i++) {
+        static smear_mesh mesh[CASE_DRAWS];     /* the library reads them when it renders */
+        smear_draw draw = c->draw[i];
+        if (r->boundless && draw.mesh != NULL) {
+            mesh[i] = *draw.mesh;
+            memset(mesh[i].bounds, 0, sizeof mesh[i].bounds);
+            draw.mesh = &mesh[i];
+        }
         keep_bytes(r, c);
-        const int submitted = compare_bytes(r, c, smear_submit(r->ctx, &c->draw[i]));
+        const int submitted = compare_bytes(r, c, smear_submit(r->ctx, &draw));
         error = error == SMEAR_OK ? submitted : error;
     }
     result = render(r);
@@ -279,8 +289,35 @@ static bool has_budget(const struct fuzz_case *c)
     return c->frame.budget != 0;
 }
 
+/* Returns what the display shows at (x, y). */
+static uint32_t pixel_at(const struct rig *r, int x, int y)
+{
+    const int bits = bits_of[r->desc.format];
+    uint32_t pixel = 0;
+    if (r->desc.format == SMEAR_L1_PAGES)
+        return r->into[(size_t)(y / 8) * r->pitch + (size_t)x] >> (y % 8) & 1u;
+    const uint8_t *at = r->into + (size_t)y * r->pitch + (size_t)(x * bits / 8);
+    if (bits < 8)
+        return (uint32_t)*at >> (8 - bits - x * bits % 8) & ((1u << bits) - 1u);
+    memcpy(&pixel, at, (size_t)bits / 8);
+    return pixel;
+}
+
+/* Whether `a` shows each pixel of `b`, which is not doubled, as often as it should. */
+static bool doubles_picture(const struct rig *a, const struct rig *b)
+{
+    const int dx = columns_of(&a->desc) != a->desc.width, dy = lines_of(&a->desc) != a->desc.height;
+    for (int y = 0; y < lines_of(&a->desc); y++)
+        for (int x = 0; x < columns_of(&a->desc); x++)
+            if (pixel_at(a, x, y) != pixel_at(b, x >> dx, y >> dy))
+                return false;
+    return true;
+}
+
 static bool same_picture(const struct rig *a, const struct rig *b)
 {
+    if (a->desc.display.doubled != b->desc.display.doubled)
+        return doubles_picture(a, b);
     for (size_t i = 0; i < a->pitch * a->rows; i++)
         if (a->into[i] != b->into[i]) {
             if (talks)
@@ -298,11 +335,12 @@ static void check_same(const struct rig *a, const struct rig *b)
     smear_get_stats(b->ctx, &t);
     const bool whole = s.parts_added == 0 && t.parts_added == 0;
     const bool keeps = a->desc.reuse.cache_static || a->desc.reuse.buffer_age || b->desc.reuse.cache_static || b->desc.reuse.buffer_age;
+    const bool bytes = !keeps && a->desc.display.doubled == b->desc.display.doubled;
     require(a->seen == b->seen || !a->desc.debug.inspect, "another desc inspects another frame");
     require(memcmp(s.tiles, t.tiles, sizeof s.tiles) == 0 && s.tiles_complex == t.tiles_complex, "another desc counts other tiles");
     require(s.triangles_in == t.triangles_in, "another desc is given other triangles");
     require(s.samples == t.samples || !whole, "another desc takes other samples");
-    require(s.crc32 == t.crc32 || keeps, "another desc has another sum");
+    require(s.crc32 == t.crc32 || !bytes, "another desc has another sum");
 }
 
 static void explain(const struct fuzz_case *c, const struct rig *r, int result)
@@ -321,6 +359,7 @@ static void explain(const struct fuzz_case *c, const struct rig *r, int result)
 /* Errors that a valid frame may have: a band that was refused, or an arena that is too small for the method. */
 static void check_result(const struct fuzz_case *c, const struct rig *r, int result)
 {
+    require(c->wild || r->fail_at < 0 || r->band <= r->fail_at || result == -42, "what a band answers is lost");
     if (c->wild || (result == -42 && r->fail_at >= 0) || (result == SMEAR_ERR_ROOM && (c->desc.methods & SMEAR_SET(SMEAR_TIMEMASK)) != 0))
         return;
     require(result == SMEAR_OK, smear_error_text(result));
@@ -419,10 +458,13 @@ static uint32_t draw_case(struct fuzz_case *c, struct counts *counts, uint64_t n
     smear_desc other = many ? case_many_other(c) : mode == MODE_PARTS ? in_parts(c) : case_other_desc(c);
     if (threads)
         other.workers = (uint8_t)source_range(&c->source, 2, 8);
+    if (number % 2 == 0 && !wild)
+        other.display.doubled = SMEAR_DOUBLED_NONE;
     const int offset = source_range(&c->source, 0, 5);
     const bool inspects = offset == 2;
     const bool open = rig_open(&a, &c->desc, wild, offset, inspects);
     const bool two = open && !wild && mode != MODE_SUMS && rig_open(&b, &other, false, source_range(&c->source, 0, 5), inspects);
+    b.boundless = two && number % 3 == 0;
     counts->cases++;
     counts->refused += !open;
     bool lost = false;

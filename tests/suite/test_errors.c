@@ -314,6 +314,17 @@ static void test_the_text_of_a_bad_item_or_point_names_the_field(void)
           "overlay.points");
 }
 
+static void test_diffusion_is_refused_where_it_cannot_be(void)
+{
+    for (int format = SMEAR_XRGB8888; format <= SMEAR_L1_PAGES; format++) {
+        smear_desc desc = { .width = 45, .height = 38, .format = (uint8_t)format, .flush = take_band,
+                            .display.dither = SMEAR_DITHER_DIFFUSE };
+        CHECK_EQ(smear_memory_size(&desc) != 0, format >= SMEAR_L4);
+        desc.reuse.buffer_age = 1;
+        CHECK(smear_memory_size(&desc) == 0);
+    }
+}
+
 static void test_an_id_is_taken_once_per_frame(void)
 {
     static const uint16_t methods[] = { SMEAR_SET(SMEAR_NONE), SMEAR_SET(SMEAR_AUTO), SMEAR_SET(SMEAR_RECONSTRUCT) };
