@@ -97,7 +97,7 @@ static int take_band(void *user, const smear_band *band)
         return -42; /* a refused band counts as sent */
     if (r->desc.bands == 2)
         smear_band_done(r->ctx);
-    return 0;
+    return r->band % 7; /* what is not negative goes on */
 }
 
 static void rest(void *user)
@@ -154,7 +154,11 @@ static bool rig_open(struct rig *r, const smear_desc *desc, bool wild, int offse
     smear_context *none = NULL;
     if (bytes == 0) {
         require(wild, "a valid desc is refused");
-        require(smear_init(&none, &r->desc, now_at, 8) != SMEAR_OK, "a desc without a size is taken");
+        static uint64_t block[4096];
+        memset(block, PATTERN, sizeof block);
+        require(smear_init(&none, &r->desc, block, sizeof block) != SMEAR_OK && none == NULL, "a desc without a size is taken");
+        for (size_t i = 0; i < sizeof block; i++)
+            require(((const uint8_t *)block)[i] == PATTERN, "a refused desc has changed memory");
         return false;
     }
     if (bytes > 48u << 20)
@@ -393,7 +397,8 @@ static void filter_frame(struct rig *r, struct fuzz_case *c)
     struct source *s = &c->source;
     r->next_row = r->band = r->next_column = 0;
     r->fail_at = -1;
-    if (smear_filter_begin(r->ctx, &c->frame) != SMEAR_OK)
+    keep_bytes(r, c);
+    if (compare_bytes(r, c, smear_filter_begin(r->ctx, &c->frame)) != SMEAR_OK)
         return;
     const int shift = source_range(s, 0, 15), far = source_range(s, 0, 31);
     for (int y = 0; y < r->desc.height; y++) {

@@ -204,63 +204,7 @@ static void test_meshes_without_triangles_or_vertices_draw_nothing(void)
         CHECK_EQ(((const uint32_t *)(const void *)r.picture)[i], 0x203040);
 }
 
-static void test_a_scene_far_from_the_origin_gives_the_same_bits(void)
-{
-    smear_desc desc = small_desc(96, 72);
-    RIG(here, &desc, false);
-    RIG(there, &desc, false);
-    for (int k = 0; k < 3; k++) {
-        struct scene s;
-        make_scene(&s, 0.3 * k, 0);
-        CHECK_EQ(rig_frame(&here, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-        const int32_t shift[3] = { 10000 * 65536, -7000 * 65536, 20000 * 65536 };
-        for (int axis = 0; axis < 3; axis++) {
-            for (int i = 0; i < SCENE_DRAWS; i++)
-                s.pose[i].origin[axis] += shift[axis];
-            s.camera.pose.origin[axis] += shift[axis];
-        }
-        CHECK_EQ(rig_frame(&there, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-        same_picture(&here, there.picture);
-    }
-}
-
 /* ------------------------------------------------------------------ flush */
-
-static void test_a_negative_answer_of_flush_ends_the_frame_and_nothing_else(void)
-{
-    static const uint8_t method[] = { SMEAR_NONE, SMEAR_ACCUMULATE, SMEAR_RECONSTRUCT, SMEAR_SUBFRAMES, SMEAR_TIMEMASK,
-                                      SMEAR_AUTO, SMEAR_AUTO };
-    for (int m = 0; m < 7; m++) {
-        smear_desc desc = small_desc(48, 64);
-        desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-        desc.bands = m & 1 ? 2 : 1;
-        if (m == 6)
-            desc.methods = SMEAR_SET_TEMPORAL;
-        RIG(r, &desc, false);
-        RIG(fresh, &desc, false);
-        int bands = 0;
-        r.reports_sent = fresh.reports_sent = desc.bands == 2;
-        for (int k = 0; k < 12; k++) {
-            CHECK_EQ(render_scene(&fresh, 0.1 * k, method[m]), SMEAR_OK);
-            bands = fresh.bands;
-            r.fail_at = k & 1 ? -1 : k / 2 % bands;
-            r.fail_with = -77 - k;
-            int result = render_scene(&r, 0.1 * k, method[m]);
-            if (k & 1) {
-                CHECK_EQ(result, SMEAR_OK);
-                same_picture(&fresh, r.picture);
-            } else {
-                CHECK_EQ(result, -77 - k);
-                CHECK_EQ(r.bands, r.fail_at + 1);
-            }
-        }
-        CHECK(bands > 1);
-        r.fail_at = 1;
-        r.fail_with = 5;                        /* not negative: goes on */
-        CHECK_EQ(render_scene(&r, 0, method[m]), SMEAR_OK);
-        CHECK_EQ(r.bands, bands);
-    }
-}
 
 /* A display that takes its time: a thread that frees the oldest band after a while. */
 struct slow_display {
@@ -331,43 +275,6 @@ static void test_two_bands_are_sent_by_another_thread_while_drawing_goes_on(void
         pthread_join(thread, NULL);
         CHECK(!display.overwritten);
         CHECK_EQ(atomic_load(&display.sent), 8 * 7);
-    }
-}
-
-/* ------------------------------------------------------------------ workers */
-
-/* Sharp frames of which nothing is blended: cores draw their rows apart where there is memory of temporal methods. */
-static int render_opaque(struct rig *r, double t)
-{
-    struct scene s;
-    make_scene(&s, t, SMEAR_NONE);
-    s.material[3].alpha = SMEAR_OPAQUE;
-    return rig_frame(r, &s.frame, s.draw, SCENE_DRAWS);
-}
-
-static void test_a_negative_answer_of_flush_ends_the_frame_of_several_workers(void)
-{
-    enum { FRAMES = 12 };
-    for (int k = 0; k < 6; k++) {
-        smear_desc desc = small_desc(48, 64);
-        desc.methods = SMEAR_SET_TEMPORAL;
-        desc.bands = (uint8_t)(1 + k % 2);
-        smear_desc shared = desc;
-        shared.workers = (uint8_t)(2 + k / 2);
-        RIG(r, &shared, false);
-        RIG(fresh, &desc, false);
-        r.reports_sent = fresh.reports_sent = desc.bands == 2;
-        for (int i = 0; i < FRAMES; i++) {
-            CHECK_EQ(render_opaque(&fresh, 0.1 * i), SMEAR_OK);
-            CHECK(fresh.bands > 2);
-            r.fail_at = i & 1 ? -1 : i / 2 % fresh.bands;
-            r.fail_with = -77 - i;
-            CHECK_EQ(render_opaque(&r, 0.1 * i), i & 1 ? SMEAR_OK : -77 - i);
-            if (i & 1)
-                same_picture(&fresh, r.picture);
-            else
-                CHECK_EQ(r.bands, r.fail_at + 1);
-        }
     }
 }
 
@@ -479,62 +386,6 @@ static void test_a_cut_of_the_camera_stops_everything_for_one_frame(void)
         }
         same_picture(&r, sharp);
         free(sharp);
-    }
-    rig_end(&r);
-}
-
-static void test_an_object_that_appears_in_a_running_scene_has_no_motion_of_its_own(void)
-{
-    struct rig r;
-    if (motion_open(&r)) {
-        for (int k = 0; k < 8; k++) {
-            smear_transform pose[2] = { pose_at(0.25 * k - 1.5, 0.8, -4, 0, 0), pose_at(0.25 * k - 0.5, -1.2, -4, 0, 0) };
-            smear_draw d[2] = { { .id = 1, .mesh = &square, .now = &pose[0] },
-                                { .id = 2, .mesh = &square, .now = &pose[1] } };
-            smear_frame f = { .camera = &motion_camera };
-            CHECK_EQ(rig_frame(&r, &f, d, k < 5 ? 1 : 2), SMEAR_OK);
-            size_t first = (size_t)(32 - 6) * MOTION_W + (size_t)(20 + 2 * k);
-            size_t second = (size_t)(32 + 10) * MOTION_W + (size_t)(28 + 2 * k);
-            CHECK_NEAR(r.velocity[2 * first], k == 0 ? 0 : 512, STEPS);
-            CHECK_NEAR(r.velocity[2 * second], k <= 5 ? 0 : 512, STEPS);
-        }
-    }
-    rig_end(&r);
-}
-
-static void test_the_camera_moves_what_has_no_motion_of_its_own(void)
-{
-    struct rig r;
-    if (motion_open(&r)) {
-        int32_t v[4][2] = { { 0 } };
-        for (int k = 0; k < 2; k++) {
-            /* Four squares, all but the last moving with the camera's pan to the right. */
-            motion_camera = camera_at(0.25 * k, 0, 0, 0);
-            smear_transform pose[4];
-            smear_draw d[4];
-            static const double corner[4][2] = { { -1.5, 1.5 }, { 1.5, 1.5 }, { -1.5, -1.5 }, { 1.5, -1.5 } };
-            for (int i = 0; i < 4; i++) {
-                pose[i] = pose_at(corner[i][0] + 0.5 * k, corner[i][1], -4, 0, 0);
-                d[i] = (smear_draw){ .id = (uint32_t)i + 1, .mesh = &square, .material = &motion_material,
-                                     .now = &pose[i] };
-            }
-            d[1].motion = SMEAR_MOTION_CAMERA;
-            d[2].motion = SMEAR_MOTION_NONE;
-            d[3].cut = 1;
-            smear_frame f = { .camera = &motion_camera };
-            CHECK_EQ(rig_frame(&r, &f, d, 4), SMEAR_OK);
-            for (int i = 0; i < 4 && k == 1; i++) {
-                int x = (int)(32 + 8 * (corner[i][0] + 0.25)), y = (int)(32 - 8 * corner[i][1]);
-                for (int axis = 0; axis < 2; axis++)
-                    v[i][axis] = r.velocity[2 * (y * MOTION_W + x) + axis];
-            }
-        }
-        CHECK_NEAR(v[0][0], 512, STEPS);            /* object 4 px right, camera 2 px: 2 px */
-        CHECK_NEAR(v[1][0], -512, STEPS);           /* as if it stood still: camera only */
-        CHECK_EQ(v[2][0], 0);
-        CHECK_NEAR(v[3][0], -512, STEPS);
-        for (int i = 0; i < 4; i++)
-            CHECK_NEAR(v[i][1], 0, STEPS);
     }
     rig_end(&r);
 }
