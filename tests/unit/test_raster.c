@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_raster.c - coverage of triangles against exact integer arithmetic; which pixel wins; and that cutting the frame into columns
- * and bands, and drawing from the front, never show. Golden frames hold what pixels have. Needs neither libc nor floating point. */
+/* test_raster.c - coverage of triangles against exact integer arithmetic; which pixel wins; and that drawing from the
+ * front never shows. Golden frames hold what pixels have. Needs neither libc nor floating point. */
 #include "raster/kept.h"
 #include "raster/raster.h"
 
@@ -241,20 +241,6 @@ static void set_uv(int at, uint16_t vertex, int32_t u, int32_t v)
     *words_at(vertex, segment[at].uv) = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
 }
 
-static void set_color(int at, uint16_t vertex, const uint16_t channel[4])
-{
-    words_at(vertex, segment[at].color)[0] = channel[0] | (uint32_t)channel[1] << 16;
-    words_at(vertex, segment[at].color)[1] = channel[2] | (uint32_t)channel[3] << 16;
-}
-
-static void set_motion(int at, uint16_t vertex, int pose, int32_t dx, int32_t dy, int32_t ratio)
-{
-    uint32_t *motion = words_at(vertex, segment[at].motion + pose * MOTION_WORDS);
-    motion[MOTION_DX] = (uint32_t)dx;
-    motion[MOTION_DY] = (uint32_t)dy;
-    motion[MOTION_RATIO] = (uint32_t)ratio;
-}
-
 /* Random corners of a triangle of at least `pixels` square pixels; false when luck is out. */
 static bool fat_triangle(int32_t (*p)[2], int32_t pixels, int32_t low, int32_t high_x, int32_t high_y)
 {
@@ -305,18 +291,6 @@ static void test_depth_codes_grow_over_the_break(void)
 enum { TEXELS = 64 * 64 };
 static uint32_t texels[TEXELS];
 
-static void set_texture(int at, int32_t width, int32_t height, int wrap_u, int wrap_v, int uv_shift)
-{
-    for (int32_t v = 0; v < height; v++)
-        for (int32_t u = 0; u < width; u++)
-            texels[v * width + u] = 0xff000000u | (uint32_t)v << 12 | (uint32_t)u;
-    const smear_texture texture = {
-        .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height,
-        .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
-    };
-    smear_sampler_make(&draw[at].sampler, &texture, uv_shift, false, false);
-}
-
 /* A textured triangle. */
 struct textured {
     int32_t p[3][2], q[3], uv[3][2];
@@ -362,76 +336,6 @@ static void test_the_nearest_wins_in_any_order_and_the_first_of_equals(void)
 
 /* ------------------------------------------------------------------ cuts of the frame */
 
-/* Three corners around a place, no farther from it than `size` along x and y; false where they lie in a line. */
-static bool random_corners(int32_t (*p)[2], int32_t x, int32_t y, int32_t size)
-{
-    for (int i = 0; i < 3; i++) {
-        p[i][0] = x + between(-size, size);
-        p[i][1] = y + between(-size, size);
-    }
-    return area_of(p) != 0;
-}
-
-/* A list of everything there is: all kinds of vertices, poses, textures, alpha; large, small and huge. */
-static void random_list(void)
-{
-    list_begin();
-    frame.transfer = chance(2);
-    set_texture(0, 32, 16, SMEAR_REPEAT, SMEAR_REPEAT, 15);
-    for (int i = 0; i < SEGMENTS; i++) {
-        bool uv = i & 1, color = i & 2;
-        int moves = between(0, 2);
-        set_layout(i, uv, color, moves, color ? SHADE_GOURAUD : uv && chance(2) ? SHADE_NONE : SHADE_FLAT);
-        segment[i].flat_depth = chance(4);
-        draw[i].alpha = (uint8_t)(chance(2) ? SMEAR_OPAQUE : chance(2) ? SMEAR_CUTOUT : SMEAR_BLEND);
-        if (draw[i].alpha == SMEAR_BLEND)
-            set_layout(i, uv, color, 0, (enum smear_shade_mode)segment[i].shade);
-        int wrap_u = between(0, 2), wrap_v = between(0, 2);
-        const smear_texture texture = {
-            .texels = texels, .width = chance(2) ? 32 : 23, .height = 16,
-            .wrap_u = (uint8_t)wrap_u, .wrap_v = (uint8_t)wrap_v
-        };
-        int uv_shift = between(12, 15);
-        smear_sampler_make(&draw[i].sampler, &texture, uv_shift, chance(4), frame.transfer);
-    }
-    for (uint32_t i = 0; i < 32 * 16; i++)
-        texels[i] = random_u32();
-    /* One of the plainest textured kind, which has a loop of its own. */
-    set_layout(1, true, false, between(0, 1), SHADE_NONE);
-    draw[1].alpha = SMEAR_OPAQUE;
-    const smear_texture plain = { .texels = texels, .width = 32, .height = 16 };
-    smear_sampler_make(&draw[1].sampler, &plain, 13, false, frame.transfer);
-    for (int n = 0; n < 40 && list_has_room(); n++) {
-        int at = between(0, SEGMENTS - 1);
-        int32_t size = chance(4) ? SMEAR_GUARD_PX << 8 : 256 << between(0, 6), p[3][2];
-        int32_t x = size > 1 << 16 ? W << 7 : between(0, W * 256), y = size > 1 << 16 ? H << 7 : between(0, H * 256);
-        int32_t level = between(0, 8);
-        uint16_t v[3];
-        if (!random_corners(p, x, y, size))
-            continue;
-        for (int i = 0; i < 3; i++) {
-            int32_t depth = SMEAR_DEPTH_MIN + between(0, SMEAR_DEPTH_MAX - SMEAR_DEPTH_MIN) / (1 << level);
-            v[i] = add_vertex(at, p[i][0], p[i][1], depth);
-            if (segment[at].uv != 0) {
-                int32_t s = between(-32768, 32767), t = between(-32768, 32767);
-                set_uv(at, v[i], s, t);
-            }
-            if (segment[at].color != 0) {
-                uint16_t channel[4];
-                for (int c = 0; c < 4; c++)
-                    channel[c] = (uint16_t)random_u32();
-                set_color(at, v[i], channel);
-            }
-            for (int pose = 0; pose < segment[at].moves; pose++) {
-                int32_t reach = 16 << between(0, 12);
-                int32_t dx = between(-reach, reach), dy = between(-reach, reach);
-                set_motion(at, v[i], pose, dx, dy, n & 1 ? 1 << 20 : between(1 << 14, 1 << 22));
-            }
-        }
-        add_triangle(at, v[0], v[1], v[2], random_u32());
-    }
-}
-
 static bool same_planes(const struct planes *a, const struct planes *b)
 {
     for (int i = 0; i < W * H; i++) {
@@ -449,29 +353,6 @@ static bool same_planes(const struct planes *a, const struct planes *b)
         }
     }
     return true;
-}
-
-static void test_cutting_the_frame_into_columns_and_bands_changes_nothing(void)
-{
-    random_state = 22;
-    for (int n = 0; n < 60; n++) {
-        random_list();
-        planes_clear(&full);
-        draw_list(&full);
-        planes_clear(&cut);
-        int32_t column = 16 * between(1, 4), band = chance(3) ? 8 : between(1, H);
-        for (int32_t y = 0; y < H; y += band)
-            for (int32_t x = 0; x < W; x += column) {
-                struct smear_raster_target t = target_of(&cut);
-                t.x0 = x;
-                t.x1 = x + column < W ? x + column : W;
-                t.y0 = y;
-                t.y1 = y + band < H ? y + band : H;
-                t.color_rows.ring_row = t.window_rows.ring_row = y;
-                smear_raster_list(&frame, &t, 0);
-            }
-        END_UNLESS(same_planes(&full, &cut));
-    }
 }
 
 #if SMEAR_FRONT_ORDER
