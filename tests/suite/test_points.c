@@ -266,41 +266,4 @@ static void test_a_panel_is_sent_the_tiles_over_which_points_pass(void)
     }
 }
 
-/* ------------------------------------------------------------------ what is refused, and what is not */
-
-/* Places, sizes and motion of any bits: no fault, and nothing beyond the frame. */
-static void test_points_anywhere_are_drawn_or_left_out(void)
-{
-    random_state = 3;
-    struct rig r;
-    const smear_desc desc = desc_of();
-    if (rig_begin(&r, &desc, false))
-        for (int i = 0; i < 300; i++) {
-            smear_point point[POINTS];
-            const smear_points points = { point, POINTS };
-            const smear_overlay overlay = { NULL, 0, &points };
-            struct scene s;
-            make_scene(&s, 0.1 * (i % 7), SMEAR_NONE + i % (SMEAR_METHOD_COUNT - SMEAR_NONE));
-            for (int k = 0; k < POINTS; k++) {
-                const int bits = i % 3 == 0 ? 0 : between(0, 24);
-                point[k] = (smear_point){ .size = (int32_t)(random_u32() >> 1) >> bits, .color = { 255, 255, 255 },
-                                          .mode = (uint8_t)(k & 1) };
-                for (int j = 0; j < 3; j++) {
-                    point[k].now[j] = (int32_t)random_u32() >> bits;
-                    point[k].before[j] = (int32_t)random_u32() >> bits;
-                }
-            }
-            s.frame.overlay = &overlay;
-            if (i % 11 == 0) {
-                s.camera.focal = 0;
-                s.camera.half_height = 3 << 16;
-                s.camera.far_plane = 100 << 16;
-            }
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            rig_forget_output(&r);
-        }
-    CHECK(guards_intact(&r));
-    rig_end(&r);
-}
-
 #include "build/suites/points.h"

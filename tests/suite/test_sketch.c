@@ -272,26 +272,6 @@ static bool draw_by_all(struct rig *r, enum kind kind)
     return ok;
 }
 
-static void test_eight_workers_draw_what_one_does(void)
-{
-    static const int16_t tiles[] = { 8, 16, 32, 64 };
-    for (int kind = 0; kind < KINDS; kind++) {
-        smear_desc desc = sketch_desc();
-        desc.tile = tiles[kind % 4];
-        desc.reach = (int16_t)(kind % 4 == 0 ? 8 : 13);
-        uint8_t *want = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
-        for (int workers = 2 + kind % 3; workers <= 8; workers += 3) {
-            struct rig r;
-            desc.workers = (uint8_t)workers;
-            desc.max_triangles = workers % 3 == 0 ? 20 : 600;
-            if (rig_begin(&r, &desc, false) && draw_by_all(&r, (enum kind)kind))
-                CHECK(want != NULL && same_picture(&r, want));
-            rig_end(&r);
-        }
-        free(want);
-    }
-}
-
 /* Jobs end at any tile: taps that are cut off at the frame's border are shared by the same pixels wherever. */
 static void test_columns_of_any_job_are_the_same(void)
 {
@@ -317,26 +297,6 @@ static double difference(const uint8_t *a, const uint8_t *b, int pixels)
     for (int i = 0; i < 4 * pixels; i++)
         sum += (a[i] - b[i]) * (a[i] - b[i]);
     return sqrt(sum / (3 * pixels));
-}
-
-/* One pixel, one row, one column, and less than a tile or a block. */
-static void test_frames_smaller_than_a_tile(void)
-{
-    static const int16_t sizes[] = { 1, 2, 7, 8, 9, 15, 17, 33 };
-    for (int i = 0; i < 64; i++)
-        for (int far = 0; far < 2; far++) {
-            smear_desc desc = sketch_desc();
-            desc.width = sizes[i % 8];
-            desc.height = sizes[i / 8];
-            desc.reach = far ? 64 : 1;
-            desc.tile = far ? 64 : 8;
-            uint8_t *want = third(&desc, PLAIN, SMEAR_AUTO, SMEAR_SKETCH, NULL);
-            desc.max_triangles = 10;
-            uint8_t *got = third(&desc, PLAIN, SMEAR_AUTO, SMEAR_SKETCH, NULL);
-            CHECK(got != NULL && want != NULL && memcmp(got, want, (size_t)desc.width * (size_t)desc.height * 4) == 0);
-            free(got);
-            free(want);
-        }
 }
 
 /* ------------------------------------------------------------------ what is shown */
