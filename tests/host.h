@@ -5,6 +5,7 @@
 
 #include "tests/random.h"
 #include "tests/test.h"
+#include "tools/scenes/color.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,10 @@ static inline uint32_t number_from(const char *name, uint32_t usual)
     const char *value = getenv(name);
     return value != NULL && atoi(value) > 0 ? (uint32_t)atoi(value) : usual;
 }
+
+/* Between codes, 0 to 255, and light, 0 to 1. */
+static inline double light_of(double code) { return color_decode(code / 255); }
+static inline double code_of(double light) { return 255 * color_encode(light); }
 
 /* For qsort. */
 static inline int by_value(const void *a, const void *b)

@@ -143,6 +143,16 @@ bool same_picture(const struct rig *r, const uint8_t *picture)
     return true;
 }
 
+double rms_of(const void *a, const void *b, int pixels)
+{
+    const uint32_t *one = (const uint32_t *)a, *other = (const uint32_t *)b;
+    double sum = 0;
+    for (int i = 0; i < pixels; i++)
+        for (int shift = 0; shift < 24; shift += 8)
+            sum += pow((double)(one[i] >> shift & 255u) - (double)(other[i] >> shift & 255u), 2);
+    return sqrt(sum / (3.0 * pixels));
+}
+
 /* ------------------------------------------------------------------ poses and cameras */
 
 void random_rotation(int32_t basis[9], double scale)

@@ -116,25 +116,23 @@ static void test_statistics_say_how_full_each_list_was(void)
     smear_desc desc = small_desc(64, 48);
     desc.methods |= SMEAR_SET_TEMPORAL;
     desc.max_draws = 9;
-    struct rig r;
-    if (rig_begin(&r, &desc, false))
-        for (int m = 0; m < 3; m++) {
-            smear_stats few, all;
-            struct scene s;
-            make_scene(&s, 0.2, method[m]);
-            CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
-            smear_get_stats(r.ctx, &few);
-            CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
-            smear_get_stats(r.ctx, &all);
-            CHECK(is_within(&few.fill.geometry) && is_within(&few.fill.segments) && is_within(&few.fill.draws));
-            CHECK(is_within(&all.fill.geometry) && is_within(&all.fill.segments) && is_within(&all.fill.draws));
-            CHECK_EQ(few.fill.draws.used, 1);
-            CHECK_EQ(all.fill.draws.used, SCENE_DRAWS);
-            CHECK_EQ(all.fill.draws.room, 9);
-            CHECK(all.fill.geometry.used > few.fill.geometry.used && all.fill.segments.used > few.fill.segments.used);
-            CHECK(all.fill.geometry.room == few.fill.geometry.room);
-        }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    for (int m = 0; m < 3; m++) {
+        smear_stats few, all;
+        struct scene s;
+        make_scene(&s, 0.2, method[m]);
+        CHECK_EQ(rig_frame(&r, &s.frame, &s.draw[1], 1), SMEAR_OK);
+        smear_get_stats(r.ctx, &few);
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        smear_get_stats(r.ctx, &all);
+        CHECK(is_within(&few.fill.geometry) && is_within(&few.fill.segments) && is_within(&few.fill.draws));
+        CHECK(is_within(&all.fill.geometry) && is_within(&all.fill.segments) && is_within(&all.fill.draws));
+        CHECK_EQ(few.fill.draws.used, 1);
+        CHECK_EQ(all.fill.draws.used, SCENE_DRAWS);
+        CHECK_EQ(all.fill.draws.room, 9);
+        CHECK(all.fill.geometry.used > few.fill.geometry.used && all.fill.segments.used > few.fill.segments.used);
+        CHECK(all.fill.geometry.room == few.fill.geometry.room);
+    }
     desc.max_triangles = 8;
     if (rig_begin(&r, &desc, false)) {
         smear_stats stats;
@@ -600,34 +598,31 @@ static void test_textures_of_every_size_show_their_texels(void)
             uint32_t *texels = malloc((size_t)width * (size_t)height * 4);
             for (int k = 0; k < width * height; k++)
                 texels[k] = 0xff000000u | (uint32_t)(k / width) << 12 | (uint32_t)(k % width);
-            struct rig r;
             smear_desc desc = small_desc(width, height);
             desc.methods = SMEAR_SET(SMEAR_NONE);
-            if (rig_begin(&r, &desc, false)) {
-                smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
-                smear_material material = { .texture = &texture, .unlit = 1 };
-                /* Orthographic: one unit is half the height. */
-                smear_camera camera = camera_at(0, 0, 0, 0);
-                camera.half_height = 65536;
-                smear_transform pose = pose_at(0, 0, -4, 0, 0);
-                pose.basis[0] = (int32_t)((int64_t)SMEAR_BASIS_ONE * width / height);
-                int16_t uv[8];
-                for (int k = 0; k < 8; k++)             /* a whole turn: 2^14 mesh units */
-                    uv[k] = square_uv[k] != 0 ? 16384 : 0;
-                smear_mesh mesh = square;
-                mesh.uv = uv;
-                mesh.uv_shift = 14;
-                smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
-                smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
-                CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
-                const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-                for (int k = 0; k < width * height; k++)
-                    if (!CHECK_EQ(pixel[k], texels[k] & 0xffffffu)) {
-                        CHECK_EQ(width * 1000 + height, -1);
-                        break;
-                    }
-            }
-            rig_end(&r);
+            RIG(r, &desc, false);
+            smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
+            smear_material material = { .texture = &texture, .unlit = 1 };
+            /* Orthographic: one unit is half the height. */
+            smear_camera camera = camera_at(0, 0, 0, 0);
+            camera.half_height = 65536;
+            smear_transform pose = pose_at(0, 0, -4, 0, 0);
+            pose.basis[0] = (int32_t)((int64_t)SMEAR_BASIS_ONE * width / height);
+            int16_t uv[8];
+            for (int k = 0; k < 8; k++)             /* a whole turn: 2^14 mesh units */
+                uv[k] = square_uv[k] != 0 ? 16384 : 0;
+            smear_mesh mesh = square;
+            mesh.uv = uv;
+            mesh.uv_shift = 14;
+            smear_draw d = { .mesh = &mesh, .material = &material, .now = &pose };
+            smear_frame f = { .camera = &camera, .method = SMEAR_NONE };
+            CHECK_EQ(rig_frame(&r, &f, &d, 1), SMEAR_OK);
+            const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+            for (int k = 0; k < width * height; k++)
+                if (!CHECK_EQ(pixel[k], texels[k] & 0xffffffu)) {
+                    CHECK_EQ(width * 1000 + height, -1);
+                    break;
+                }
             free(texels);
         }
 }

@@ -126,42 +126,35 @@ static void test_the_text_of_a_bad_frame_names_the_field(void)
         FRAME(filter.pingpong.jitter, 129), FRAME(filter.pingpong.spread, 2), FRAME(scale.rotation, 16129),
         FRAME(scale.translation, 16129)
     };
-    struct rig r;
     smear_desc desc = small_desc(32, 32);
     desc.methods |= SMEAR_SET(SMEAR_CAMERA);
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_RECONSTRUCT);
-        for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-            smear_frame f = s.frame;
-            put(&f, &bad[i]);
-            names(smear_begin(r.ctx, &f), bad[i].name);
-        }
-        check_cameras(&r, &s.camera);
-        const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
-        const smear_light nowhere = { .diffuse = { 1, 1, 1 } };
-        names(smear_begin(r.ctx, &(smear_frame){ .camera = NULL }), "frame.camera");
-        names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .shutter.curve = closed }), "frame.shutter.curve");
-        names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .light = &nowhere }), "frame.light");
-        names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .layer_count = 1 }), "frame.layer");
-        names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .method = SMEAR_CAMERA, .filter.kind = SMEAR_FILTER_PINGPONG }),
-              "frame.filter.kind");
-        CHECK_EQ(smear_error_kind(smear_begin(r.ctx, NULL)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_error_kind(smear_begin(NULL, &s.frame)), SMEAR_ERR_ARG);
-        CHECK_EQ(smear_render(NULL), SMEAR_ERR_ARG);
-        smear_work(NULL, 1);
-        CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
-        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+    RIG(r, &desc, false);
+    struct scene s;
+    make_scene(&s, 0, SMEAR_RECONSTRUCT);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        smear_frame f = s.frame;
+        put(&f, &bad[i]);
+        names(smear_begin(r.ctx, &f), bad[i].name);
     }
-    rig_end(&r);
+    check_cameras(&r, &s.camera);
+    const uint8_t closed[SMEAR_SHUTTER_POINTS] = { 0 };
+    const smear_light nowhere = { .diffuse = { 1, 1, 1 } };
+    names(smear_begin(r.ctx, &(smear_frame){ .camera = NULL }), "frame.camera");
+    names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .shutter.curve = closed }), "frame.shutter.curve");
+    names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .light = &nowhere }), "frame.light");
+    names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .layer_count = 1 }), "frame.layer");
+    names(smear_begin(r.ctx, &(smear_frame){ .camera = &s.camera, .method = SMEAR_CAMERA, .filter.kind = SMEAR_FILTER_PINGPONG }),
+          "frame.filter.kind");
+    CHECK_EQ(smear_error_kind(smear_begin(r.ctx, NULL)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_begin(NULL, &s.frame)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_render(NULL), SMEAR_ERR_ARG);
+    smear_work(NULL, 1);
+    CHECK_EQ(smear_render(r.ctx), SMEAR_ERR_ORDER);         /* nothing was begun */
+    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
     desc.methods = SMEAR_SET(SMEAR_NONE);       /* no window */
-    if (rig_begin(&r, &desc, false)) {
-        struct scene s;
-        make_scene(&s, 0, SMEAR_RECONSTRUCT);
-        names(smear_begin(r.ctx, &s.frame), "frame.method");
-        CHECK_EQ(render_scene(&r, 0, SMEAR_DEFAULT_METHOD), SMEAR_OK);
-    }
-    rig_end(&r);
+    RIG(sharp, &desc, false);
+    names(smear_begin(sharp.ctx, &s.frame), "frame.method");
+    CHECK_EQ(render_scene(&sharp, 0, SMEAR_DEFAULT_METHOD), SMEAR_OK);
 }
 
 static void test_the_text_of_bad_fog_and_edges_names_the_field(void)
@@ -182,26 +175,23 @@ static void test_the_text_of_bad_fog_and_edges_names_the_field(void)
         { SMEAR_NONE, SMEAR_EDGES_SMOOTH, false },     { SMEAR_TIMEMASK, SMEAR_EDGES_SMOOTH, false },
         { SMEAR_ACCUMULATE, SMEAR_EDGES_SMOOTH, false }, { SMEAR_NONE, SMEAR_EDGES_HARD, true },
     };
-    struct rig r;
     struct scene s;
     smear_desc desc = small_desc(32, 32);
     desc.methods = SMEAR_SET(SMEAR_AUTO) | SMEAR_SET(SMEAR_TIMEMASK) | SMEAR_SET(SMEAR_ACCUMULATE);
-    if (rig_begin(&r, &desc, false)) {
-        for (size_t i = 0; i < sizeof fogs / sizeof *fogs; i++) {
-            const smear_fog fog = { .near_plane = fogs[i].near_plane, .far_plane = fogs[i].far_plane };
-            make_scene(&s, 0, SMEAR_NONE);
-            s.frame.fog = &fog;
-            const int result = smear_begin(r.ctx, &s.frame);
-            CHECK(fogs[i].good ? result == SMEAR_OK : names(result, "frame.fog: "));
-        }
-        for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
-            make_scene(&s, 0, edges[i].method);
-            s.frame.edges = (uint8_t)edges[i].edges;
-            const int result = smear_begin(r.ctx, &s.frame);
-            CHECK(edges[i].good ? result == SMEAR_OK : names(result, "frame.edges: "));
-        }
+    RIG(r, &desc, false);
+    for (size_t i = 0; i < sizeof fogs / sizeof *fogs; i++) {
+        const smear_fog fog = { .near_plane = fogs[i].near_plane, .far_plane = fogs[i].far_plane };
+        make_scene(&s, 0, SMEAR_NONE);
+        s.frame.fog = &fog;
+        const int result = smear_begin(r.ctx, &s.frame);
+        CHECK(fogs[i].good ? result == SMEAR_OK : names(result, "frame.fog: "));
     }
-    rig_end(&r);
+    for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
+        make_scene(&s, 0, edges[i].method);
+        s.frame.edges = (uint8_t)edges[i].edges;
+        const int result = smear_begin(r.ctx, &s.frame);
+        CHECK(edges[i].good ? result == SMEAR_OK : names(result, "frame.edges: "));
+    }
     /* Tiles that are kept without the picture. */
     desc.methods = SMEAR_SET(SMEAR_AUTO);
     desc.reuse.buffer_age = 1;

@@ -21,17 +21,6 @@ static smear_desc desc_of(uint32_t methods)
 
 /* ------------------------------------------------------------------ against every pixel's own depth */
 
-static double light_of(double code)
-{
-    code /= 255.0;
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
-
-static double code_of(double light)
-{
-    return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
-}
-
 static double distance_of(const smear_camera *camera, uint16_t code)
 {
     const double near_plane = camera->near_plane, units = smear_depth_units(code);
@@ -121,7 +110,6 @@ static void compare(const uint32_t *got, const struct seen *seen, bool linear, d
 
 static void check_accuracy(int method, bool linear, bool flat_depth, const struct seen *seen)
 {
-    struct rig r;
     struct scene s;
     smear_mesh road;
     const smear_desc desc = desc_of(ALL_METHODS);
@@ -130,15 +118,14 @@ static void check_accuracy(int method, bool linear, bool flat_depth, const struc
     s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
     s.frame.clear = 0xff00ff;           /* counts for nothing */
     s.frame.fog = &fog;
-    if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK)) {
-        double rms;
-        int beyond;
-        compare((const uint32_t *)(const void *)r.picture, seen, linear, &rms, &beyond);
-        CHECK(rms < 1.0);
-        CHECK(beyond <= PIXELS / 400);
-        CHECK(guards_intact(&r));
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK);
+    double rms;
+    int beyond;
+    compare((const uint32_t *)(const void *)r.picture, seen, linear, &rms, &beyond);
+    CHECK(rms < 1.0);
+    CHECK(beyond <= PIXELS / 400);
+    CHECK(guards_intact(&r));
 }
 
 static void test_each_pixel_has_the_fog_of_its_depth(void)
@@ -242,28 +229,26 @@ static void test_tiny_triangles_with_texels_have_their_fog(void)
     const smear_camera camera = camera_at(0, 0, 0, 0);
     const smear_fog fog = { .color = 0x808080, .near_plane = q16(fog_near), .far_plane = q16(fog_far) };
     for (int k = 0; k < 4; k++) {
-        struct rig r;
         const smear_desc desc = desc_of(SMEAR_SET(SMEAR_NONE));
         const smear_material material = { .texture = k % 2 == 1 ? &texture : NULL, .double_sided = 1, .unlit = 1 };
         const smear_draw draw = { .mesh = &mesh, .material = &material };
         const smear_frame frame = { .camera = &camera, .method = SMEAR_NONE, .fog = &fog,
                                     .light_space = (uint8_t)(k < 2 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED) };
         mesh.uv = k % 2 == 1 ? uv : NULL;
-        if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK)) {
-            int colored = 0, other = 0;
-            for (int i = 0; i < PIXELS; i++) {
-                const uint8_t *p = r.picture + 4 * i;
-                colored += p[0] != p[1] || p[1] != p[2];
-                other += k % 2 == 1 && picture != NULL && abs(p[0] - picture[4 * i]) > 4;
-            }
-            CHECK_EQ(colored, 0);
-            CHECK(other <= 2);                  /* of one depth, another one may be in front */
-            free(picture);
-            picture = malloc(PIXELS * 4);
-            if (CHECK(picture != NULL))
-                memcpy(picture, r.picture, PIXELS * 4);
+        RIG(r, &desc, false);
+        CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK);
+        int colored = 0, other = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            const uint8_t *p = r.picture + 4 * i;
+            colored += p[0] != p[1] || p[1] != p[2];
+            other += k % 2 == 1 && picture != NULL && abs(p[0] - picture[4 * i]) > 4;
         }
-        rig_end(&r);
+        CHECK_EQ(colored, 0);
+        CHECK(other <= 2);                  /* of one depth, another one may be in front */
+        free(picture);
+        picture = malloc(PIXELS * 4);
+        if (CHECK(picture != NULL))
+            memcpy(picture, r.picture, PIXELS * 4);
     }
     free(picture);
 }
@@ -299,25 +284,23 @@ static void test_walls_that_recede_have_their_fog(void)
                                           .unlit = 1, .alpha = k / 2 == 3 ? SMEAR_CUTOUT : SMEAR_OPAQUE };
         const smear_draw draw = { .mesh = &mesh, .material = &material };
         for (int in_fog = 0; in_fog < 2; in_fog++) {
-            struct rig r;
             const smear_desc desc = desc_of(SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_RECONSTRUCT));
             const smear_frame frame = { .camera = &camera, .method = in_fog ? SMEAR_NONE : SMEAR_RECONSTRUCT, .clear = FOG,
                                         .fog = in_fog ? &fog : NULL,
                                         .light_space = (uint8_t)(k % 2 ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED) };
-            if (rig_begin(&r, &desc, true) && CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK)) {
-                if (in_fog) {
-                    double rms;
-                    int beyond;
-                    compare((const uint32_t *)(const void *)r.picture, &seen, k % 2 != 0, &rms, &beyond);
-                    CHECK(rms < 1.0);
-                    CHECK(beyond <= (k < 4 ? 0 : 20));      /* rows of up to four texels have one part */
-                } else {
-                    memcpy(seen.color, r.color, sizeof seen.color);
-                    memcpy(seen.depth, r.depth, sizeof seen.depth);
-                    seen.camera = camera;
-                }
+            RIG(r, &desc, true);
+            CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK);
+            if (in_fog) {
+                double rms;
+                int beyond;
+                compare((const uint32_t *)(const void *)r.picture, &seen, k % 2 != 0, &rms, &beyond);
+                CHECK(rms < 1.0);
+                CHECK(beyond <= (k < 4 ? 0 : 20));      /* rows of up to four texels have one part */
+            } else {
+                memcpy(seen.color, r.color, sizeof seen.color);
+                memcpy(seen.depth, r.depth, sizeof seen.depth);
+                seen.camera = camera;
             }
-            rig_end(&r);
         }
     }
 }

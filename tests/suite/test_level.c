@@ -140,25 +140,22 @@ struct taken {
 static struct taken take(const smear_desc *desc, uint8_t method, uint8_t light, int kind, const smear_mesh *mesh,
                          const smear_material *material)
 {
-    struct rig r;
     struct taken t = { 0 };
     const smear_camera camera = camera_at(0, 0, 0, 0);
     const smear_frame frame = { .camera = &camera, .method = method, .light_space = light, .clear = 0x204060, .samples = 8 };
-    if (rig_begin(&r, desc, false)) {
-        for (int i = 0; i < 2; i++) {
-            const smear_transform pose = place_of(kind, i);
-            const smear_draw draw = { .id = 1, .mesh = mesh, .material = material, .now = &pose };
-            free(t.picture);
-            t.picture = rig_copy(&r, &frame, &draw, 1);
-        }
-        smear_stats stats;
-        smear_get_stats(r.ctx, &stats);
-        t.level = smear_probe(r.ctx).rows->bins.segment[0].flat != 0;
-        t.words = smear_probe(r.ctx).rows->bins.vertex_words;
-        t.drawn = stats.triangles_drawn;
-        t.split = stats.parts_added;
+    RIG(r, desc, false);
+    for (int i = 0; i < 2; i++) {
+        const smear_transform pose = place_of(kind, i);
+        const smear_draw draw = { .id = 1, .mesh = mesh, .material = material, .now = &pose };
+        free(t.picture);
+        t.picture = rig_copy(&r, &frame, &draw, 1);
     }
-    rig_end(&r);
+    smear_stats stats;
+    smear_get_stats(r.ctx, &stats);
+    t.level = smear_probe(r.ctx).rows->bins.segment[0].flat != 0;
+    t.words = smear_probe(r.ctx).rows->bins.vertex_words;
+    t.drawn = stats.triangles_drawn;
+    t.split = stats.parts_added;
     return t;
 }
 

@@ -17,17 +17,6 @@ static void unit(double v[3])
         v[i] /= length;
 }
 
-static double decode(int code)
-{
-    double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-static double encode(double l)
-{
-    return 255 * (l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055);
-}
-
 /* ------------------------------------------------------------------ one triangle under lights */
 
 struct case_of_light {
@@ -111,7 +100,7 @@ static void want_of(double want[3], const struct case_of_light *c, int corner)
     for (int i = 0; i < 3; i++) {
         const double light = c->light.ambient[i] + c->light.diffuse[i] * fmax(0, dot3(world, sun))
                            + c->lights.diffuse[i] * fmax(0, dot3(world, second)) + c->lights.lamp_diffuse[i] * lamp;
-        want[i] = fmin(1, decode(c->material.color[i]) * fmin(1, light / 65535) + c->light.diffuse[i] / 65535.0 * on_top);
+        want[i] = fmin(1, light_of(c->material.color[i]) * fmin(1, light / 65535) + c->light.diffuse[i] / 65535.0 * on_top);
     }
 }
 
@@ -224,12 +213,12 @@ static void test_light_is_that_of_double_precision_within_a_code_and_a_half(void
         lit += got_of(got, &c, 0);
         want_of(want, &c, 0);
         for (int i = 0; i < 3; i++) {
-            const double off = fabs(encode(got[i]) - encode(want[i]));
+            const double off = fabs(code_of(got[i]) - code_of(want[i]));
             worst = fmax(worst, off);
             sum += off * off;
             if (getenv("SMEAR_LIGHTS") != NULL && off > 1.5)
                 printf("%d: %g, got %g want %g, normals %d back %d gloss %d shine %d reach %g scale %d shift %d\n", n, off,
-                       encode(got[i]), encode(want[i]), c.has_normals, c.back, c.material.gloss, c.material.shine,
+                       code_of(got[i]), code_of(want[i]), c.has_normals, c.back, c.material.gloss, c.material.shine,
                        c.lights.reach / 65536.0, (int)c.mesh.scale, c.mesh.shift);
             else if (getenv("SMEAR_LIGHTS") == NULL)
                 CHECK(off <= 1.5);
@@ -254,19 +243,16 @@ static uint8_t *lit_picture(int method, bool still, const smear_lights *lights, 
 {
     const smear_desc desc = desc_of_all();
     const smear_scene more = { .lights = lights };
-    struct rig r;
     struct scene s;
     uint8_t *picture = NULL;
-    if (rig_begin(&r, &desc, false)) {
-        CHECK_EQ(render_scene(&r, 0.1, method), SMEAR_OK);
-        make_scene(&s, 0.2, method);
-        for (int i = 0; i < SCENE_DRAWS; i++)
-            s.material[i].gloss = gloss;
-        s.frame.scene = lights != NULL ? &more : NULL;
-        s.frame.cut = still;
-        picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    CHECK_EQ(render_scene(&r, 0.1, method), SMEAR_OK);
+    make_scene(&s, 0.2, method);
+    for (int i = 0; i < SCENE_DRAWS; i++)
+        s.material[i].gloss = gloss;
+    s.frame.scene = lights != NULL ? &more : NULL;
+    s.frame.cut = still;
+    picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
     return picture;
 }
 

@@ -163,15 +163,6 @@ static bool draw_exact(struct rig *r, const struct drive *d, int instants, uint8
     return true;
 }
 
-static double rmse(const struct drive *d, const uint8_t *a, const uint8_t *b)
-{
-    const int bytes = d->width * d->rows * 4;
-    double sum = 0;
-    for (int i = 0; i < bytes; i++)
-        sum += i % 4 == 3 ? 0 : (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / (bytes / 4 * 3));
-}
-
 static bool same_color(const uint8_t *a, const uint8_t *b, int slack)
 {
     return abs(a[0] - b[0]) <= slack && abs(a[1] - b[1]) <= slack && abs(a[2] - b[2]) <= slack;
@@ -246,12 +237,12 @@ static bool judge(struct found found[METHODS], struct rig *r, const struct drive
         if (!draw(r, d, by[m].method, by[m].samples, 0, blurred))
             return false;
         const int off = pixels_off(d, sharp, blurred);
-        double error = rmse(d, sharp, blurred);
+        double error = rms_of(sharp, blurred, d->width * d->rows);
         if (error > 0.5) { /* what is seen may change a little where a surface ends: the exact mean tells */
             if (!has_exact && !draw_exact(r, d, 64, exact))
                 return false;
             has_exact = true;
-            error = rmse(d, exact, blurred) - rmse(d, exact, sharp);
+            error = rms_of(exact, blurred, d->width * d->rows) - rms_of(exact, sharp, d->width * d->rows);
         }
         found[m].inside += off != 0;
         found[m].over += error > 0.5;
@@ -320,7 +311,7 @@ static void test_cubes_that_pass_are_as_exact_instants_show_them(void)
         bool ok = begin(&r, &d) && draw_exact(&r, &d, 64, exact);
         for (int m = 0; m < METHODS && ok; m++) {
             ok = draw(&r, &d, by[m].method, by[m].samples, 0, blurred);
-            error[m][i - first] = rmse(&d, exact, blurred);
+            error[m][i - first] = rms_of(exact, blurred, d.width * d.rows);
             if (getenv("SMEAR_FIRST") != NULL && error[m][i - first] > by[m].most) {
                 printf("  %s: %.2f codes from the exact mean\n", by[m].name, error[m][i - first]);
                 print_drive(&d, i);

@@ -96,17 +96,6 @@ static bool draw(struct rig *r, const struct pass *p, uint8_t method, double par
     return true;
 }
 
-static double light_of(int code, bool linear)
-{
-    const double c = code / 255.0;
-    return !linear ? c : c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-static double code_of(double light, bool linear)
-{
-    return 255 * (!linear ? light : light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
-}
-
 /* Finds how far the method's picture is from the mean of exact instants, and how far one instant is. */
 static bool measure(double *error, double *sharp_error, struct rig *r, const struct pass *p)
 {
@@ -116,7 +105,7 @@ static bool measure(double *error, double *sharp_error, struct rig *r, const str
     double light[256], squares = 0, apart = 0;
     memset(sum, 0, sizeof sum);
     for (int i = 0; i < 256; i++)
-        light[i] = light_of(i, p->linear);
+        light[i] = p->linear ? light_of(i) : i / 255.0;
     for (int i = 0; i < INSTANTS; i++) {
         if (!draw(r, p, SMEAR_NONE, (i + 0.5) / INSTANTS - 0.5, sharp))
             return false;
@@ -128,7 +117,7 @@ static bool measure(double *error, double *sharp_error, struct rig *r, const str
     for (int k = 0; k < BYTES; k++) {
         if (k % 4 == 3)
             continue;
-        const double exact = code_of(sum[k] / INSTANTS, p->linear);
+        const double exact = p->linear ? code_of(sum[k] / INSTANTS) : 255 * sum[k] / INSTANTS;
         squares += (blurred[k] - exact) * (blurred[k] - exact);
         apart += (sharp[k] - exact) * (sharp[k] - exact);
     }

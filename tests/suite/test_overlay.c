@@ -108,20 +108,17 @@ static smear_desc desc_of(int format, int dither)
 /* The second of two frames of the busy scene, as bands after each other; the caller frees it. */
 static uint8_t *picture_of(const smear_desc *desc, int method, const smear_overlay *overlay, bool linear)
 {
-    struct rig r;
     uint8_t *picture = NULL;
-    if (rig_begin(&r, desc, false))
-        for (int i = 0; i < 2; i++) {
-            struct scene s;
-            make_scene(&s, 0.1 * i, method);
-            s.frame.overlay = overlay;
-            s.frame.target = SMEAR_BALANCED;        /* by default that of a format */
-            s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
-            free(picture);
-            picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
-        }
-    CHECK(guards_intact(&r));
-    rig_end(&r);
+    RIG(r, desc, false);
+    for (int i = 0; i < 2; i++) {
+        struct scene s;
+        make_scene(&s, 0.1 * i, method);
+        s.frame.overlay = overlay;
+        s.frame.target = SMEAR_BALANCED;        /* by default that of a format */
+        s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
+        free(picture);
+        picture = rig_copy(&r, &s.frame, s.draw, SCENE_DRAWS);
+    }
     return picture;
 }
 
@@ -230,17 +227,13 @@ static bool turned_at(const smear_overlay_item *item, int x, int y, uint32_t *ar
     return fabs(u - round(u)) >= 1.0 / 64 && fabs(v - round(v)) >= 1.0 / 64;
 }
 
-static double light_of(double code) { return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4); }
-
-static double code_of(double light) { return light <= 0.0031308 ? light * 12.92 : 1.055 * pow(light, 1 / 2.4) - 0.055; }
-
 /* A code once it is blended: at least, or at most, in codes. In linear light the steps of alpha are those of what light is. */
 static double blended(double code, double own, double alpha, bool linear)
 {
     if (!linear)
         return code + (own - code) * alpha;
-    const double was = light_of(code / 255), light = was + (light_of(own / 255) - was) * alpha;
-    return 255 * code_of(light);
+    const double was = light_of(code), light = was + (light_of(own) - was) * alpha;
+    return code_of(light);
 }
 
 /* Checks each item alone over a picture, channel by channel: within 1.5 codes; in linear light of what an alpha of 8 bits may be. */

@@ -32,17 +32,6 @@ static void put(int32_t at[3], double x, double y)
 
 /* ------------------------------------------------------------------ truth */
 
-static double decoded(double code)
-{
-    return code <= 0.04045 * 255 ? code / 255 / 12.92 : pow((code / 255 + 0.055) / 1.055, 2.4);
-}
-
-static double encoded(double light)
-{
-    const double l = light > 1 ? 1 : light;
-    return 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * pow(l, 1 / 2.4) - 0.055);
-}
-
 /* The light of a dot in a pixel, in the mean over many instants. */
 static double light_at(double px, double py, const double a[2], const double b[2], double radius)
 {
@@ -86,7 +75,7 @@ static double error_of(const smear_point *point, const double a[2], const double
             for (int k = 0; k < 3; k++) {
                 const double under = clear >> (16 - 8 * k) & 255u, own = point->color[k];
                 const double keep = point->mode == SMEAR_POINT_BLEND ? 1 - light : 1;
-                double want = linear ? encoded(decoded(under) * keep + decoded(own) * light) : under * keep + own * light;
+                double want = linear ? code_of(fmin(light_of(under) * keep + light_of(own) * light, 1)) : under * keep + own * light;
                 want = want > 255 ? 255 : want;
                 const double off = (picture[y * WIDTH + x] >> (16 - 8 * k) & 255u) - want;
                 if (light == 0)

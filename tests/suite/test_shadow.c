@@ -81,17 +81,6 @@ static bool see(uint32_t *out, const struct shaded *s)
 
 /* ------------------------------------------------------------------ in doubles */
 
-static double light_of(double code)
-{
-    code /= 255.0;
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
-
-static double code_of(double value)
-{
-    return 255.0 * (value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055);
-}
-
 /* Brings a place or, without `moves`, a way into the space of what has this transform, a scaled rotation. */
 static void into(double out[3], const smear_transform *t, const double in[3], bool moves)
 {
@@ -196,14 +185,10 @@ static void test_every_method_draws_and_blurs_them(void)
             return;
         for (int method = SMEAR_NONE; method < SMEAR_METHOD_COUNT; method++) {
             const bool follows = method == SMEAR_SUBFRAMES || method == SMEAR_AUTO || method == SMEAR_TIMEMASK;
-            double sum = 0;
             make_shaded(&s, method, true, round != 0, 0.25);
             if (method == SMEAR_ACCUMULATE || !see(got, &s))
                 continue;
-            for (int i = 0; i < PIXELS; i++)
-                for (int c = 0; c < 24; c += 8)
-                    sum += pow((double)(truth[i] >> c & 255u) - (double)(got[i] >> c & 255u), 2);
-            const double error = sqrt(sum / (3.0 * PIXELS));
+            const double error = rms_of(truth, got, PIXELS);
             if (!CHECK(error < (follows ? 1.5 : 12)) || getenv("SMEAR_SHOW") != NULL)
                 printf("  %s method %d: %.3f\n", round ? "round" : "planar", method, error);
         }

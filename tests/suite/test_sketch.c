@@ -222,19 +222,15 @@ static void test_a_frame_in_parts_and_in_refilled_rows_is_the_same(void)
 /* The only frame of its rig, of which nothing is known yet, before a camera that falls; the caller frees it. */
 static uint8_t *falling(const smear_desc *desc, double fall, int target, smear_stats *stats)
 {
-    struct rig r;
     struct world w;
     uint8_t *picture = NULL;
     make_world(&w, POSES, 1);
     w.frame.target = (uint16_t)target;
     w.camera[1].pose.origin[1] += q16(fall);
     w.camera[2].pose.origin[1] -= q16(fall);
-    if (rig_begin(&r, desc, false)) {
-        picture = rig_copy(&r, &w.frame, w.draw, DRAWS);
-        smear_get_stats(r.ctx, stats);
-    }
-    CHECK(guards_intact(&r));
-    rig_end(&r);
+    RIG(r, desc, false);
+    picture = rig_copy(&r, &w.frame, w.draw, DRAWS);
+    smear_get_stats(r.ctx, stats);
     return picture;
 }
 
@@ -290,15 +286,6 @@ static void test_columns_of_any_job_are_the_same(void)
         }
 }
 
-/* Root mean square difference, codes. */
-static double difference(const uint8_t *a, const uint8_t *b, int pixels)
-{
-    double sum = 0;
-    for (int i = 0; i < 4 * pixels; i++)
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / (3 * pixels));
-}
-
 /* ------------------------------------------------------------------ what is shown */
 
 /* But where something large moves before the orthographic camera: what a tile of it shows of the rest is blurred with it. */
@@ -310,7 +297,7 @@ static void test_everything_is_nearer_to_the_finest_target_than_a_sharp_picture(
         uint8_t *fine = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_FINE, NULL),
                 *sharp = third(&desc, (enum kind)kind, SMEAR_NONE, 0, NULL),
                 *sketch = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, &stats);
-        const double before = difference(sharp, fine, WIDTH * HEIGHT), after = difference(sketch, fine, WIDTH * HEIGHT);
+        const double before = rms_of(sharp, fine, WIDTH * HEIGHT), after = rms_of(sketch, fine, WIDTH * HEIGHT);
         if (!CHECK(kind == FLAT ? after < 20 : after < before))
             say("    kind %d: none %.2f, sketch %.2f\n", kind, before, after);
         CHECK_EQ(stats.tiles[SMEAR_CAMERA] != 0, kind != CURVE);
@@ -328,7 +315,7 @@ static void test_drafts_are_nearer_to_the_finest_target_than_sketches(void)
         uint8_t *fine = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_FINE, NULL),
                 *draft = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_DRAFT, NULL),
                 *sketch = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
-        const double coarse = difference(sketch, fine, WIDTH * HEIGHT), after = difference(draft, fine, WIDTH * HEIGHT);
+        const double coarse = rms_of(sketch, fine, WIDTH * HEIGHT), after = rms_of(draft, fine, WIDTH * HEIGHT);
         if (!CHECK(after < (coarse > 3 ? coarse : 3)))      /* where a sketch is that near, both are */
             say("    kind %d: sketch %.2f, draft %.2f\n", kind, coarse, after);
         free(fine);
@@ -353,12 +340,10 @@ static void go_round(struct world *w, double far, double turn, double aside)
 
 static uint8_t *picture_of(const smear_desc *desc, struct world *w, int target)
 {
-    struct rig r;
     uint8_t *picture = NULL;
     w->frame.target = (uint16_t)target;
-    if (rig_begin(&r, desc, false))
-        picture = rig_copy(&r, &w->frame, &w->draw[POST], 1);
-    rig_end(&r);
+    RIG(r, desc, false);
+    picture = rig_copy(&r, &w->frame, &w->draw[POST], 1);
     return picture;
 }
 
@@ -485,28 +470,26 @@ static void test_an_endless_surface_of_one_colour_stays_as_it_is(void)
 {
     for (int kind = 0; kind < 4; kind++) {
         smear_desc desc = sketch_desc();
-        struct rig r;
         struct world w;
-        if (rig_begin(&r, &desc, false))
-            for (int t = 0; t < 5; t++) {
-                int wrong = 0;
-                make_world(&w, kind == 0 ? PLAIN : kind == 1 ? ENCODED : kind == 2 ? ZOOM : FIXED, t);
-                smear_transform room = pose_at(0, 0, kind == 3 ? 2.6 - 0.5 * t : 0, 0.2, 0.1);
-                for (int k = 0; k < 9; k++)
-                    room.basis[k] *= 3;
-                w.pose[POST] = room;
-                w.mesh = cube;
-                w.mesh.color = NULL;
-                w.draw[POST].mesh = &w.mesh;
-                paint(&w, POST, 90, 140, 33);
-                w.frame.clear = 0x5a8c21;
-                rig_forget_output(&r);
-                CHECK_EQ(rig_frame(&r, &w.frame, &w.draw[POST], 1), SMEAR_OK);
-                for (int i = 0; i < WIDTH * HEIGHT; i++)
-                    wrong += (((const uint32_t *)(const void *)r.picture)[i] & 0xffffffu) != 0x5a8c21u;
-                CHECK_EQ(wrong, 0);
-            }
-        rig_end(&r);
+        RIG(r, &desc, false);
+        for (int t = 0; t < 5; t++) {
+            int wrong = 0;
+            make_world(&w, kind == 0 ? PLAIN : kind == 1 ? ENCODED : kind == 2 ? ZOOM : FIXED, t);
+            smear_transform room = pose_at(0, 0, kind == 3 ? 2.6 - 0.5 * t : 0, 0.2, 0.1);
+            for (int k = 0; k < 9; k++)
+                room.basis[k] *= 3;
+            w.pose[POST] = room;
+            w.mesh = cube;
+            w.mesh.color = NULL;
+            w.draw[POST].mesh = &w.mesh;
+            paint(&w, POST, 90, 140, 33);
+            w.frame.clear = 0x5a8c21;
+            rig_forget_output(&r);
+            CHECK_EQ(rig_frame(&r, &w.frame, &w.draw[POST], 1), SMEAR_OK);
+            for (int i = 0; i < WIDTH * HEIGHT; i++)
+                wrong += (((const uint32_t *)(const void *)r.picture)[i] & 0xffffffu) != 0x5a8c21u;
+            CHECK_EQ(wrong, 0);
+        }
     }
 }
 

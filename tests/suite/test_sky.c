@@ -21,17 +21,6 @@ static smear_desc desc_of(uint32_t methods)
 
 /* ------------------------------------------------------------------ in doubles */
 
-static double light_of(double code)
-{
-    code /= 255.0;
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
-
-static double code_of(double light)
-{
-    return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
-}
-
 /* How a camera turns: up, and about its own axis. */
 struct turn {
     double pitch, roll, pitch_step, roll_step;          /* at shutter open and close: less and more by a step */
@@ -150,16 +139,14 @@ static void check_turn(const struct turn *t, int method, bool linear, int k, uin
                                 .samples = method == SMEAR_ACCUMULATE ? 32 : 0,
                                 .light_space = (uint8_t)(linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED) };
     const smear_desc desc = desc_of(ALL_METHODS);
-    struct rig r;
-    if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &frame, NULL, 0), SMEAR_OK)) {
-        static struct truth truth;
-        find_truth(&truth, t, moves && method != SMEAR_NONE ? INSTANTS : 1, k, linear);
-        const double error = error_of((const uint32_t *)(const void *)r.picture, &truth);
-        /* A horizon that this method blurs along each pixel's own way. */
-        if (!CHECK(error < (method == SMEAR_CAMERA ? 5 : 1.5)) || getenv("SMEAR_SHOW") != NULL)
-            printf("  turn %d method %d sky %d %s: %.3f\n", (int)(t - turns), method, k, linear ? "linear" : "encoded", error);
-    }
-    rig_end(&r);
+    RIG(r, &desc, false);
+    CHECK_EQ(rig_frame(&r, &frame, NULL, 0), SMEAR_OK);
+    static struct truth truth;
+    find_truth(&truth, t, moves && method != SMEAR_NONE ? INSTANTS : 1, k, linear);
+    const double error = error_of((const uint32_t *)(const void *)r.picture, &truth);
+    /* A horizon that this method blurs along each pixel's own way. */
+    if (!CHECK(error < (method == SMEAR_CAMERA ? 5 : 1.5)) || getenv("SMEAR_SHOW") != NULL)
+        printf("  turn %d method %d sky %d %s: %.3f\n", (int)(t - turns), method, k, linear ? "linear" : "encoded", error);
 }
 
 static void test_each_pixel_has_the_color_of_its_elevation(void)
@@ -187,7 +174,6 @@ static void test_sketches_and_drafts_have_it_behind_their_draws(void)
     static const double most[] = { 0, 2.5, 6, 10 };
     const smear_desc desc = desc_of(ALL_METHODS | SMEAR_SET_SKETCH);
     for (int i = 0; i < 4; i++) {
-        struct rig r;
         struct scene s;
         smear_sky sky = sky_of(0);
         const smear_scene extras = { .sky = &sky };
@@ -201,19 +187,14 @@ static void test_sketches_and_drafts_have_it_behind_their_draws(void)
         s.frame.scene = &extras;
         s.frame.target = target[i];
         s.frame.samples = i == 0 ? 64 : 0;
-        if (rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK)) {
-            const uint32_t *got = (const uint32_t *)(const void *)r.picture;
-            double sum = 0;
-            for (int k = 0; i != 0 && k < PIXELS; k++)
-                for (int c = 0; c < 24; c += 8)
-                    sum += pow((double)(truth[k] >> c & 255u) - (double)(got[k] >> c & 255u), 2);
-            if (i == 0)
-                memcpy(truth, got, sizeof truth);
-            const double error = sqrt(sum / (3.0 * PIXELS));
-            if (!CHECK(error <= most[i]) || getenv("SMEAR_SHOW") != NULL)
-                printf("  target %d: %.3f\n", target[i], error);
-        }
-        rig_end(&r);
+        RIG(r, &desc, false);
+        CHECK_EQ(rig_frame(&r, &s.frame, s.draw, SCENE_DRAWS), SMEAR_OK);
+        const uint32_t *got = (const uint32_t *)(const void *)r.picture;
+        if (i == 0)
+            memcpy(truth, got, sizeof truth);
+        const double error = rms_of(truth, got, PIXELS);
+        if (!CHECK(error <= most[i]) || getenv("SMEAR_SHOW") != NULL)
+            printf("  target %d: %.3f\n", target[i], error);
     }
 }
 

@@ -143,15 +143,6 @@ static uint8_t *draw_small_scene(struct rig *r, const struct small_scene *s, int
     return rig_copy(r, &frame, s->draw + first, s->count + 1 - first);
 }
 
-static double rmse_of(const uint8_t *a, const uint8_t *b, int pixels)
-{
-    double sum = 0;
-    for (int i = 0; i < 4 * pixels; i++)
-        if (i % 4 != 3)
-            sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum / 3 / pixels);
-}
-
 /* Finds the errors had in parts of those aimed at. */
 static bool measure(const struct small_scene *s, double part[TARGETS])
 {
@@ -167,7 +158,7 @@ static bool measure(const struct small_scene *s, double part[TARGETS])
         uint8_t *got = draw_small_scene(&r, s, SMEAR_AUTO, aimed[i]);
         ok = got != NULL;
         if (ok)
-            part[i] = rmse_of(got, truth, s->width * s->height) / aimed[i];
+            part[i] = rms_of(got, truth, s->width * s->height) / aimed[i];
         free(got);
     }
     free(truth);

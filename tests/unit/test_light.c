@@ -141,17 +141,6 @@ static void test_faces_are_lit_by_their_plane_within_a_hundredth(void)
 
 /* ------------------------------------------------------------------ colours */
 
-static double decode(int code)
-{
-    double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-static double encode(double l)
-{
-    return l <= 0.0031308 ? l * 12.92 : 1.055 * pow(l, 1 / 2.4) - 0.055;
-}
-
 /* ------------------------------------------------------------------ the light of a frame */
 
 enum { EDGE = 16, LOOKS = 300 };
@@ -166,7 +155,7 @@ static uint32_t middle_of(struct rig *r, const smear_frame *frame, const smear_d
 static void check_lit(uint32_t pixel, int shift, double want)
 {
     const double got = pixel >> shift & 255u;
-    CHECK(got >= encode(fmax(0, want - 0.01)) * 255 - 1.5 && got <= encode(fmin(1, want + 0.01)) * 255 + 1.5);
+    CHECK(got >= code_of(fmax(0, want - 0.01)) - 1.5 && got <= code_of(fmin(1, want + 0.01)) + 1.5);
 }
 
 static void test_a_frame_is_lit_from_where_it_says_in_the_colours_it_says(void)
@@ -199,7 +188,7 @@ static void test_a_frame_is_lit_from_where_it_says_in_the_colours_it_says(void)
                                     .light_space = (uint8_t)(n & 1) };
         const uint32_t pixel = middle_of(&r, &frame, &draw);
         for (int i = 0; i < 3; i++)
-            check_lit(pixel, 16 - 8 * i, fmin(1, decode(paint.color[i])
+            check_lit(pixel, 16 - 8 * i, fmin(1, light_of(paint.color[i])
                                                      * fmin(1, (given.ambient[i] + given.diffuse[i] * cosine) / 65535)));
     }
 }
