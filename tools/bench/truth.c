@@ -109,13 +109,6 @@ bool truth_of_take(const struct take *of, const char *folder, struct float_image
     return ok;
 }
 
-bool truth_exact(const char *scene, bool linear, double later, const char *folder,
-                 struct float_image *out, struct failure *f)
-{
-    const struct take take = { .scene = scene, .frame = -1, .later = later, .linear = linear };
-    return truth_of_take(&take, folder, out, f);
-}
-
 /* ------------------------------------------------------------------ distance */
 
 bool truth_round(const struct float_image *truth, struct image *out, struct failure *f)

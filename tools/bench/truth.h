@@ -12,13 +12,8 @@
 enum { TRUTH_INSTANTS = 1024 };
 
 /* What blur alone is measured against: TRUTH_INSTANTS sharp frames of the library itself,
- * each posed and lit exactly, as `smear render --method accumulate --exact` draws them; `later`
- * frames after the one that stands for the scene, in encoded or linear light. The name changes when
- * what the library draws does. */
-bool truth_exact(const char *scene, bool linear, double later, const char *folder,
-                 struct float_image *out, struct failure *f);
-
-/* The same of the scene, frame and light of a take. */
+ * each posed and lit exactly, as `smear render --method accumulate --exact` draws them, of the scene,
+ * frame and light of a take. The name changes when what the library draws does. */
 bool truth_of_take(const struct take *take, const char *folder, struct float_image *out, struct failure *f);
 
 /* Rounded to codes: what the command line writes. *out is allocated here. */

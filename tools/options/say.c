@@ -22,17 +22,17 @@ static void make_line(char line[LINE], const char *what, const char *kind, const
             line[i] = '?';
 }
 
-static void say_line(const char *what, const char *kind, const char *text)
+static void say_line(const char *what, const char *text)
 {
     char line[LINE];
-    make_line(line, what, kind, text);
+    make_line(line, what, "", text);
     say_progress_end();
     fprintf(stderr, "%s\n", line);
 }
 
 int say_bad_input(const char *what, const struct failure *f)
 {
-    say_line(what, "", f->text);
+    say_line(what, f->text);
     return STATUS_BAD_INPUT;
 }
 
@@ -43,7 +43,7 @@ int say_bad_usage(const char *what, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    say_line(what, "", text);
+    say_line(what, text);
     return STATUS_BAD_USAGE;
 }
 
@@ -52,11 +52,6 @@ int say_unknown(const char *what, const char *text, const struct guess *guess, c
     if (guess->best != NULL)
         return say_bad_usage(what, "%s (did you mean %s?)", text, guess->best);
     return help != NULL ? say_bad_usage(what, "%s (%s)", text, help) : say_bad_usage(what, "%s", text);
-}
-
-void say_warning(const char *what, const char *text)
-{
-    say_line(what, "warning: ", text);
 }
 
 void say_warning_when_done(const char *what, const char *text)

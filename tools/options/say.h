@@ -24,7 +24,6 @@ __attribute__((format(printf, 2, 3)))
 int say_bad_usage(const char *what, const char *format, ...);
 /* That there is no such thing: what it may have meant, else the help (if not null) that lists what there is. */
 int say_unknown(const char *what, const char *text, const struct guess *guess, const char *help);
-void say_warning(const char *what, const char *text);
 
 /* A warning that is said when what was asked for is done, as what fails has one line only. Said once, however often it comes;
  * of very many the first are kept. */

@@ -767,17 +767,3 @@ void ref_frame_free(struct ref_frame *frame)
     free(frame->draw);
     memset(frame, 0, sizeof *frame);
 }
-
-bool ref_frame_image(const struct ref_frame *frame, struct image *out, struct failure *f)
-{
-    if (!image_alloc(out, frame->width, frame->height, f))
-        return false;
-    size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < 3; c++) {
-            double value = frame->color[3 * i + c];
-            double code = 255.0 * (frame->encoded ? value : ref_srgb_encode(value));
-            out->rgba[4 * i + c] = ref_code(code);
-        }
-    return true;
-}

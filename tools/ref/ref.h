@@ -70,9 +70,6 @@ bool ref_draw(const struct scene_instant *now, const struct scene_instant *open,
               struct ref_frame *out, struct failure *f);
 void ref_frame_free(struct ref_frame *frame);
 
-/* The frame in 8 bits, rounded to nearest. */
-bool ref_frame_image(const struct ref_frame *frame, struct image *out, struct failure *f);
-
 /* ------------------------------------------------------------------ the mean of many */
 
 enum ref_exposure { REF_CENTRED, REF_TRAILING, REF_LEADING };
