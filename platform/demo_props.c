@@ -424,9 +424,8 @@ static void build_props(struct stage *stage)
 
 /* Where everything is matters not, as long as the library's unit becomes a metre: it does for a
  * near plane of one. */
-static void place_props(const struct stage *stage, double time, struct scene_instant *out)
+static void place_props(double time, struct scene_instant *out)
 {
-    (void)stage;
     (void)time;
     stage_camera(out, xform_move(0, 0, 8), 60);
     out->camera.znear = 1;

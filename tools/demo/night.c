@@ -109,8 +109,9 @@ static void night_build(struct stage *stage)
         stage_add(stage, s);
 }
 
-static void night_move(const struct stage *stage, double time, struct scene_instant *out)
+static void night_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct night *n = stage->extra;
     double turn = 2 * PI * TURNS_PER_LOOP * time / LOOP_SECONDS;
     stage_camera(out, xform_look(vec3(0.55, 1.1, 5.6), vec3(0.55, 1.88, 0), vec3(0, 1, 0)), 42);

@@ -33,8 +33,9 @@ static void build_all(struct stage *stage)
 }
 
 /* The camera drives ahead of the car on its right and looks back; the drone chases the car. */
-static void race_move(const struct stage *stage, double time, struct scene_instant *out)
+static void race_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct demo *d = stage->extra;
     double phase = 2 * PI * time / LOOP_SECONDS, x = LOOP_LENGTH * time / LOOP_SECONDS;
     struct vec3 eye = vec3(x + 3.7 + 0.12 * sin(phase), 1.50 + 0.05 * sin(2 * phase), 4.6);
@@ -60,8 +61,9 @@ static void race_move(const struct stage *stage, double time, struct scene_insta
 }
 
 /* A still camera beside the track: the drone swings to and fro, the car rushes by once per loop. */
-static void drone_move(const struct stage *stage, double time, struct scene_instant *out)
+static void drone_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct demo *d = stage->extra;
     double loops = time / LOOP_SECONDS, phase = 2 * PI * loops;
     struct vec3 eye = vec3(1.2, 1.7, 5.2);

@@ -131,19 +131,19 @@ static int add_disc(struct stage *stage, double radius, uint32_t rgb)
     return stage_add(stage, fail_unlit(&b));
 }
 
-static void ortho_camera(const struct stage *stage, double x, double y, struct scene_instant *out)
+static void ortho_camera(double x, double y, struct scene_instant *out)
 {
     stage_camera(out, xform_move(x, y, 100), 60);
     out->camera.orthographic = true;
-    out->camera.half_height = stage->kind->height / 2.0;
+    out->camera.half_height = stage_of(out)->kind->height / 2.0;
     out->camera.znear = 1;
     out->camera.zfar = 200;
 }
 
 /* The camera stands still, draw 0 is the background. */
-static double still_camera(const struct stage *stage, double time, struct scene_instant *out)
+static double still_camera(double time, struct scene_instant *out)
 {
-    ortho_camera(stage, 0, 0, out);
+    ortho_camera(0, 0, out);
     stage_place(out, 0, xform_move(0, 0, BACK));
     return fail_shutters(time);
 }
@@ -262,11 +262,12 @@ static void straight_build(struct stage *stage)
             add_disc(stage, s->thing[i].half_width, s->thing[i].rgb);
 }
 
-static void straight_move(const struct stage *stage, double time, struct scene_instant *out)
+static void straight_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct straight *s = straight_of(stage);
-    double u = still_camera(stage, time, out);
-    ortho_camera(stage, s->camera_x + s->camera_step_x * u, s->camera_step_y * u, out);
+    double u = still_camera(time, out);
+    ortho_camera(s->camera_x + s->camera_step_x * u, s->camera_step_y * u, out);
     for (int i = 0; i + 1 < stage->prop_count; i++)
         stage_place(out, i + 1, xform_move(s->thing[i].x + s->thing[i].step_x * u, s->thing[i].y + s->thing[i].step_y * u, s->thing[i].z));
 }
@@ -297,18 +298,18 @@ static void rotation_build(struct stage *stage)
 }
 
 /* 45 degrees per exposure. */
-static void rotation_move(const struct stage *stage, double time, struct scene_instant *out)
+static void rotation_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_turn_z(0.2 + PI / 4 * u));
 }
 
 /* ------------------------------------------------------------------ 2 curve */
 
 /* A parabola: 28 px along; across, the place is 26 times the square of time. */
-static void curve_move(const struct stage *stage, double time, struct scene_instant *out)
+static void curve_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(28 * u, 26 * u * u, 0));
 }
 
@@ -325,9 +326,9 @@ static void thin_build(struct stage *stage)
     stage_add(stage, fail_unlit(&b));
 }
 
-static void thin_move(const struct stage *stage, double time, struct scene_instant *out)
+static void thin_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(20 * u + 0.3, 0, 0));
 }
 
@@ -347,9 +348,9 @@ static void fence_build(struct stage *stage)
     stage_add(stage, fail_unlit(&b));
 }
 
-static void fence_move(const struct stage *stage, double time, struct scene_instant *out)
+static void fence_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 0, xform_move(16 * u, 0, BACK));
 }
 
@@ -362,9 +363,9 @@ static void sprites_build(struct stage *stage)
     fail_rectangle(stage, 70, 50, 0x28503c);
 }
 
-static void sprites_move(const struct stage *stage, double time, struct scene_instant *out)
+static void sprites_move(double time, struct scene_instant *out)
 {
-    ortho_camera(stage, 0, 0, out);
+    ortho_camera(0, 0, out);
     stage_place(out, 0, xform_move(16 * fail_shutters(time), 0, 0));
 }
 
@@ -383,22 +384,22 @@ static bool has_jumped(double u)
 }
 
 /* Half a screen at once, and nobody says so. */
-static void jump_move(const struct stage *stage, double time, struct scene_instant *out)
+static void jump_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(has_jumped(u) ? 64 : -64, 0, 0));
 }
 
-static void teleport_move(const struct stage *stage, double time, struct scene_instant *out)
+static void teleport_move(double time, struct scene_instant *out)
 {
-    jump_move(stage, time, out);
+    jump_move(time, out);
     out->draw[1].epoch = has_jumped(fail_shutters(time));
 }
 
-static void cut_move(const struct stage *stage, double time, struct scene_instant *out)
+static void cut_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
-    ortho_camera(stage, has_jumped(u) ? 64 : -64, has_jumped(u) ? 24 : 0, out);
+    double u = still_camera(time, out);
+    ortho_camera(has_jumped(u) ? 64 : -64, has_jumped(u) ? 24 : 0, out);
     out->camera.epoch = has_jumped(u);
 }
 
@@ -406,9 +407,9 @@ static void cut_move(const struct stage *stage, double time, struct scene_instan
 
 /* One moves all the time, below; one above is there from FAIL_SPAWN_FRAME on, goes and comes back.
  * It moves all the while. */
-static void spawn_move(const struct stage *stage, double time, struct scene_instant *out)
+static void spawn_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(-80 + 12 * u, -50, 0));
     stage_place(out, 2, xform_move(-80 + 12 * u, 50, 0));
     out->draw[2].hidden = u < FAIL_SPAWN_FRAME - 0.01
@@ -434,9 +435,9 @@ static void pane_build(struct stage *stage)
     stage_add(stage, s);
 }
 
-static void pane_move(const struct stage *stage, double time, struct scene_instant *out)
+static void pane_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 0, xform_move(-8 * u, 0, BACK));
     stage_place(out, 1, xform_move(FAIL_PANE_STREAK * u, 0, 0));
 }
@@ -473,9 +474,9 @@ static void leaf_build(struct stage *stage)
     stage_add(stage, s);
 }
 
-static void leaf_move(const struct stage *stage, double time, struct scene_instant *out)
+static void leaf_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(16 * u, 0, 0));
 }
 
@@ -494,12 +495,13 @@ static void light_build(struct stage *stage)
 
 /* Nothing moves but the light: a spot 24 px wide, 32 px along. Light is part of smear, so the
  * floor's normals turn into it and away instead. */
-static void light_move(const struct stage *stage, double time, struct scene_instant *out)
+static void light_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct scene_surface *floor = stage->prop[0].surface;
     double u = fail_shutters(time);
     float *position = stage_soft_position(out, 0), *normal = stage_soft_normal(out, 0);
-    ortho_camera(stage, 0, 0, out);
+    ortho_camera(0, 0, out);
     memcpy(position, floor->position, (size_t)floor->vertex_count * 3 * sizeof *position);
     for (int i = 0; i < floor->vertex_count; i++) {
         double x = (double)position[3 * i] - 32 * u, away = fmin(fabs(x) / 24, 1);
@@ -523,9 +525,9 @@ static void seams_build(struct stage *stage)
 }
 
 /* Slowly over the borders of tiles, from frame 0 on. */
-static void seams_move(const struct stage *stage, double time, struct scene_instant *out)
+static void seams_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(-92 + 2.9 * u, -12 + 0.37 * u, 0));
 }
 
@@ -538,22 +540,22 @@ static void subpixel_build(struct stage *stage)
 }
 
 /* 4 px in a whole frame, aslant. */
-static void subpixel_move(const struct stage *stage, double time, struct scene_instant *out)
+static void subpixel_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(0.37 + 4 * cos(0.4) * u, 0.21 + 4 * sin(0.4) * u, 0));
 }
 
 /* ------------------------------------------------------------------ 24 sweep */
 
 /* Every other frame the camera pans another way: 15 degrees further, 8 to 18 px long. */
-static void sweep_move(const struct stage *stage, double time, struct scene_instant *out)
+static void sweep_move(double time, struct scene_instant *out)
 {
     int lap;
-    still_camera(stage, time, out);
+    still_camera(time, out);
     double u = suite_lap(fail_shutters(time), 2, &lap);
     double angle = 2 * PI * lap / FAIL_SWEEP_LAPS, length = 8 + 2 * (lap % 6);
-    ortho_camera(stage, length * cos(angle) * u, length * sin(angle) * u, out);
+    ortho_camera(length * cos(angle) * u, length * sin(angle) * u, out);
     out->camera.epoch = lap;
 }
 
@@ -565,9 +567,9 @@ static void tiny_build(struct stage *stage)
     add_disc(stage, 2.2, 0xe0402a);
 }
 
-static void tiny_move(const struct stage *stage, double time, struct scene_instant *out)
+static void tiny_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     out->camera.half_height = 3.5;
     stage_place(out, 1, xform_move(2.5 * u, 0.4 - u, 0));
 }
@@ -575,18 +577,18 @@ static void tiny_move(const struct stage *stage, double time, struct scene_insta
 /* ------------------------------------------------------------------ 27 roll */
 
 /* 20 degrees per exposure. */
-static void roll_move(const struct stage *stage, double time, struct scene_instant *out)
+static void roll_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     struct xform pose = xform_mul(xform_move(0, 0, 100), xform_turn_z(PI / 9 * u));
     memcpy(out->camera.pose, pose.m, sizeof pose.m);
 }
 
 /* ------------------------------------------------------------------ 31 stop */
 
-static void stop_move(const struct stage *stage, double time, struct scene_instant *out)
+static void stop_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_move(-60 + 12 * fmin(u, FAIL_STOP_FRAME), 0, 0));
 }
 
@@ -599,9 +601,9 @@ static void sign_build(struct stage *stage)
     fail_plane(stage, text_image(stage), 72, 30, 3);
 }
 
-static void sign_move(const struct stage *stage, double time, struct scene_instant *out)
+static void sign_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_mul(xform_move(28 * u, 6 * u, 0), xform_turn_z(0.15)));
 }
 
@@ -631,9 +633,9 @@ static void fan_build(struct stage *stage)
 }
 
 /* They turn against each other, by 40 degrees in half a frame, and overlap. */
-static void fan_move(const struct stage *stage, double time, struct scene_instant *out)
+static void fan_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out), turn = 4 * PI / 9 * u;
+    double u = still_camera(time, out), turn = 4 * PI / 9 * u;
     stage_place(out, 1, xform_mul(xform_move(-FAIL_FAN_ASIDE, 0, 0), xform_turn_z(turn)));
     stage_place(out, 2, xform_mul(xform_move(FAIL_FAN_ASIDE, 0, FRONT), xform_turn_z(0.4 - turn)));
 }
@@ -644,9 +646,9 @@ static void rotor_build(struct stage *stage)
     add_blades(stage, 2, FAIL_ROTOR_RADIUS, 6, 0xfff4d8, 0xe0402a);
 }
 
-static void rotor_move(const struct stage *stage, double time, struct scene_instant *out)
+static void rotor_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out);
+    double u = still_camera(time, out);
     stage_place(out, 1, xform_mul(xform_move(6 * u, 2 * u, 0), xform_turn_z(0.3 + 4 * PI / 9 * u)));
 }
 
@@ -658,9 +660,9 @@ static void wheel_build(struct stage *stage)
 }
 
 /* It rolls to the right, 30 px per frame. */
-static void wheel_move(const struct stage *stage, double time, struct scene_instant *out)
+static void wheel_move(double time, struct scene_instant *out)
 {
-    double u = still_camera(stage, time, out), way = 30 * u;
+    double u = still_camera(time, out), way = 30 * u;
     struct xform turn = xform_turn_z(0.1 - way / FAIL_ROLLING_RADIUS);
     stage_place(out, 1, xform_mul(xform_move(way, 0, 0), turn));
     stage_place(out, 2, xform_mul(xform_move(way, 0, 1), turn));

@@ -47,16 +47,14 @@ static void quad_before_the_eye(double z, struct scene_instant *out)
 }
 
 /* A frame ago it was 2 behind the eye, now it is 0.5 before it. */
-static void near_move(const struct stage *stage, double time, struct scene_instant *out)
+static void near_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     quad_before_the_eye(-0.5 - 2.5 * fail_shutters(time), out);
 }
 
 /* From 1.75 before the eye to 0.75 behind it. */
-static void pass_move(const struct stage *stage, double time, struct scene_instant *out)
+static void pass_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     quad_before_the_eye(-0.5 + 2.5 * fail_shutters(time), out);
 }
 
@@ -79,8 +77,9 @@ static void billboard_build(struct stage *stage)
 }
 
 /* The camera orbits by 10 degrees per frame; the billboard always faces it, the flag waves. */
-static void billboard_move(const struct stage *stage, double time, struct scene_instant *out)
+static void billboard_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct scene_surface *flag = stage->prop[2].surface;
     double u = fail_shutters(time), angle = radians(10) * u;
     struct xform turn = xform_turn_y(angle);
@@ -113,9 +112,8 @@ static void still_build(struct stage *stage)
     fail_plane(stage, fail_noise(stage, 22, 0x601010, 0xffd0a0), 0.8, 0.8, 1.0 / 40);
 }
 
-static void still_move(const struct stage *stage, double time, struct scene_instant *out)
+static void still_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     (void)time;
     stage_camera(out, xform_look(vec3(0.7, 1.1, 4.3), vec3(0, 0.4, 0), vec3(0, 1, 0)), 52);
     stage_place(out, 0, xform_move(0, 0, -4));
@@ -143,10 +141,9 @@ static void ground_build(struct stage *stage)
 }
 
 /* Sideways over a ground that reaches from below the camera to the horizon. */
-static void ground_move(const struct stage *stage, double time, struct scene_instant *out)
+static void ground_move(double time, struct scene_instant *out)
 {
     double u = fail_shutters(time);
-    (void)stage;
     struct xform pose = xform_mul(xform_move(0.4 * u, 1.3, 0), xform_turn_x(-0.32));
     stage_camera(out, pose, 55);
     out->camera.znear = 0.2;
@@ -164,10 +161,9 @@ static void zoom_build(struct stage *stage)
 }
 
 /* The wall comes 10 % nearer, the inset at 100 units stands still before the camera. */
-static void zoom_move(const struct stage *stage, double time, struct scene_instant *out)
+static void zoom_move(double time, struct scene_instant *out)
 {
     double u = fail_shutters(time);
-    (void)stage;
     stage_camera(out, xform_identity(), 2 * atan(72.0 / 200) * 180 / PI);
     out->camera.znear = 10;
     out->camera.zfar = 400;
@@ -196,10 +192,9 @@ static void sky_build(struct stage *stage)
 }
 
 /* The camera turns by 5 degrees. */
-static void sky_move(const struct stage *stage, double time, struct scene_instant *out)
+static void sky_move(double time, struct scene_instant *out)
 {
     double u = fail_shutters(time);
-    (void)stage;
     stage_camera(out, xform_mul(xform_turn_y(-radians(5) * u), xform_turn_x(radians(5))), 45);
     out->camera.zfar = 2 * SKY_AWAY;
 }
@@ -212,10 +207,9 @@ static void attached_build(struct stage *stage)
 }
 
 /* The camera turns and drives until FAIL_STOP_FRAME, and takes the car along. */
-static void attached_move(const struct stage *stage, double time, struct scene_instant *out)
+static void attached_move(double time, struct scene_instant *out)
 {
     double u = fmin(fail_shutters(time), FAIL_STOP_FRAME);
-    (void)stage;
     struct xform pose = xform_mul(xform_move(0.31 * u, 0.05 * u, 0.43 * u),
                                   xform_mul(xform_turn_y(0.07 * u), xform_turn_x(0.02 * u)));
     stage_camera(out, pose, 55);
@@ -248,8 +242,9 @@ static void arm_build(struct stage *stage)
 
 /* Two bones: the lower turns by 40 degrees about the elbow, blended over a fifth of the length. The
  * ball is stretched unevenly while it turns. */
-static void arm_move(const struct stage *stage, double time, struct scene_instant *out)
+static void arm_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct scene_surface *arm = stage->prop[1].surface;
     double u = fail_shutters(time), angle = radians(20 + 40 * u);
     stage_camera(out, xform_move(0, 0, 6), 45);
@@ -277,10 +272,9 @@ static void far_build(struct stage *stage)
 }
 
 /* Camera and car move. */
-static void far_move(const struct stage *stage, double time, struct scene_instant *out)
+static void far_move(double time, struct scene_instant *out)
 {
     double u = fail_shutters(time);
-    (void)stage;
     stage_camera(out, xform_mul(xform_move(0.1 * u, 0.4, 4.2), xform_turn_y(0.03 * u)), 52);
     stage_place(out, 0, xform_move(0, 0, -4));
     stage_place(out, 1, xform_mul(xform_move(0.5 * u, -0.4, 0), xform_turn_y(0.7 - 0.1 * u)));

@@ -187,9 +187,8 @@ static void a_build(struct stage *stage)
     finish_peer(&b, NULL);
 }
 
-static void a_move(const struct stage *stage, double time, struct scene_instant *out)
+static void a_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, -2.5), 0.35, 0.3 + 0.1 * (time * 30), vec3(0, 0, 0));
 }
 
@@ -230,9 +229,8 @@ static void b256_build(struct stage *stage)
     b_build(stage, 256);
 }
 
-static void b_move(const struct stage *stage, double time, struct scene_instant *out)
+static void b_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, 0), 0.18, 0.785398 + 0.06 * (time * 30 - 3.5), vec3(5.75, -2.3, -5.75));
 }
 
@@ -255,9 +253,8 @@ static void c_build(struct stage *stage)
     finish_peer(&b, peer_texture(stage, 256));
 }
 
-static void c_move(const struct stage *stage, double time, struct scene_instant *out)
+static void c_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, 0), 0, 0.004 * (time * 30), vec3(0, 0, 0));
 }
 
@@ -289,9 +286,8 @@ static void d_build(struct stage *stage)
     finish_peer(&b, NULL);
 }
 
-static void d_move(const struct stage *stage, double time, struct scene_instant *out)
+static void d_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, -2), 0.02 * (time * 30), 0, vec3(0, 0, 0));
 }
 
@@ -334,9 +330,8 @@ static void e_build(struct stage *stage)
     finish_peer(&b, NULL);
 }
 
-static void e_move(const struct stage *stage, double time, struct scene_instant *out)
+static void e_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, -5), 0.02 * (time * 30), 0.03 * (time * 30), vec3(0, 0, 0));
 }
 
@@ -423,9 +418,8 @@ static void g_lit_build(struct stage *stage)
     g_make(stage, BUILD_UV | BUILD_NORMAL);
 }
 
-static void g_move(const struct stage *stage, double time, struct scene_instant *out)
+static void g_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     for (int j = 0; j < G_EDGE; j++)
         for (int i = 0; i < G_EDGE; i++)
             place_draw(out, j * G_EDGE + i, vec3(0, -1.2, -5), 0.35, 0.2 + 0.1 * (time * 30),
@@ -445,9 +439,8 @@ static void n_build(struct stage *stage)
     finish_peer(&b, peer_texture(stage, 256));
 }
 
-static void n_move(const struct stage *stage, double time, struct scene_instant *out)
+static void n_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     place(out, vec3(0, 0, 0), 0.1, 0.1 + 0.3 * (time * 30), vec3(0, 0, 0));
 }
 

@@ -72,6 +72,7 @@ struct scene_instant {
     int draw_count;
     struct scene_draw *draw;
     void *store;                    /* the scene's own, for posed arrays */
+    const void *of;                 /* the same, for what it is made of */
 };
 
 struct scene {

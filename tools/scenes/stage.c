@@ -127,7 +127,8 @@ static bool stage_pose(struct scene *scene, double time, struct scene_instant *o
     }
     out->camera = (struct scene_camera){.znear = 0.25, .zfar = 64};
     stage_camera(out, xform_identity(), 60);
-    stage->kind->move(stage, time, out);
+    out->of = stage;
+    stage->kind->move(time, out);
     return true;
 }
 

@@ -26,7 +26,7 @@ struct stage_kind {
     /* `out` comes with every draw in place: its surface, the identity, visible, and room for the
      * posed vertices of soft props (zeros); and with a camera of 60 degrees at the origin, near
      * 0.25, far 64. */
-    void (*move)(const struct stage *stage, double time, struct scene_instant *out);
+    void (*move)(double time, struct scene_instant *out);
 };
 
 struct stage_prop {
@@ -56,6 +56,7 @@ struct image *stage_image(struct stage *stage, int width, int height);
 void stage_texel(struct image *image, int x, int y, uint32_t rgb);      /* 0xRRGGBB, opaque */
 
 /* For `move`. */
+static inline const struct stage *stage_of(const struct scene_instant *out) { return (const struct stage *)out->of; }
 void stage_place(struct scene_instant *out, int draw, struct xform world);
 float *stage_soft_position(struct scene_instant *out, int draw);
 float *stage_soft_normal(struct scene_instant *out, int draw);          /* null when flat */

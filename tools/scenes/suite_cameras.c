@@ -22,9 +22,8 @@ static void pan_build(struct stage *stage)
     suite_round(stage, 5, 80, 4.5, true);
 }
 
-static void pan_move(const struct stage *stage, double time, struct scene_instant *out)
+static void pan_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     stage_camera(out, aim(vec3(0.1, 1.7, 0.2), 0.4 + 3.3 * time, -0.06, 0), 52);
 }
 
@@ -60,11 +59,10 @@ static void dolly_build(struct stage *stage)
 
 /* Columns repeat every four metres and a lap is 32 metres long, so that its end looks like its
  * start. */
-static void dolly_move(const struct stage *stage, double time, struct scene_instant *out)
+static void dolly_move(double time, struct scene_instant *out)
 {
     int lap;
     double speed = 15.3, s = suite_lap(time - 0.5, 32 / speed, &lap);
-    (void)stage;
     stage_camera(out, aim(vec3(0.35, 1.45, 0.37 - speed * s), 0.05, -0.03, 0), 66);
     out->camera.epoch = lap;
 }
@@ -77,9 +75,8 @@ static void roll_build(struct stage *stage)
     suite_round(stage, 29, 80, 3.6, true);
 }
 
-static void roll_move(const struct stage *stage, double time, struct scene_instant *out)
+static void roll_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     stage_camera(out, aim(vec3(0.1, 2.1, 0.2), 1.3, -0.22, 0.35 + 9.5 * time), 64);
 }
 
@@ -101,9 +98,8 @@ static void fence_fg_build(struct stage *stage)
     stage_add(stage, build_finish(&b));
 }
 
-static void fence_fg_move(const struct stage *stage, double time, struct scene_instant *out)
+static void fence_fg_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     struct xform camera = aim(vec3(0.1, 1.6, 0.2), 0.9 - 10.7 * time, -0.05, 0);
     stage_camera(out, camera, 52);
     stage_place(out, 1, camera);
@@ -135,9 +131,8 @@ static void textured_build(struct stage *stage)
     stage_add(stage, suite_crate(stage, 0.8, suite_tiles(stage, 64, 4, 0xffc914, 0x17304a)));
 }
 
-static void textured_move(const struct stage *stage, double time, struct scene_instant *out)
+static void textured_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     stage_camera(out, aim(vec3(0.3, 1.7, 1.2), 0.25 - 3.2 * (time - 0.5), -0.08, 0), 60);
     struct xform at = xform_move(2.2 * sin(4 * (time - 0.5)) - 0.4, 1.5, -2.6);
     stage_place(out, 2, xform_mul(at, xform_mul(xform_turn_y(5 * time), xform_turn_x(0.5))));
@@ -190,9 +185,8 @@ static void arena_build(struct stage *stage)
     stage_add(stage, suite_ball(stage, 0.6, 0xfdf6e3, 0xe4572e));
 }
 
-static void arena_move(const struct stage *stage, double time, struct scene_instant *out)
+static void arena_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     double sweep = 0.5 + 1.4 * time;
     struct vec3 eye = vec3(9.3 * sin(sweep), 3.3, 9.3 * cos(sweep));
     stage_camera(out, xform_look(eye, vec3(0.1, 0.7, 0), vec3(0, 1, 0)), 55);
@@ -215,9 +209,8 @@ static void subpixel_build(struct stage *stage)
     suite_round(stage, 31, 30, 5.0, false);
 }
 
-static void subpixel_move(const struct stage *stage, double time, struct scene_instant *out)
+static void subpixel_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     stage_camera(out, aim(vec3(0.3, 1.8, 0.2), 0.7 + 0.102 * (time - 0.5), -0.07, 0), 52);
 }
 
@@ -230,9 +223,8 @@ static void still_build(struct stage *stage)
     stage_add(stage, suite_ball(stage, 0.8, 0x2f6fd0, 0xf4e9c8));
 }
 
-static void still_move(const struct stage *stage, double time, struct scene_instant *out)
+static void still_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     (void)time;
     stage_camera(out, xform_look(vec3(0.23, 2.37, 7.1), vec3(0.04, 1.31, 0), vec3(0, 1, 0)), 47);
     stage_place(out, 1, xform_mul(xform_move(-1.2, 0, 1.5), xform_turn_y(0.5)));

@@ -14,6 +14,17 @@ static void yard_camera(struct scene_instant *out)
     stage_camera(out, xform_look(vec3(0.23, 2.37, 7.1), vec3(0.04, 1.31, 0), vec3(0, 1, 0)), 47);
 }
 
+/* Seconds since the middle of a lap of one second, before the still camera; draws from `first` on start over with it. */
+static double yard_lap(double time, struct scene_instant *out, int first)
+{
+    int lap;
+    double s = suite_lap(time - 0.5, 1.0, &lap);
+    yard_camera(out);
+    for (int i = first; i < out->draw_count; i++)
+        suite_cut(out, i, lap);
+    return s;
+}
+
 /* ------------------------------------------------------------------ translate: along a line */
 
 static void translate_build(struct stage *stage)
@@ -22,16 +33,12 @@ static void translate_build(struct stage *stage)
     stage_add(stage, suite_plane(stage, 0xe9443a, 0xf7f3e6));
 }
 
-static void translate_move(const struct stage *stage, double time, struct scene_instant *out)
+static void translate_move(double time, struct scene_instant *out)
 {
-    int lap;
-    double s = suite_lap(time - 0.5, 1.0, &lap);
-    (void)stage;
-    yard_camera(out);
+    double s = yard_lap(time, out, 1);
     struct xform at = xform_move(0.2 + 22.0 * s, 1.9 - 3.2 * s, 1.2);
     at = xform_mul(at, xform_mul(xform_turn_z(-0.14), xform_turn_x(0.5)));
     stage_place(out, 1, at);
-    suite_cut(out, 1, lap);
 }
 
 /* ------------------------------------------------------------------ propeller: blades that turn */
@@ -65,9 +72,8 @@ static void propeller_build(struct stage *stage)
     stage_add(stage, build_finish(&b));
 }
 
-static void propeller_move(const struct stage *stage, double time, struct scene_instant *out)
+static void propeller_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     yard_camera(out);
     struct xform at = xform_mul(xform_move(0.15, 1.45, 1.0), xform_turn_y(0.25));
     stage_place(out, 1, xform_mul(at, xform_turn_z(0.3 + 24.0 * time)));
@@ -82,20 +88,15 @@ static void cross_build(struct stage *stage)
     stage_add(stage, suite_car(stage, 0xe9443a));
 }
 
-static void cross_move(const struct stage *stage, double time, struct scene_instant *out)
+static void cross_move(double time, struct scene_instant *out)
 {
-    int lap;
-    double s = suite_lap(time - 0.5, 1.0, &lap);
-    (void)stage;
-    yard_camera(out);
+    double s = yard_lap(time, out, 1);
     struct xform plane = xform_mul(xform_move(0.5 + 25.0 * s, 1.5 + 9.5 * s, 1.6),
                                    xform_turn_z(0.36));
     stage_place(out, 1, xform_mul(plane, xform_turn_x(0.6)));
     struct xform car = xform_mul(xform_move(-0.4 - 27.0 * s, 0.35, 2.1 + 2.0 * s),
                                  xform_turn_y(PI + 0.1));
     stage_place(out, 2, xform_mul(car, xform_scale(1.35, 1.35, 1.35)));
-    suite_cut(out, 1, lap);
-    suite_cut(out, 2, lap);
 }
 
 /* ------------------------------------------------------------------ fence_obj: a ball behind a
@@ -117,16 +118,12 @@ static void fence_obj_build(struct stage *stage)
     stage_add(stage, suite_ball(stage, 1.25, 0x14213d, 0xfff4d6));
 }
 
-static void fence_obj_move(const struct stage *stage, double time, struct scene_instant *out)
+static void fence_obj_move(double time, struct scene_instant *out)
 {
-    int lap;
-    double s = suite_lap(time - 0.5, 1.0, &lap);
-    (void)stage;
-    yard_camera(out);
+    double s = yard_lap(time, out, 2);
     struct xform at = xform_move(0.3 + 33.0 * s, 1.35 + 3.2 * s, 0.6);
     at = xform_mul(at, xform_turn_z(-0.6));
     stage_place(out, 2, xform_mul(at, xform_turn_x(1.2)));
-    suite_cut(out, 2, lap);
 }
 
 /* ------------------------------------------------------------------ enter: into the frame */
@@ -138,18 +135,13 @@ static void enter_build(struct stage *stage)
     stage_add(stage, suite_ball(stage, 0.62, 0x2bb3a8, 0x14304a));
 }
 
-static void enter_move(const struct stage *stage, double time, struct scene_instant *out)
+static void enter_move(double time, struct scene_instant *out)
 {
-    int lap;
-    double s = suite_lap(time - 0.5, 1.0, &lap);
-    (void)stage;
-    yard_camera(out);
+    double s = yard_lap(time, out, 1);
     struct xform car = xform_mul(xform_move(-3.1 + 27.0 * s, 0.1, 1.4), xform_turn_y(-0.03));
     stage_place(out, 1, xform_mul(car, xform_scale(1.6, 1.6, 1.6)));
     struct xform ball = xform_move(2.05, 3.35 - 24.0 * s, 1.2);
     stage_place(out, 2, xform_mul(ball, xform_turn_x(0.8)));
-    suite_cut(out, 1, lap);
-    suite_cut(out, 2, lap);
 }
 
 /* ------------------------------------------------------------------ near: through the near
@@ -181,11 +173,10 @@ static void near_build(struct stage *stage)
     stage_add(stage, build_finish(&b));
 }
 
-static void near_move(const struct stage *stage, double time, struct scene_instant *out)
+static void near_move(double time, struct scene_instant *out)
 {
     int lap;
     double s = suite_lap(time - 0.5, 1.2, &lap);
-    (void)stage;
     stage_camera(out, xform_look(vec3(0.23, 1.83, 4.6), vec3(0.04, 1.2, 0), vec3(0, 1, 0)), 62);
     struct xform at = xform_move(0.9 - 5.6 * s, 0, 2.25 + 2.0 * s);
     stage_place(out, 2, xform_mul(at, xform_turn_y(PI + 0.35)));
@@ -203,20 +194,15 @@ static void long_build(struct stage *stage)
     stage_add(stage, suite_ball(stage, 0.62, 0x1d2b53, 0xffd23f));
 }
 
-static void long_move(const struct stage *stage, double time, struct scene_instant *out)
+static void long_move(double time, struct scene_instant *out)
 {
-    int lap;
-    double s = suite_lap(time - 0.5, 1.0, &lap);
-    (void)stage;
-    yard_camera(out);
+    double s = yard_lap(time, out, 1);
     struct xform plane = xform_mul(xform_move(0.1 + 123.0 * s, 2.05 + 17.0 * s, 0.9),
                                    xform_turn_x(0.55));
     plane = xform_mul(plane, xform_turn_z(0.12));
     stage_place(out, 1, xform_mul(plane, xform_scale(0.72, 0.72, 0.72)));
     struct xform ball = xform_move(0.2 - 89.0 * s, 0.85 + 12.0 * s, 1.4);
     stage_place(out, 2, xform_mul(ball, xform_turn_z(0.5)));
-    suite_cut(out, 1, lap);
-    suite_cut(out, 2, lap);
 }
 
 /* ------------------------------------------------------------------ skin: a figure that bends */
@@ -289,8 +275,9 @@ static void skin_build(struct stage *stage)
     stage_add(stage, build_finish(&b));
 }
 
-static void skin_move(const struct stage *stage, double time, struct scene_instant *out)
+static void skin_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     double beat = 2 * PI * 3.2 * time, s = sin(beat), c = cos(beat);
     struct bend bend[LIMBS];
     struct xform hip = xform_move(0.1, 0.12 * fabs(s), 0.9);
@@ -348,9 +335,8 @@ static void swarm_build(struct stage *stage)
         stage_add(stage, ball[i % 4]);
 }
 
-static void swarm_move(const struct stage *stage, double time, struct scene_instant *out)
+static void swarm_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     yard_camera(out);
     uint32_t seed = 2024;
     for (int i = 0; i < SWARM; i++) {
@@ -373,12 +359,11 @@ static void teleport_build(struct stage *stage)
 
 /* Every 14 frames the car is put elsewhere: three quarters of a frame before the frame of the
  * scene, so before any exposure of 180 degrees opens, and goes on driving at its own speed. */
-static void teleport_move(const struct stage *stage, double time, struct scene_instant *out)
+static void teleport_move(double time, struct scene_instant *out)
 {
     int lap;
     double period = 14 / 30.0, since = suite_lap(time - 0.5 + 0.75 / 30 - period / 2, period, &lap);
     double start = lap & 1 ? -4.6 : 0.1, lane = lap & 1 ? -1.3 : 1.0;
-    (void)stage;
     yard_camera(out);
     stage_place(out, 1, xform_move(start + 6.0 * (since + period / 2), 0, lane));
     suite_cut(out, 1, lap);
@@ -403,8 +388,9 @@ static void morph_build(struct stage *stage)
 }
 
 /* Between a star, a cube and a ball by two weights. */
-static void morph_move(const struct stage *stage, double time, struct scene_instant *out)
+static void morph_move(double time, struct scene_instant *out)
 {
+    const struct stage *stage = stage_of(out);
     const struct morph *m = stage->extra;
     double star = 0.5 + 0.5 * sin(2 * PI * 6.1 * time), cube = 0.5 + 0.5 * cos(2 * PI * 4.4 * time);
     float *position = stage_soft_position(out, 1);
@@ -432,7 +418,7 @@ static void cubic_build(struct stage *stage)
 }
 
 /* A closed curve of Catmull-Rom pieces through eight points, eight pieces per second. */
-static void cubic_move(const struct stage *stage, double time, struct scene_instant *out)
+static void cubic_move(double time, struct scene_instant *out)
 {
     static const double through[8][3] = {
         {-2.1, 0.8, 1.0}, {-1.2, 2.6, 0.4}, {0.2, 1.1, 1.5}, {1.1, 2.7, 0.9},
@@ -448,7 +434,6 @@ static void cubic_move(const struct stage *stage, double time, struct scene_inst
         double c = through[(piece + 1) & 7][k], d = through[(piece + 2) & 7][k];
         p[k] = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
     }
-    (void)stage;
     yard_camera(out);
     stage_place(out, 1, xform_mul(xform_move(p[0], p[1], p[2]), xform_turn_x(1.1)));
 }

@@ -75,15 +75,13 @@ static void floor_camera(double time, double znear, struct scene_instant *out)
     out->camera.zfar = 64;
 }
 
-static void floor256_move(const struct stage *stage, double time, struct scene_instant *out)
+static void floor256_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     floor_camera(time, 0.25, out);
 }
 
-static void floor1000_move(const struct stage *stage, double time, struct scene_instant *out)
+static void floor1000_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     floor_camera(time, 0.064, out);
 }
 
@@ -117,9 +115,8 @@ static void soup_build(struct stage *stage)
     }
 }
 
-static void soup_move(const struct stage *stage, double time, struct scene_instant *out)
+static void soup_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     for (int i = 0; i < SOUPS; i++) {
         double turn = (i & 1 ? 5.3 : -4.4) * time + i;
         struct xform at = xform_move(0.7 * sin(9 * time + 2 * i), 0.4 * cos(11 * time + i), -4.6);
@@ -180,9 +177,8 @@ static void room_build(struct stage *stage)
     stage_add(stage, suite_crate(stage, 0.6, odd));
 }
 
-static void room_move(const struct stage *stage, double time, struct scene_instant *out)
+static void room_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     struct xform turn = xform_mul(xform_turn_y(0.5 * sin(9 * time)), xform_turn_z(0.9 * time));
     stage_camera(out, xform_mul(xform_move(0.4, 0.2, 0.8 - sin(3 * time)), turn), 64);
     struct xform at = xform_move(0.9 * cos(9 * time), -0.2, -3.4);
@@ -224,9 +220,8 @@ static void slivers_build(struct stage *stage)
     stage_add(stage, s);
 }
 
-static void slivers_move(const struct stage *stage, double time, struct scene_instant *out)
+static void slivers_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     struct xform away = xform_move(0.05, -0.02, -3.1);
     stage_place(out, 0, xform_mul(away, xform_turn_z(5.7 * time)));
     stage_place(out, 1, xform_mul(away, xform_turn_z(-8.9 * time)));
@@ -249,9 +244,8 @@ static void boxes_build(struct stage *stage)
     }
 }
 
-static void boxes_move(const struct stage *stage, double time, struct scene_instant *out)
+static void boxes_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     for (int i = 0; i < BOXES; i++) {
         double x = 0.5 * cos(1.1 * i + 8 * time), y = 0.4 * sin(1.7 * i + 11 * time);
         struct xform turn = xform_mul(xform_turn_z(0.9 * i + 9.4 * time),
@@ -331,9 +325,8 @@ static void leaves_build(struct stage *stage)
     }
 }
 
-static void leaves_move(const struct stage *stage, double time, struct scene_instant *out)
+static void leaves_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     struct xform away = xform_move(0.1, 0, -3.9);
     stage_place(out, 0, away);
     struct xform turn = xform_mul(xform_turn_z(4 * time), xform_turn_y(0.7 * sin(9 * time)));
@@ -370,9 +363,8 @@ static void terrain_build(struct stage *stage)
 }
 
 /* So low that crests pass before the near plane and behind the eye. */
-static void terrain_move(const struct stage *stage, double time, struct scene_instant *out)
+static void terrain_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     double x = 0.4 * sin(5 * time), z = 2 * cos(3.4 * time);
     struct xform pose = xform_mul(xform_move(x, hills(x, z) + 0.38, z), xform_turn_y(2.1 * time));
     stage_camera(out, xform_mul(pose, xform_turn_x(-0.1)), 66);
@@ -400,9 +392,8 @@ static void ortho_build(struct stage *stage)
     stage_add(stage, build_finish(&b));
 }
 
-static void ortho_move(const struct stage *stage, double time, struct scene_instant *out)
+static void ortho_move(double time, struct scene_instant *out)
 {
-    (void)stage;
     struct vec3 eye = vec3(5 + 2 * sin(6 * time), 4.5, 6.5);
     stage_camera(out, xform_look(eye, vec3(0, 0.5, 0), vec3(0, 1, 0)), 60);
     out->camera.orthographic = true;
