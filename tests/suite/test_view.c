@@ -13,7 +13,6 @@
 #include "tools/view/font.h"
 #include "tools/view/orbit.h"
 #include "tools/view/panel.h"
-#include "tools/view/script.h"
 #include "tools/view/surface.h"
 #include "tools/view/tiles.h"
 #include "tools/view/tty.h"
@@ -426,102 +425,69 @@ static void test_wild_bytes_are_taken(void)
     }
 }
 
-/* ------------------------------------------------------------------ scripts */
-
-static const char script_file[] = "build/test-view-script";
-
-static void test_recorded_input_is_played(void)
-{
-    const struct event events[] = {
-        { .kind = EVENT_KEY, .key = 'b' },          { .kind = EVENT_KEY, .key = SCREEN_LEFT },
-        { .kind = EVENT_KEY, .key = ' ' },          { .kind = EVENT_DRAG, .button = 3, .x = -7, .y = 9 },
-        { .kind = EVENT_WHEEL, .y = -1 },           { .kind = EVENT_KEY, .key = '#' },
-        { .kind = EVENT_KEY, .key = SCREEN_PAGE_UP },
-    };
-    const int count = sizeof events / sizeof *events;
-    struct failure f = { "" };
-    struct script s = { 0 };
-    struct event e;
-    REQUIRE(script_record(&s, script_file, &f));
-    for (int i = 0; i < count; i++)
-        script_note(&s, i / 2, &events[i]);
-    script_note(&s, 9, &(struct event){ .kind = EVENT_RESIZE });
-    CHECK(script_end(&s, &f));
-    script_close(&s);
-    CHECK(script_play(&s, script_file, &f));
-    for (int i = 0; i < count; i++) {
-        CHECK(i % 2 != 0 || i / 2 == 0 || !script_event(&s, i / 2 - 1, &e));
-        CHECK(script_event(&s, i / 2, &e) && e.kind == events[i].kind && e.key == events[i].key &&
-              e.x == events[i].x && e.y == events[i].y && e.button == events[i].button);
-    }
-    CHECK(!script_event(&s, 1000, &e));
-    script_close(&s);
-    unlink(script_file);
-}
-
 /* ------------------------------------------------------------------ the camera */
 
-static void test_an_unturned_camera_is_the_scenes_own_bit_for_bit(void)
-{
-    struct failure f = { "" };
-    struct scene scene OWNED(scene_free) = { 0 };
+/* A scene by its own camera, and by one that turns about what that looks at. */
+struct seen {
+    struct failure f;
+    struct scene scene;
     struct orbit orbit;
-    struct scene_instant a = { 0 }, b = { 0 };
-    REQUIRE(scene_builtin("demo/race", &scene, &f));
-    orbit_open(&orbit, &scene);
-    CHECK(orbit_find_focus(&orbit, 0.4, &f) && orbit.focus > 1.0 && orbit.focus < 60.0);
-    orbit_turn(&orbit, 0.3, 0.2);
-    orbit_turn(&orbit, -0.3, -0.2);
-    CHECK(orbit.focus > 0.0);
-    CHECK(scene_pose(&scene, 0.4, &a, &f) && scene_pose(&orbit.scene, 0.4, &b, &f));
-    CHECK(memcmp(&a.camera, &b.camera, sizeof a.camera) == 0);
-    scene_instant_free(&scene, &a);
-    scene_instant_free(&orbit.scene, &b);
+    struct scene_instant own, turned;
+};
+
+static bool seen_open(struct seen *s, const char *name)
+{
+    if (!CHECK(scene_builtin(name, &s->scene, &s->f)))
+        return false;
+    orbit_open(&s->orbit, &s->scene);
+    return CHECK(orbit_find_focus(&s->orbit, 0.0, &s->f));
+}
+
+static void seen_close(struct seen *s)
+{
+    scene_instant_free(&s->scene, &s->own);
+    scene_instant_free(&s->orbit.scene, &s->turned);
+    scene_free(&s->scene);
+}
+
+static bool seen_at(struct seen *s, double time)
+{
+    return scene_pose(&s->scene, time, &s->own, &s->f) && scene_pose(&s->orbit.scene, time, &s->turned, &s->f);
 }
 
 /* After half a second of a round in two, the eye is a quarter further, and it is back after all of it. */
 static void test_a_turntable_goes_round(void)
 {
-    struct failure f = { "" };
-    struct scene scene OWNED(scene_free) = { 0 };
-    struct orbit orbit;
-    struct scene_instant own = { 0 }, turned = { 0 };
-    REQUIRE(scene_builtin("peer/E", &scene, &f));
-    orbit_open(&orbit, &scene);
-    CHECK(orbit_find_focus(&orbit, 0.0, &f));
-    orbit.spin = 3.14159265358979323846;
+    struct seen s OWNED(seen_close) = { 0 };
+    END_UNLESS(seen_open(&s, "peer/E"));
+    struct orbit *const orbit = &s.orbit;
+    orbit->spin = 3.14159265358979323846;
     for (int quarter = 0; quarter <= 4; quarter++) {
         double time = quarter * 0.5;
-        CHECK(scene_pose(&scene, time, &own, &f) && scene_pose(&orbit.scene, time, &turned, &f));
-        const double *a = own.camera.pose, *b = turned.camera.pose;
+        CHECK(seen_at(&s, time));
+        const double *a = s.own.camera.pose, *b = s.turned.camera.pose;
         /* of where both look along the ground: the cosine between */
         double dot = (a[8] * b[8] + a[10] * b[10]) / (hypot(a[8], a[10]) * hypot(b[8], b[10]));
         CHECK(fabs(dot - (quarter % 2 ? 0.0 : quarter == 2 ? -1.0 : 1.0)) < 1e-9);
     }
-    orbit_reset(&orbit);
-    CHECK(!orbit_is_turned(&orbit));
-    scene_instant_free(&scene, &own);
-    scene_instant_free(&orbit.scene, &turned);
+    orbit_reset(orbit);
+    CHECK(!orbit_is_turned(orbit));
 }
 
 /* What the camera looks at stays in the middle, at the distance that was asked for. */
 static void test_a_turned_camera_looks_at_the_same_point(void)
 {
-    struct failure f = { "" };
-    struct scene scene OWNED(scene_free) = { 0 };
-    struct orbit orbit;
-    struct scene_instant own = { 0 }, turned = { 0 };
-    REQUIRE(scene_builtin("demo/race", &scene, &f));
-    orbit_open(&orbit, &scene);
-    CHECK(orbit_find_focus(&orbit, 0.0, &f));
+    struct seen s OWNED(seen_close) = { 0 };
+    END_UNLESS(seen_open(&s, "demo/race"));
+    struct orbit *const orbit = &s.orbit;
     for (int i = 0; i < 40; i++) {
-        orbit_turn(&orbit, 0.37, i & 1 ? 0.3 : -0.17);
-        orbit_move(&orbit, i & 2 ? 1.1 : 0.9);
-        CHECK(scene_pose(&scene, 0.1, &own, &f) && scene_pose(&orbit.scene, 0.1, &turned, &f));
+        orbit_turn(orbit, 0.37, i & 1 ? 0.3 : -0.17);
+        orbit_move(orbit, i & 2 ? 1.1 : 0.9);
+        CHECK(seen_at(&s, 0.1));
         struct vec3 point[2], eye[2];
         for (int k = 0; k < 2; k++) {
-            const double *p = k == 0 ? own.camera.pose : turned.camera.pose;
-            double distance = orbit.focus * (k == 0 ? 1.0 : orbit.distance);
+            const double *p = k == 0 ? s.own.camera.pose : s.turned.camera.pose;
+            double distance = orbit->focus * (k == 0 ? 1.0 : orbit->distance);
             eye[k] = vec3(p[12], p[13], p[14]);
             point[k] = vec3_sub(eye[k], vec3_scale(vec3(p[8], p[9], p[10]), distance));
             struct vec3 x = vec3(p[0], p[1], p[2]), y = vec3(p[4], p[5], p[6]);
@@ -530,8 +496,6 @@ static void test_a_turned_camera_looks_at_the_same_point(void)
         }
         CHECK_CLOSE(vec3_length(vec3_sub(point[0], point[1])), 0.0, 1e-6);
     }
-    scene_instant_free(&scene, &own);
-    scene_instant_free(&orbit.scene, &turned);
 }
 
 /* ------------------------------------------------------------------ tiles */
