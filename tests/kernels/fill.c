@@ -21,10 +21,8 @@ static void narrow_unrolled(struct kernel_call *c)
 extern const struct kernel kernels_fill[];
 const struct kernel kernels_fill[] = {
     { .name = "pixels_fill", .most = 150, .size = { 4 },
-      .form = { { "reference", words_reference }, { "unrolled", words_unrolled },
-      } },
+      .form = { { "reference", words_reference }, { "unrolled", words_unrolled } } },
     { .name = "pixels_fill_narrow", .most = 300, .size = { 2 },
-      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled },
-      } },
+      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } } },
     { .name = NULL }
 };

@@ -21,9 +21,6 @@ CALLS(reference)
 CALLS(unrolled)
 #if SMEAR_VECTORS
 CALLS(vector)
-#define VECTOR(CALL) , { "vector", CALL }
-#else
-#define VECTOR(CALL)
 #endif
 
 static void wide_best(struct kernel_call *c)
@@ -95,9 +92,10 @@ static void narrow_across_best(struct kernel_call *c) { lines_by(c, true, true, 
 extern const struct kernel kernels_flat_run[];
 const struct kernel kernels_flat_run[] = {
     { .name = "flat_run", .least = 1, .most = 19, .size = { 4, 2 },
-      .form = { { "reference", wide_reference }, { "unrolled", wide_unrolled } VECTOR(wide_vector), { "best", wide_best } } },
+      .form = { { "reference", wide_reference }, { "unrolled", wide_unrolled } VECTOR_FORM("vector", wide_vector),
+                { "best", wide_best } } },
     { .name = "flat_run (narrow)", .least = 1, .most = 19, .size = { 2, 2 },
-      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR(narrow_vector),
+      .form = { { "reference", narrow_reference }, { "unrolled", narrow_unrolled } VECTOR_FORM("vector", narrow_vector),
                 { "best", narrow_best } } },
     { .name = "flat_lines", .least = STRIDE, .most = 4 * STRIDE, .size = { 4, 2 }, .prepare = rows_prepare,
       .form = { { "reference", wide_lines }, { "best", wide_lines_best } } },

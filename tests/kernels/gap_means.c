@@ -3,6 +3,7 @@
  * many instants as their weights leave room for. */
 #include "kernels/gap_means.h"
 
+#include "tests/kernels/gap_depths.h"
 #include "tests/kernels/kernels.h"
 
 enum { REACH = 17 };            /* planes go on so far to either side of the pixels */
@@ -16,22 +17,6 @@ static uint32_t whole_weight(const struct kernel_call *c)
 {
     const uint32_t unit = 1u << c->word[UNIT_LOG2];
     return c->word[PAIRS] == 0 ? unit : unit * (2 * c->word[PAIRS] - 1) + 2 * c->word[LAST];
-}
-
-static void make_depths(struct kernel_call *c)
-{
-    uint16_t *depth = c->plane[DEPTH];
-    const uint32_t nearest = c->word[NEAREST] & 0xffffu, level = kernel_random() % (nearest + 1);
-    for (int32_t i = 0; i < plane_pixels(c); i++) {
-        const uint32_t steps = kernel_random() % 5u;        /* often equal, or around `nearest` */
-        if (c->word[COVER] == COVER_NONE)
-            depth[i] = (uint16_t)level;
-        else if (steps < 4)
-            depth[i] = (uint16_t)(nearest + steps - 2);
-        if (c->word[COVER] == COVER_FEW && depth[i] > nearest)
-            depth[i] = (uint16_t)level;
-    }
-    c->word[NEAREST] = nearest;
 }
 
 /* Sums that differ by few instants from pixel to pixel, or by any number, or are all empty. */
@@ -67,7 +52,7 @@ static void prepare(struct kernel_call *c)
     if (whole_weight(c) == 1)
         c->word[UNIT_LOG2] = 1;
     c->word[INSTANTS] = 1 + c->word[INSTANTS] % (PACKED_INSTANTS_MAX / whole_weight(c));
-    make_depths(c);
+    gap_depths(c, c->plane[DEPTH], plane_pixels(c), COVER, NEAREST);
     make_sums(c);
 }
 
@@ -124,17 +109,9 @@ static void vector(struct kernel_call *c)
 extern const struct kernel kernels_gap_means[];
 const struct kernel kernels_gap_means[] = {
     { .name = "gap_means", .most = 35, .size = { 4, 2, 8 }, .align = { 4, 2, 4 }, .prepare = prepare, .timed = 64,
-      .form = { { "reference", reference }, { "two passes", two_passes },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#endif
-      } },
+      .form = { { "reference", reference }, { "two passes", two_passes } VECTOR_FORM("vector", vector) } },
     { .name = "gap_means (nothing hides)", .most = 35, .size = { 4, 2, 8 }, .align = { 4, 2, 4 },
       .prepare = prepare_uncovered, .timed = 64,
-      .form = { { "reference", reference }, { "two passes", two_passes },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#endif
-      } },
+      .form = { { "reference", reference }, { "two passes", two_passes } VECTOR_FORM("vector", vector) } },
     { .name = NULL }
 };

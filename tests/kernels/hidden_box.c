@@ -35,10 +35,6 @@ CALL(lanes)
 extern const struct kernel kernels_hidden_box[];
 const struct kernel kernels_hidden_box[] = {
     { .name = "hidden_box", .least = 1, .most = 70, .size = { 4 }, .prepare = prepare,
-      .form = { { "reference", reference }, { "unrolled", unrolled },
-#if SMEAR_VECTORS
-                { "lanes", lanes }
-#endif
-      } },
+      .form = { { "reference", reference }, { "unrolled", unrolled } VECTOR_FORM("lanes", lanes) } },
     { .name = NULL }
 };

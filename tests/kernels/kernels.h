@@ -6,6 +6,8 @@
 #ifndef KERNELS_TEST_H
 #define KERNELS_TEST_H
 
+#include "kernels/bind.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -34,6 +36,13 @@ struct kernel {
     struct kernel_form form[KERNEL_FORMS];      /* the reference first, then what this build has */
     int32_t timed;                      /* the length that is timed; 0: KERNEL_BYTES / 4 or what fits */
 };
+
+/* A form of builds with vectors, behind others. */
+#if SMEAR_VECTORS
+#define VECTOR_FORM(name, call) , { name, call }
+#else
+#define VECTOR_FORM(name, call)
+#endif
 
 /* The next number of a sequence that is the same in every run; for prepare. */
 uint32_t kernel_random(void);

@@ -3,6 +3,7 @@
  * for one instant more; up to eight pairs of taps, up to 17 pixels away, around sums of instants that were added. */
 #include "kernels/light_sums.h"
 
+#include "tests/kernels/gap_depths.h"
 #include "tests/kernels/kernels.h"
 
 enum { REACH = 17 };                    /* planes go on so far to either side of the pixels */
@@ -66,22 +67,6 @@ static void add_vector(struct kernel_call *c)
 
 static int32_t plane_pixels(const struct kernel_call *c) { return c->n + 2 * REACH; }
 
-static void make_depths(struct kernel_call *c)
-{
-    uint16_t *depth = c->plane[OTHER];
-    const uint32_t nearest = c->word[NEAREST] & 0xffffu, level = kernel_random() % (nearest + 1);
-    for (int32_t i = 0; i < plane_pixels(c); i++) {
-        const uint32_t steps = kernel_random() % 5u;        /* often equal, or around `nearest` */
-        if (c->word[COVER] == COVER_NONE)
-            depth[i] = (uint16_t)level;
-        else if (steps < 4)
-            depth[i] = (uint16_t)(nearest + steps - 2);
-        if (c->word[COVER] == COVER_FEW && depth[i] > nearest)
-            depth[i] = (uint16_t)level;
-    }
-    c->word[NEAREST] = nearest;
-}
-
 /* Sums of the first instants: the same number at all pixels, or few more, or any number. */
 static void make_sums(struct kernel_call *c)
 {
@@ -109,7 +94,7 @@ static void prepare_means(struct kernel_call *c)
     c->word[PAIRS] %= GAP_PAIRS_MAX + 1u;
     c->word[UNIT] = 1u << c->word[UNIT] % 5u;
     c->word[LAST] = 1 + c->word[LAST] % c->word[UNIT];
-    make_depths(c);
+    gap_depths(c, c->plane[OTHER], plane_pixels(c), COVER, NEAREST);
     make_sums(c);
 }
 

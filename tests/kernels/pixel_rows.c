@@ -149,11 +149,7 @@ static void l4_blocks(struct kernel_call *c)
 extern const struct kernel kernels_pixel_rows[];
 const struct kernel kernels_pixel_rows[] = {
     { .name = "row_xrgb8888", .most = 35, .size = { 4, 4 },
-      .form = { { "reference", xrgb8888_reference },
-#if SMEAR_VECTORS
-                { "vector", xrgb8888_vector },
-#endif
-      } },
+      .form = { { "reference", xrgb8888_reference } VECTOR_FORM("vector", xrgb8888_vector) } },
     { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,
       .form = { { "reference", nearest_reference },
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
@@ -171,8 +167,7 @@ const struct kernel kernels_pixel_rows[] = {
       } },
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
     { .name = "row_dithered_blue", .most = 67, .size = { 2, 4 }, .prepare = prepare_blue,
-      .form = { { "reference", blue_reference }, { "vector", blue_vector },
-      } },
+      .form = { { "reference", blue_reference }, { "vector", blue_vector } } },
 #endif
 #ifndef __OPTIMIZE_SIZE__
     { .name = "rows_dithered_blocks", .most = 201, .size = { 2, 4 }, .align = { 4 }, .prepare = prepare_rows,

@@ -33,10 +33,6 @@ CALL(vector)
 extern const struct kernel kernels_pixel_steps[];
 const struct kernel kernels_pixel_steps[] = {
     { .name = "next_step", .most = 40, .size = { 4, 4 }, .prepare = prepare, .timed = 40,
-      .form = { { "reference", reference },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#endif
-      } },
+      .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = NULL }
 };

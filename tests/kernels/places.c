@@ -56,10 +56,6 @@ extern const struct kernel kernels_places[];
 const struct kernel kernels_places[] = {
     { .name = "places (vertices)", .most = 40, .size = { 6, sizeof(struct smear_place) }, .align = { 2, 4 },
       .prepare = prepare, .timed = 40,
-      .form = { { "reference", reference },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#endif
-      } },
+      .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = NULL }
 };

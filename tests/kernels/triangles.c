@@ -113,16 +113,8 @@ static void range_vector(struct kernel_call *c)
 extern const struct kernel kernels_triangles[];
 const struct kernel kernels_triangles[] = {
     { .name = "triangles (made, looked at)", .least = 4 * FOURS, .most = 4 * FOURS, .size = { 1 }, .timed = 4 * FOURS,
-      .form = { { "reference", reference },
-#if SMEAR_VECTORS
-                { "vector", vector },
-#endif
-      } },
+      .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = "indices_range", .most = 35, .size = { 2 }, .timed = 192,
-      .form = { { "reference", range_reference },
-#if SMEAR_VECTORS
-                { "vector", range_vector },
-#endif
-      } },
+      .form = { { "reference", range_reference } VECTOR_FORM("vector", range_vector) } },
     { .name = NULL }
 };
