@@ -2,8 +2,7 @@
 /* accuracy.h - what the tests of accuracy share: subjects to draw, pictures the library has drawn
  * of them with all that lies under the picture, and tables of figures.
  *
- * Used by test_accuracy.c (rasterizer, accumulation), test_blur.c (filters) and test_assets.c
- * (model files). Host only. */
+ * Used by test_accuracy.c (rasterizer on scenes and model files, accumulation), test_blur.c (filters) and others. Host only. */
 #ifndef SMEAR_TESTS_ACCURACY_H
 #define SMEAR_TESTS_ACCURACY_H
 
