@@ -2,79 +2,23 @@
 /* test_layers.c - SMEAR_OBJECT and SMEAR_LAYERED: how far they are from the truth on the scenes of the quality suite, what
  * must stay as it is bit for bit, layers with settings of their own, memory. */
 #include "layers/layer.h"
-#include "tools/bench/kinds.h"
-#include "tools/bench/take.h"
 #include "tests/host.h"
+#include "tests/ref/accuracy.h"
 
-/* ------------------------------------------------------------------ takes of the suite */
+/* ------------------------------------------------------------------ scenes of the suite */
 
-static struct take take_of(const char *scene, smear_method method, int samples)
+/* Error of a method on a scene, exact poses, encoded light; NAN after a failed check. */
+static double error_of(struct subject *s, smear_method method, int samples)
 {
-    return (struct take){
-        .scene = scene, .frame = -1, .format = SMEAR_XRGB8888, .method = method, .samples = samples, .shutter_poses = true,
-        .windowed = method == SMEAR_RECONSTRUCT
-    };
-}
-
-/* A picture and its statistics; a failed check without. Free the picture. */
-static bool draw_take(const struct take *take, struct image *out, smear_stats *stats)
-{
-    struct rig rig;
-    struct failure f = { "" };
-    bool ok = rig_open(&rig, take, &f);
-    if (ok) {
-        ok = rig_picture(&rig, CLEAR_OF_SCENE, out, &f);
-        if (stats != NULL)
-            *stats = rig.stats;
-        rig_close(&rig);
-    }
-    if (!ok)
-        test_print(f.text);
-    return CHECK(ok);
-}
-
-static double rmse(const struct image *a, const struct image *b)
-{
-    double sum = 0.0;
-    size_t n = (size_t)a->width * (size_t)a->height;
-    for (size_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) {
-            double d = (double)a->rgba[4 * i + (size_t)c] - b->rgba[4 * i + (size_t)c];
-            sum += d * d;
-        }
-    return sqrt(sum / (3.0 * (double)n));
-}
-
-/* Enough: on these scenes it is 0.2 codes from 1024. */
-enum { INSTANTS = 96 };
-
-static bool draw_truth(const char *scene, struct image *out)
-{
-    struct take take = take_of(scene, SMEAR_NONE, 1);
-    struct present_options options = { .shutter_degrees = 180, .method = SMEAR_NONE, .light = SMEAR_LIGHT_ENCODED };
-    struct rig rig;
-    struct failure f = { "" };
-    bool ok = rig_open(&rig, &take, &f);
-    if (ok) {
-        options.fps = rig.scene.fps;
-        options.clear = rig.scene.clear;
-        ok = presenter_exact(rig.presenter, rig.scene.time, &options, rig.take.width, rig.take.height, INSTANTS, out, &f);
-        rig_close(&rig);
-    }
-    if (!ok)
-        test_print(f.text);
-    return CHECK(ok);
-}
-
-/* Error of a method on a scene; NAN after a failed check. */
-static double error_of(const char *scene, smear_method method, int samples, const struct image *truth)
-{
-    struct take take = take_of(scene, method, samples);
-    struct image picture OWNED(image_free) = { 0 };
-    if (!draw_take(&take, &picture, NULL))
-        return NAN;
-    double error = rmse(&picture, truth);
-    return error;
+    enum { INSTANTS = 96 };         /* enough: on these scenes it is 0.2 codes from 1024 */
+    struct shot shot OWNED(shot_free) = { 0 };
+    struct present_options p = subject_options(s);
+    p.shutter_poses = true;
+    p.light = SMEAR_LIGHT_ENCODED;
+    p.method = method;
+    p.samples = samples;
+    const struct ref_truth *truth = truth_of(s, &p, INSTANTS);
+    return truth != NULL && shot_take(s, &p, &(struct shot_options){ 0 }, &shot) ? rmse_to_truth(shot.rgb, truth) : NAN;
 }
 
 /* The bar is 1.8 codes at 1.6 times the sharp frame (make chart counts the cost). */
@@ -83,28 +27,23 @@ static void test_object_is_within_1_8_codes_of_the_truth(void)
     static const char *const scene[] = { "suite/translate", "suite/cross", "suite/fence_obj", "suite/enter", "suite/long" };
     double sum = 0.0;
     for (int i = 0; i < 5; i++) {
-        struct image truth OWNED(image_free) = { 0 };
-        END_UNLESS(draw_truth(scene[i], &truth));
-        sum += log(error_of(scene[i], SMEAR_OBJECT, 0, &truth));
+        struct subject s OWNED(subject_close) = { 0 };
+        END_UNLESS(subject_open(&s, scene[i]));
+        sum += log(error_of(&s, SMEAR_OBJECT, 0));
     }
-    CHECK(exp(sum / 5) <= 1.8);
+    CHECK_BAR(exp(sum / 5), 1.8, "object");
 }
 
 static void test_layered_errs_two_thirds_of_reconstruct(void)
 {
     double sum = 0.0;
-    int n = 0;
-    for (int i = 0; i < KINDS; i++) {
-        struct image truth;
-        if (kinds[i].group != GROUP_OBJECT)
-            continue;
-        END_UNLESS(draw_truth(kinds[i].scene, &truth));
-        sum += log(error_of(kinds[i].scene, SMEAR_LAYERED, 8, &truth) / error_of(kinds[i].scene, SMEAR_RECONSTRUCT, 8, &truth));
-        image_free(&truth);
-        n++;
+    for (int i = 0; i < OBJECT_KINDS; i++) {
+        struct subject s OWNED(subject_close) = { 0 };
+        END_UNLESS(subject_open(&s, suite_kind[i]));
+        sum += log(error_of(&s, SMEAR_LAYERED, 8) / error_of(&s, SMEAR_RECONSTRUCT, 8));
     }
-    CHECK_EQ(n, 12);
-    CHECK(exp(sum / n) <= 2.0 / 3.0);
+    CHECK_BAR(exp(sum / OBJECT_KINDS), 2.0 / 3.0, "layered");
+    truth_forget();
 }
 
 /* ------------------------------------------------------------------ a scene of plates */
