@@ -13,18 +13,18 @@
 static SMEAR_NOINLINE void shade_codes(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz,
                                        const struct shade *k)
 {
-    shade_run_codes((uint32_t *)pixels, depth, n, z, dz, k);
+    shade_run(pixels, depth, n, z, dz, k, false, false);
 }
 
 static SMEAR_NOINLINE void shade_other(const struct setup *s, void *pixels, uint16_t *depth, int32_t n, uint32_t z,
                                        uint32_t dz, const struct shade *k)
 {
     if (!target_is_direct(s->target))
-        shade_run_reference(pixels, depth, n, z, dz, k, true, false);
+        shade_run(pixels, depth, n, z, dz, k, true, false);
     else if (frame_is_linear(s->frame))
-        shade_run_reference(pixels, depth, n, z, dz, k, true, true);
+        shade_run(pixels, depth, n, z, dz, k, true, true);
     else
-        shade_run_reference(pixels, depth, n, z, dz, k, false, true);
+        shade_run(pixels, depth, n, z, dz, k, false, true);
 }
 
 /* n pixels from index `at` on, of a colour as the target has it. */
