@@ -25,6 +25,24 @@ SMEAR_INLINE void few_pixel_draw(void *pixels, size_t i, const void *texels, uin
                                                                         light >> 7, true, false));
 }
 
+/* Puts down what assembly takes of constants, in its order. */
+static inline void few_words_take(uint32_t *word, uint32_t to_pixels, enum few_kind kind)
+{
+    int n = 0;
+    if (kind == FEW_NARROW_LIT) {
+        word[n++] = 2108;               /* 5 bits become 8, two in a word */
+        word[n++] = 0x5c005c;
+        word[n++] = 543262232;          /* 255 / 63, of bits from 5 on */
+        word[n++] = 0x800080;
+        word[n++] = 16843009;           /* 1 / 255 */
+        word[n++] = 1061109567;         /* 63 / 255 */
+    } else if (kind == FEW_LINEAR) {
+        word[n++] = (uint32_t)(uintptr_t)smear_srgb_decode;
+        word[n++] = (uint32_t)(uintptr_t)smear_srgb_encode;
+    }
+    word[n] = to_pixels;
+}
+
 #if SMEAR_VECTORS
 /* Draws one row or more. */
 SMEAR_INLINE void few_rows_lanes(struct few_box *box, const struct few_texels *t, enum few_kind kind)
@@ -85,87 +103,92 @@ static inline void few_rows_loop(struct few_box *box, const struct few_texels *t
 
 #if SMEAR_ASM_ARMV7EM
 SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_box, columns) == 120
-                        && offsetof(struct few_box, depth_end) == 132 && offsetof(struct few_texels, texels) == 28,
+                        && offsetof(struct few_box, depth_end) == 132 && offsetof(struct few_texels, word) == 12,
                     "the assembly knows them");
 
-/* The texel at r4 and r5, turned by half a turn, so that products with sign tell texels from the middle on: LOAD takes it from lr, r12. */
+/* The texel at r4 and r5, turned by half a turn, so that products with sign tell texels from the middle on, which are at r11. */
 #define FEW_TEXEL(LOAD)                       \
     "ldrd r12, lr, [sp, #4]\n\t"              \
     "smmul lr, r5, lr\n\tmul lr, lr, r12\n\t" \
     "smmla r12, r4, r12, lr\n\t"              \
-    "ldr lr, [sp, #12]\n\t"                   \
-    LOAD
-#define FEW_PIXEL_NARROW                         \
-    FEW_TEXEL("ldrh r12, [lr, r12, lsl #1]\n\t") \
-    "ldr lr, [sp, #16]\n\t"                      \
+    "ldr lr, [sp, #12]\n\t" LOAD
+#define FEW_PIXEL_NARROW                          \
+    FEW_TEXEL("ldrh r12, [r11, r12, lsl #1]\n\t") \
     "strh r12, [lr, r0]\n"
-#define FEW_PIXEL_WIDE                          \
-    FEW_TEXEL("ldr r12, [lr, r12, lsl #2]\n\t") \
-    "ldr lr, [sp, #16]\n\t"                     \
-    "bic r12, r12, #0xff000000\n\t"             \
+#define FEW_PIXEL_WIDE                           \
+    FEW_TEXEL("ldr r12, [r11, r12, lsl #2]\n\t") \
+    "bic r12, r12, #0xff000000\n\t"              \
     "str r12, [lr, r0, lsl #1]\n"
 
-/* In the light r11: shaded_pixel. */
-#define FEW_PIXEL_LINEAR                                         \
-    FEW_TEXEL("ldr r12, [lr, r12, lsl #2]\n\t")                  \
-    "ubfx r6, r11, #15, #16\n\tadd r6, r6, r11, lsr #30\n\t"     \
-    "ldr r7, [sp, #24]\n\t"                                      \
-    "ubfx lr, r12, #8, #8\n\tubfx r8, r12, #16, #8\n\t"          \
-    "uxtb r12, r12\n\t"                                          \
-    "ldrh lr, [r7, lr, lsl #1]\n\tldrh r8, [r7, r8, lsl #1]\n\t" \
-    "ldrh r12, [r7, r12, lsl #1]\n\t"                            \
-    "mul lr, lr, r6\n\tmul r8, r8, r6\n\t"                       \
-    "mul r12, r12, r6\n\t"                                       \
-    "ldr r7, [sp, #28]\n\t"                                      \
-    "lsr lr, lr, #20\n\tlsr r8, r8, #20\n\t"                     \
-    "lsr r12, r12, #20\n\t"                                      \
-    "ldrb lr, [r7, lr]\n\tldrb r8, [r7, r8]\n\t"                 \
-    "ldrb r12, [r7, r12]\n\t"                                    \
-    "orr r12, r12, lr, lsl #8\n\torr r12, r12, r8, lsl #16\n\t"  \
-    "ldr lr, [sp, #16]\n\t"                                      \
-    "ldr r6, [sp]\n\t"                                           \
-    "str r12, [lr, r0, lsl #1]\n\t"                              \
-    "ldr r8, [r6, #88]\n\t"                                      \
-    "ldrd r6, r7, [r6, #80]\n"
+/* In the light r11: what struct few_texels has first comes at once. */
+#define FEW_TEXEL_LIT(LOAD)                                     \
+    "ldr lr, [sp, #24]\n\t"                                     \
+    "ldm lr!, {r6, r7, r8, r9, r10, r12}\n\t"                   \
+    "smmul r7, r5, r7\n\tmul r7, r7, r6\n\t"                    \
+    "smmla r6, r4, r6, r7\n\t" LOAD
 
-/* Red and blue lie in the halves of lr, green in r12: texel_fetch, shaded_pixel and rgb565_nearest, whose 1014 may be 1024. */
-#define FEW_PIXEL_NARROW_LIT                                  \
-    FEW_TEXEL("ldrh r12, [lr, r12, lsl #1]\n\t")              \
-    "ubfx r6, r11, #23, #8\n\t"                               \
-    "lsr lr, r12, #11\n\tbfi lr, r12, #16, #5\n\t"            \
-    "movw r7, #2108\n\tmul lr, lr, r7\n\t"                    \
-    "add lr, lr, #0x5c005c\n\tuxtb16 lr, lr, ror #8\n\t"      \
-    "mul lr, lr, r6\n\tadd lr, lr, #0x800080\n\t"             \
-    "uxtab16 lr, lr, lr, ror #8\n\tuxtb16 lr, lr, ror #8\n\t" \
-    "mov r7, #249\n\tmul lr, lr, r7\n\t"                      \
-    "add lr, lr, #0x4000400\n\t"                              \
-    "ubfx r12, r12, #5, #6\n\t"                               \
-    "movw r7, #259\n\tmul r12, r12, r7\n\t"                   \
-    "add r12, r12, #33\n\tlsr r12, r12, #6\n\t"               \
-    "mul r12, r12, r6\n\tadd r12, r12, #128\n\t"              \
-    "add r12, r12, r12, lsr #8\n\tlsr r12, r12, #8\n\t"       \
-    "mov r7, #253\n\tmul r12, r12, r7\n\t"                    \
-    "addw r12, r12, #505\n\tlsr r12, r12, #10\n\t"            \
-    "bfi lr, r12, #5, #6\n\t"                                 \
-    "lsr r12, lr, #27\n\tbfi lr, r12, #0, #5\n\t"             \
-    "ldr r12, [sp, #16]\n\t"                                  \
-    "strh lr, [r12, r0]\n\t"                                  \
-    "ldrd r6, r7, [sp, #36]\n"
+/* shaded_pixel. */
+#define FEW_PIXEL_LINEAR                                        \
+    FEW_TEXEL_LIT("ldr r6, [r8, r6, lsl #2]\n\t")               \
+    "ubfx r7, r11, #15, #16\n\tadd r7, r7, r11, lsr #30\n\t"    \
+    "ubfx r8, r6, #8, #8\n\tubfx lr, r6, #16, #8\n\t"           \
+    "uxtb r6, r6\n\t"                                           \
+    "ldrh r8, [r9, r8, lsl #1]\n\tldrh lr, [r9, lr, lsl #1]\n\t" \
+    "ldrh r6, [r9, r6, lsl #1]\n\t"                             \
+    "mul r8, r8, r7\n\tmul lr, lr, r7\n\t"                      \
+    "mul r6, r6, r7\n\t"                                        \
+    "lsr r8, r8, #20\n\tlsr lr, lr, #20\n\t"                    \
+    "lsr r6, r6, #20\n\t"                                       \
+    "ldrb r8, [r10, r8]\n\tldrb lr, [r10, lr]\n\t"              \
+    "ldrb r6, [r10, r6]\n\t"                                    \
+    "orr r6, r6, r8, lsl #8\n\torr r6, r6, lr, lsl #16\n\t"     \
+    "str r6, [r12, r0, lsl #1]\n\t"                             \
+    "ldm sp, {r6, r7, r8, r9, r10}\n"
+
+/* Red and blue lie in the halves of r7, green in r6, of which products are rounded: texel_fetch, shaded_pixel and rgb565_nearest, whose
+ * 1014 may be 1024. */
+#define FEW_PIXEL_NARROW_LIT                                    \
+    FEW_TEXEL_LIT("ldrh r6, [r8, r6, lsl #1]\n\t")              \
+    "lsr r7, r6, #11\n\tbfi r7, r6, #16, #5\n\t"                \
+    "mla r7, r7, r9, r10\n\tuxtb16 r7, r7, ror #8\n\t"          \
+    "and r6, r6, #0x7e0\n\tsmmulr r6, r6, r12\n\t"              \
+    "ubfx r8, r11, #23, #8\n\tldm lr, {r9, r10, r12, lr}\n\t"   \
+    "mla r7, r7, r8, r9\n\tuxtab16 r7, r7, r7, ror #8\n\t"      \
+    "uxtb16 r7, r7, ror #8\n\t"                                 \
+    "mul r6, r6, r8\n\tsmmulr r6, r6, r10\n\t"                  \
+    "smmulr r6, r6, r12\n\t"                                    \
+    "mov r8, #249\n\tmul r7, r7, r8\n\t"                        \
+    "add r7, r7, #0x4000400\n\t"                                \
+    "bfi r7, r6, #5, #6\n\t"                                    \
+    "lsr r6, r7, #27\n\tbfi r7, r6, #0, #5\n\t"                 \
+    "strh r7, [lr, r0]\n\t"                                     \
+    "ldm sp, {r6, r7, r8, r9, r10}\n"
 
 /* What is done for light alone, or without it. */
 #define FEW_LEFT_OUT(...)
 #define FEW_DONE(...) __VA_ARGS__
 
-/* At r0, struct few_box; at r1, struct few_texels, which then lies at sp + 4. In rows: edge functions in r1 and r2, their steps in r6 and
- * r7; depth, u and v in r3 to r5, theirs in r8 to r10; the address of a depth in r0; in r11 the mask that tells what is outside or, of
- * pixels in light, light. */
-#define FEW_ROWS_ARMV7EM(PIXEL, LIT, UNLIT, MASK, ROW_MASK)                      \
+/* Tells as the sign whether a pixel is outside: few_outside. */
+#define FEW_OUTSIDE_ARMV7EM(REGISTER)                            \
+    "orr " REGISTER ", r2, r1, lsl #11\n\t"                      \
+    "orrs " REGISTER ", " REGISTER ", r2, lsl #22\n\t"
+#define FEW_RIGHT_ARMV7EM                                        \
+    "adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                      \
+    FEW_OUTSIDE_ARMV7EM("lr")
+
+/* At r0, struct few_box; at r1, struct few_texels. In rows: edge functions in r1 and r2, their steps in r6 and r7; depth, u and v in r3
+ * to r5, theirs in r8 to r10; the address of a depth in r0; in r11 that of the texture's middle or, of pixels in light, light. From
+ * sp on lie the box's address, width, height, to_pixels, columns; of pixels in light r6 to r10, the addresses of box and texels, columns,
+ * the step of light. Two pixels behind a row are outside. */
+#define FEW_ROWS_ARMV7EM(PIXEL, LIT, UNLIT, BOX, COLUMNS)                        \
     __asm__ volatile(                                                            \
         ".syntax unified\n\t"                                                    \
-        "ldm r1, {r1, r2, r3, r4, r5, r6, r7}\n\t"                               \
-        LIT("ldr r8, [r0, #100]\n\tldrd r9, r10, [r0, #80]\n\t")                 \
-        "push {r0, r1, r2, r3, r4, r5, r6, r7, r8, r9" LIT(", r10, r11") "}\n\t" \
-        "mov r11, r5\n"                                                          \
+        "ldr r4, [r0, #120]\n\t"                                                 \
+        UNLIT("ldr r3, [r1, #12]\n\tldm r1, {r1, r2, r11}\n\t"                   \
+              "push {r0, r1, r2, r3, r4}\n")                                     \
+        LIT("ldr r5, [r0, #100]\n\tpush {r0, r1, r4, r5}\n\t"                    \
+            "add r12, r0, #80\n\tldm r12, {r6, r7, r8, r9, r10}\n\t"             \
+            "push {r6, r7, r8, r9, r10}\n")                                      \
         "1: ldm r0, {r1, r2, r3, r4, r5" LIT(", r11") "}\n\t"                    \
         "add r12, r0, #40\n\t"                                                   \
         "ldm r12, {r6, r7, r8, r9, r10" LIT(", lr") "}\n\t"                      \
@@ -174,59 +197,56 @@ SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_box, 
         "add r10, r10, r5\n\t"                                                   \
         LIT("add lr, lr, r11\n\t")                                               \
         "stm r0, {r6, r7, r8, r9, r10" LIT(", lr") "}\n\t"                       \
-        "add r12, r0, #80\n\tldm r12, {r6, r7, r8, r9, r10}\n\t"                 \
-        UNLIT("ldrd r12, lr, [r0, #120]\n\t")                                    \
-        LIT("ldr r12, [r0, #120]\n\tldr lr, [sp, #20]\n\t")                      \
-        "orr r0, r2, r1, lsl #10\n\ttst r0, " ROW_MASK "\n\t"                    \
-        "beq 3f\n"                                                               \
-        "2: subs r12, #1\n\tbeq 6f\n\t"                                          \
-        "adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                                  \
-        "orr r0, r2, r1, lsl #10\n\ttst r0, " ROW_MASK "\n\t"                    \
-        "bne 2b\n"                                                               \
-        "3: ldr r0, [sp]\n\t"                                                    \
-        LIT("ldr lr, [r0, #124]\n\t")                                            \
-        "ldr r0, [r0, #120]\n\tsub r0, r0, r12\n\t"                              \
-        "mla r3, r8, r0, r3\n\tmla r4, r9, r0, r4\n\t"                           \
-        "mla r5, r10, r0, r5\n\t"                                                \
+        UNLIT("add r12, r0, #80\n\tldm r12, {r6, r7, r8, r9, r10}\n\t")          \
+        LIT("ldm sp, {r6, r7, r8, r9, r10}\n\t")                                 \
+        "ldrd r12, r0, [r0, #120]\n\t"                                           \
+        FEW_OUTSIDE_ARMV7EM("lr")                                                \
+        "bpl 4f\n"                                                               \
+        "2: " FEW_RIGHT_ARMV7EM "bpl 31f\n\t"                                    \
+        FEW_RIGHT_ARMV7EM "bpl 32f\n\t"                                          \
+        "subs r12, r12, #2\n\tbgt 2b\n\t"                                        \
+        "b 6f\n"                                                                 \
+        "32: subs r12, r12, #1\n"                                                \
+        "31: ldr lr, [sp, #" COLUMNS "]\n\t"                                     \
+        "sub lr, lr, r12\n\tadd lr, lr, #1\n\t"                                  \
+        "mla r3, r8, lr, r3\n\tmla r4, r9, lr, r4\n\t"                           \
+        "mla r5, r10, lr, r5\n\t"                                                \
         LIT("ldr r12, [sp, #32]\n\t"                                             \
-            "mla r11, r12, r0, r11\n\t")                                         \
-        "add r0, lr, r0, lsl #1\n"                                               \
+            "mla r11, r12, lr, r11\n\t")                                         \
+        "add r0, r0, lr, lsl #1\n"                                               \
         "4: ldrh r12, [r0], #2\n\t"                                              \
         "cmp r12, r3, lsr #16\n\tbhs 5f\n\t"                                     \
         "lsr r12, r3, #16\n\tstrh r12, [r0, #-2]\n\t"                            \
         PIXEL                                                                    \
-        "5: adds r1, r1, r6\n\tadc r2, r2, r7\n\t"                               \
-        "add r3, r3, r8\n\tadd r4, r4, r9\n\t"                                   \
+        "5: add r3, r3, r8\n\tadd r4, r4, r9\n\t"                                \
         "add r5, r5, r10\n\t"                                                    \
         LIT("ldr r12, [sp, #32]\n\t"                                             \
-            "add r11, r11, r12\n\t"                                              \
-            "ldr r12, [sp, #20]\n\t")                                            \
-        "orr lr, r2, r1, lsl #10\n\t"                                            \
-        "tst lr, " MASK "\n\t"                                                   \
-        "beq 4b\n"                                                               \
-        "6: ldr r0, [sp]\n\t"                                                    \
+            "add r11, r11, r12\n\t")                                             \
+        FEW_RIGHT_ARMV7EM                                                        \
+        "bpl 4b\n"                                                               \
+        "6: ldr r0, [sp, #" BOX "]\n\t"                                          \
         "ldrd r1, r2, [r0, #124]\n\t"                                            \
         "ldr r3, [r0, #132]\n\t"                                                 \
         "add r1, r1, r2\n\tstr r1, [r0, #124]\n\t"                               \
         "cmp r1, r3\n\tbne 1b\n\t"                                               \
-        UNLIT("add sp, #40") LIT("add sp, #48")                                  \
+        UNLIT("add sp, #20") LIT("add sp, #36")                                  \
         : "+r"(r0), "+r"(r1)                                                     \
         :                                                                        \
         : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Draws one row or more: 22 instructions for a pixel that is seen, of light 43, encoded 57; compilers take 30, 70 and 97. */
+/* Draws one row or more: 21 instructions for a pixel that is seen, of light 39, encoded 40; compilers take 30, 70 and 97. */
 SMEAR_CALLED void few_rows_loop(struct few_box *rows, const struct few_texels *texels, enum few_kind kind)
 {
     register struct few_box *r0 __asm__("r0") = rows;
     register const struct few_texels *r1 __asm__("r1") = texels;
     if (kind == FEW_NARROW)
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW, FEW_LEFT_OUT, FEW_DONE, "r11", "r11");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW, FEW_LEFT_OUT, FEW_DONE, "0", "16");
     else if (kind == FEW_WIDE)
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_WIDE, FEW_LEFT_OUT, FEW_DONE, "r11", "r11");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_WIDE, FEW_LEFT_OUT, FEW_DONE, "0", "16");
     else if (kind == FEW_NARROW_LIT)
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW_LIT, FEW_DONE, FEW_LEFT_OUT, "r12", "lr");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_NARROW_LIT, FEW_DONE, FEW_LEFT_OUT, "20", "28");
     else
-        FEW_ROWS_ARMV7EM(FEW_PIXEL_LINEAR, FEW_DONE, FEW_LEFT_OUT, "r12", "lr");
+        FEW_ROWS_ARMV7EM(FEW_PIXEL_LINEAR, FEW_DONE, FEW_LEFT_OUT, "20", "28");
 }
 #endif
 

@@ -8,8 +8,8 @@
 /* Planes: codes q16; coordinates; light, 16 bits q15; how much larger 1/w is than at v[0], q15. */
 enum few_plane { FEW_DEPTH, FEW_U, FEW_V, FEW_BLUE, FEW_ALPHA, FEW_RED, FEW_GREEN, FEW_BEND, FEW_PLANES };
 
-/* All three edge functions (geometry/tiny.h) in a word, 21 bits each: their lower 8 bits are the same in all pixels, and left out. One that
- * is negative makes that above it lower by one; but then the pixel is outside anyway. */
+/* All three edge functions (geometry/tiny.h) in a word, from bits 0, 21 and 43 on: their lower 8 bits are the same in all pixels, and left
+ * out. One that is negative makes that above it lower by one; but then the pixel is outside anyway. */
 struct few_values {
     uint64_t edges;
     int32_t plane[FEW_PLANES];
@@ -31,10 +31,7 @@ struct few_box {
 struct few_texels {
     uint32_t width, height;         /* of the texture, powers of two from 2 on; coordinates are turns q32 and FEW_TURN */
     uint32_t middle;                /* address of the middle texel */
-    uint32_t to_pixels;             /* of a pixel, less that of the depth behind its own, or twice that where pixels have 32 bits */
-    uint32_t outside;               /* edge functions that are negative: few_outside */
-    const uint16_t *decode;
-    const uint8_t *encode;
+    uint32_t word[7];               /* few_words_take */
     const void *texels;
     uint16_t *depth;                /* of the first pixel, and what is drawn there */
     void *pixels;
@@ -43,14 +40,13 @@ struct few_texels {
 #define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || SMEAR_VECTORS)
 #define FEW_TURN (SMEAR_ASM_ARMV7EM ? INT32_MIN : 0)
 
-/* An edge function that is negative: in the upper word, or the lower one ten bits up. */
-#define FEW_OUTSIDE (1u << 9 | 1u << 30)
-
+/* Whether an edge function is negative. */
 static inline bool few_outside(uint64_t edges)
 {
     if (SMEAR_ON_64)
-        return (edges & (1ull << 20 | 1ull << 41 | 1ull << 62)) != 0;
-    return (((uint32_t)(edges >> 32) | (uint32_t)edges << 10) & FEW_OUTSIDE) != 0;
+        return (edges & (1ull << 20 | 1ull << 41 | 1ull << 63)) != 0;
+    const uint32_t high = (uint32_t)(edges >> 32);
+    return (int32_t)(high | (uint32_t)edges << 11 | high << 22) < 0;
 }
 
 #endif

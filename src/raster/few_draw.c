@@ -32,8 +32,8 @@ struct beyond {
 static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
 {
     if (SMEAR_ON_64)
-        return (uint64_t)(int64_t)e0 + ((uint64_t)(int64_t)e1 << 21) + ((uint64_t)(int64_t)e2 << 42);
-    const uint32_t high = (uint32_t)(e1 >> 11) + ((uint32_t)e2 << 10);
+        return (uint64_t)(int64_t)e0 + ((uint64_t)(int64_t)e1 << 21) + ((uint64_t)(int64_t)e2 << 43);
+    const uint32_t high = (uint32_t)(e1 >> 11) + ((uint32_t)e2 << 11);
     return (uint64_t)(int64_t)e0 + ((uint64_t)high << 32 | (uint32_t)e1 << 21);
 }
 
@@ -374,9 +374,9 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
     const uint32_t depth = (uint32_t)(uintptr_t)t->depth, middle = l->height / 2 * l->width + l->width / 2;
     const bool narrow = l->kind == FEW_NARROW || l->kind == FEW_NARROW_LIT;
     void *const pixels = narrow ? (void *)t->direct : (void *)t->color;
-    l->rows = (struct few_texels){ l->width, l->height, (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u),
-                                   (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), FEW_OUTSIDE, smear_srgb_decode,
-                                   smear_srgb_encode, l->texels, t->depth, pixels };
+    l->rows = (struct few_texels){ .width = l->width, .height = l->height, .texels = l->texels, .depth = t->depth, .pixels = pixels,
+                                   .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u) };
+    few_words_take(l->rows.word, (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), l->kind);
 }
 
 /* Draws the box by a loop of this core. */
