@@ -261,7 +261,7 @@
 #define words_copy words_copy_reference
 #endif
 
-/* TEXEL_BLOCKS: several blocks of narrow texels along a row are one. */
+/* TEXEL_BLOCKS: several blocks of copied texels along a row are one. */
 #define TEXEL_BLOCKS SMEAR_ASM_ARMV7EM
 #if TEXEL_BLOCKS
 #define texel_blocks texel_blocks_armv7em

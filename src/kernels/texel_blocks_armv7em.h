@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texel_blocks_armv7em.h - blocks of narrow texels along a row, in assembly for Cortex-M4: what leads from block to block takes half of
+/* texel_blocks_armv7em.h - blocks of copied texels along a row, in assembly for Cortex-M4: what leads from block to block takes half of
  * the compiler's instructions, and what is drawn stays in registers. */
 #ifndef SMEAR_KERNELS_TEXEL_BLOCKS_ARMV7EM_H
 #define SMEAR_KERNELS_TEXEL_BLOCKS_ARMV7EM_H
@@ -10,17 +10,18 @@
 
 /* Draws `count` >= 0 whole blocks, then `rest` pixels that are no more than a block and the one behind them, if there are any. Of
  * the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are anything. */
-static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height)
+static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height,
+                                          enum texel_kind kind)
 {
     for (; count > 0; count--) {
         texel_track_next_reference(k);
-        texels_draw_reference(&k->run, 1 << k->log2, log2_width, log2_height, TEXELS_NARROW);
+        texels_draw_reference(&k->run, 1 << k->log2, log2_width, log2_height, kind);
     }
     while (rest > 0) {
         const int32_t n = block_next(1 << k->log2, rest);
         texel_track_part_reference(k, n);
         rest -= n;
-        texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, TEXELS_NARROW);
+        texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, kind);
     }
 }
 
@@ -172,59 +173,62 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_track, q) == 52 && offsetof(struct tex
         "ldr r1, [r12, #-52]\n\t" \
         "ldr r12, [r12, #-8]\n\t"
 
-/* On the stack lie the track's q, how many blocks are left, and how many pixels behind them. */
+/* On the stack lie the track's q, how many blocks are left, and how many pixels behind them. START and END take and leave the run's
+ * colours, depths and z. */
+#define ARMV7EM_BLOCKS(KIND, START, END) \
+    __asm__ volatile( \
+        ".syntax unified\n\t" \
+        "push {r0, r1, r2}\n\t" \
+        START \
+        "cmp r1, #0\n\t" \
+        "beq 54f\n" \
+        "51: ldr r12, [sp]\n\t" \
+        ARMV7EM_PLACE \
+        "ldrb r0, [r12, #52]\n\t" \
+        "cmp r0, #0\n\t" \
+        "beq 52f\n\t" \
+        ARMV7EM_PARABOLA("ldr r0, [r12, #76]\n\t") \
+        ARMV7EM_RUN \
+        ARMV7EM_BENT_QUADS(KIND, "lsls r0, r11, #24\n\tbne 33b\n\t", "53f") \
+        "52: lsl r10, r4, r11\n\t" \
+        "lsl lr, r5, r11\n\t" \
+        ARMV7EM_RUN \
+        "rsb r4, r0, #256\n\t" \
+        "add r4, r7, r4, lsl #1\n\t" \
+        ARMV7EM_STRAIGHT_QUADS(KIND, "cmp r7, r4\n\tbne 23b\n\t", "53f") \
+        "53: ldr r0, [sp, #4]\n\t" \
+        "subs r0, r0, #1\n\t" \
+        "str r0, [sp, #4]\n\t" \
+        "bne 51b\n" \
+        "54: ldr lr, [sp, #8]\n\t" \
+        "ldr r12, [sp]\n\t" \
+        "cmp lr, #0\n\t" \
+        "beq 57f\n\t" \
+        ARMV7EM_PART_PLACE \
+        "ldrb r0, [r12, #52]\n\t" \
+        "cmp r0, #0\n\t" \
+        "beq 55f\n\t" \
+        ARMV7EM_PARABOLA("ldr r0, [r12, #60]\n\tsubs r0, r0, #1\n\t") \
+        ARMV7EM_PART_RUN ARMV7EM_BENT(KIND, "54b") \
+        "55: lsl r10, r4, r11\n\t" \
+        "lsl lr, r5, r11\n\t" ARMV7EM_PART_RUN "add r4, r7, lr, lsl #1\n\t" \
+        ARMV7EM_STRAIGHT(KIND, "54b") \
+        "57: pop {r0, r1, r2}\n\t" END \
+        : "+r"(r0), "+r"(r1), "+r"(r2) \
+        : ARMV7EM_SIZES \
+        : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
+
 static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct texel_track *k, int32_t count, int32_t rest,
-                                                                       int log2_width, int log2_height)
+                                                                       int log2_width, int log2_height, enum texel_kind kind)
 {
     register int32_t *r0 __asm__("r0") = &k->q;
     register int32_t r1 __asm__("r1") = count;
     register int32_t r2 __asm__("r2") = rest;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "push {r0, r1, r2}\n\t"
-        "ldr r7, [r0, #-28]\n\t"
-        "ldrd r8, r9, [r0, #-24]\n\t"
-        "sub r8, r8, r7\n\t"
-        "cmp r1, #0\n\t"
-        "beq 54f\n"
-        "51: ldr r12, [sp]\n\t"
-        ARMV7EM_PLACE
-        "ldrb r0, [r12, #52]\n\t"
-        "cmp r0, #0\n\t"
-        "beq 52f\n\t"
-        ARMV7EM_PARABOLA("ldr r0, [r12, #76]\n\t")
-        ARMV7EM_RUN
-        ARMV7EM_BENT_QUADS(NARROW, "lsls r0, r11, #24\n\tbne 33b\n\t", "53f")
-        "52: lsl r10, r4, r11\n\t"
-        "lsl lr, r5, r11\n\t"
-            ARMV7EM_RUN
-        "rsb r4, r0, #256\n\t"
-        "add r4, r7, r4, lsl #1\n\t"
-        ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\tbne 23b\n\t", "53f")
-        "53: ldr r0, [sp, #4]\n\t"
-        "subs r0, r0, #1\n\t"
-        "str r0, [sp, #4]\n\t"
-        "bne 51b\n"
-        "54: ldr lr, [sp, #8]\n\t"
-        "ldr r12, [sp]\n\t"
-        "cmp lr, #0\n\t"
-        "beq 57f\n\t"
-        ARMV7EM_PART_PLACE
-        "ldrb r0, [r12, #52]\n\t"
-        "cmp r0, #0\n\t"
-        "beq 55f\n\t"
-        ARMV7EM_PARABOLA("ldr r0, [r12, #60]\n\tsubs r0, r0, #1\n\t")
-        ARMV7EM_PART_RUN ARMV7EM_BENT(NARROW, "54b")
-        "55: lsl r10, r4, r11\n\t"
-        "lsl lr, r5, r11\n\t" ARMV7EM_PART_RUN "add r4, r7, lr, lsl #1\n\t"
-        ARMV7EM_STRAIGHT("54b")
-        "57: pop {r0, r1, r2}\n\t"
-        "add r8, r8, r7\n\t"
-        "str r7, [r0, #-28]\n\t"
-        "strd r8, r9, [r0, #-24]"
-        : "+r"(r0), "+r"(r1), "+r"(r2)
-        : ARMV7EM_SIZES
-        : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    if (kind == TEXELS_NARROW)
+        ARMV7EM_BLOCKS(NARROW, "ldr r7, [r0, #-28]\n\tldrd r8, r9, [r0, #-24]\n\tsub r8, r8, r7\n\t",
+                       "add r8, r8, r7\n\tstr r7, [r0, #-28]\n\tstrd r8, r9, [r0, #-24]");
+    else
+        ARMV7EM_BLOCKS(WIDE, "ldr r8, [r0, #-28]\n\tldrd r7, r9, [r0, #-24]\n\t", "str r8, [r0, #-28]\n\tstrd r7, r9, [r0, #-24]");
 }
 #endif
 

@@ -190,7 +190,7 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct
         "mla " VALUE ", " DYY ", r12, " AT "\n\t" \
         "add " STEP ", " DX ", " DXX "\n\t"
 
-/* On the stack lie the rows, whose members have come to the row before. PLACE makes of a depth's address what r7 points to. */
+/* On the stack lie the rows, whose members have come to the row before. PLACE makes of a depth's address what r7 and r8 point to. */
 #define ARMV7EM_CURVE_ROWS(KIND, PLACE) \
     __asm__ volatile( \
         ".syntax unified\n\t" \
@@ -231,7 +231,7 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struc
     if (kind == TEXELS_NARROW)
         ARMV7EM_CURVE_ROWS(NARROW, "add r7, r7, r8\n\trsb r8, r8, #0\n\t");
     else
-        ARMV7EM_CURVE_ROWS(WIDE, "");
+        ARMV7EM_CURVE_ROWS(WIDE, "add r8, r8, r7, lsl #1\n\t");
 }
 #endif
 

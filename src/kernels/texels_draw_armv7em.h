@@ -15,16 +15,23 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
                     "the assembly knows struct texel_run");
 
 /* dz is in r1, du, dv, ddu and ddv in r2 to r5, z in r9, u in r10, v in r11; r12 points to texels. r7 points to narrow colours, depths lie
- * r8 bytes further on; or, of KIND WIDE, to depths, and colours lie at r8 and twice that. In lr lie the bits that an index has of v, and
+ * r8 bytes further on; or, of KIND WIDE, to depths, and r8 to colours. In lr lie the bits that an index has of v, and
  * in r0 and r6 whatever comes. */
 #define ARMV7EM_DEPTH_NARROW(OF) OF ", [r7, r8]\n\t"
 #define ARMV7EM_DEPTH_WIDE(OF) OF ", [r7]\n\t"
 #define ARMV7EM_LOAD_NARROW  "ldrh r0, [r12, r0, lsl #1]\n\t"
 #define ARMV7EM_LOAD_WIDE    "ldr r0, [r12, r0, lsl #2]\n\t"
 #define ARMV7EM_STORE_NARROW "strh r0, [r7]\n"
-#define ARMV7EM_STORE_WIDE   "str r0, [r8, r7, lsl #1]\n"
+#define ARMV7EM_STORE_WIDE   "str r0, [r8]\n"
 #define ARMV7EM_PUT_NARROW   "strh r0, [r7], #2\n\t"
-#define ARMV7EM_PUT_WIDE     "str r0, [r8, r7, lsl #1]\n\tadd r7, r7, #2\n\t"
+#define ARMV7EM_PUT_WIDE     "str r0, [r8], #4\n\t"
+/* The depths of a pair, before its colours; of a pixel whose colour is put; a pixel or two are stepped over. */
+#define ARMV7EM_DEPTHS_NARROW "str r6, [r7, r8]\n\t"
+#define ARMV7EM_DEPTHS_WIDE   "str r6, [r7], #4\n\t"
+#define ARMV7EM_SECOND_NARROW "strh r6, [r7, r8]\n\t"
+#define ARMV7EM_SECOND_WIDE   "strh r6, [r7], #2\n\t"
+#define ARMV7EM_OVER_NARROW(N) "adds r7, #2 * " N "\n\t"
+#define ARMV7EM_OVER_WIDE(N)   "adds r7, #2 * " N "\n\tadd r8, r8, #4 * " N "\n\t"
 
 #define ARMV7EM_BEND \
         "add r2, r2, r4\n\t" \
@@ -53,7 +60,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "lsr r6, r10, %[from_u]\n\t" \
         "orr r0, r6, r0, lsl %[to_v]\n\t" \
         ARMV7EM_LOAD_##KIND ARMV7EM_STORE_##KIND \
-        "9: adds r7, #2\n\t" \
+        "9: " ARMV7EM_OVER_##KIND("1") \
         "add r9, r9, r1\n\t" \
         ARMV7EM_STEP(BEND)
 
@@ -67,7 +74,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "add r9, r9, r1, lsl #1\n\t" \
         "smulbt r0, r0, r0\n\t" \
         SLOW \
-        ARMV7EM_DEPTH_##KIND("str r6") \
+        ARMV7EM_DEPTHS_##KIND \
         ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND ARMV7EM_STEP(BEND) \
         ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND ARMV7EM_STEP(BEND)
 
@@ -79,13 +86,13 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "beq 7f\n\t" \
         ARMV7EM_DEPTH_##KIND("strh r6") \
         ARMV7EM_TEXEL(KIND) ARMV7EM_STORE_##KIND \
-        "8: adds r7, #4\n\t" \
+        "8: " ARMV7EM_OVER_##KIND("2") \
         BOTH \
         "b 9f\n" \
-        "7: adds r7, #2\n\t" \
+        "7: " ARMV7EM_OVER_##KIND("1") \
         ARMV7EM_STEP(BEND) \
         "lsrs r6, r6, #16\n\t" \
-        ARMV7EM_DEPTH_##KIND("strh r6") \
+        ARMV7EM_SECOND_##KIND \
         ARMV7EM_TEXEL(KIND) ARMV7EM_PUT_##KIND \
         ARMV7EM_STEP(BEND) \
         "9:\n\t"
@@ -103,19 +110,19 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "add r3, r3, r5, lsl #1\n\t"
 
 /* Rounds of four pixels, at 23 or 33; at 24 or 34 the last two of one. MORE goes there where more are to come. Goes on at DONE. */
-#define ARMV7EM_STRAIGHT_QUADS(MORE, DONE) \
+#define ARMV7EM_STRAIGHT_QUADS(KIND, MORE, DONE) \
         "23:\n\t" \
-        ARMV7EM_PAIR(NARROW, "cbz r0, 26f\n\t", "") \
+        ARMV7EM_PAIR(KIND, "cbnz r0, 9f\n\tb 26f\n9:\n\t", "") \
         "24:\n\t" \
-        ARMV7EM_PAIR(NARROW, "cbz r0, 27f\n\t", "") \
+        ARMV7EM_PAIR(KIND, "cbz r0, 27f\n\t", "") \
         "28: " MORE \
         "b " DONE "\n" \
-        "26:\n\t" \
-        ARMV7EM_SLOW_PAIR(NARROW, "", ARMV7EM_BOTH) \
-        "b 24b\n" \
         "27:\n\t" \
-        ARMV7EM_SLOW_PAIR(NARROW, "", ARMV7EM_BOTH) \
-        "b 28b\n"
+        ARMV7EM_SLOW_PAIR(KIND, "", ARMV7EM_BOTH) \
+        "b 28b\n" \
+        "26:\n\t" \
+        ARMV7EM_SLOW_PAIR(KIND, "", ARMV7EM_BOTH) \
+        "b 24b\n"
 
 #define ARMV7EM_BENT_QUADS(KIND, MORE, DONE) \
         "33:\n\t" \
@@ -132,15 +139,15 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
         "b 34b\n"
 
 /* The same of any number of pixels, lr > 0. Behind the last points r4; where changes change, the upper half of lr counts rounds. */
-#define ARMV7EM_STRAIGHT(DONE) \
+#define ARMV7EM_STRAIGHT(KIND, DONE) \
         "lsrs r0, lr, #1\n\t" \
         "bcc 22f\n\t" \
-        ARMV7EM_PIXEL(NARROW, "") \
+        ARMV7EM_PIXEL(KIND, "") \
         "22: lsrs r0, lr, #2\n\t" \
         ARMV7EM_MASK \
         "bcs 24f\n\t" \
         "beq " DONE "\n" \
-        ARMV7EM_STRAIGHT_QUADS("cmp r7, r4\n\tbne 23b\n\t", DONE)
+        ARMV7EM_STRAIGHT_QUADS(KIND, "cmp r7, r4\n\tbne 23b\n\t", DONE)
 
 #define ARMV7EM_BENT(KIND, DONE) \
         "lsrs r0, lr, #1\n\t" \

@@ -269,13 +269,14 @@ static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, in
     return true;
 }
 
-/* Blocks of narrow texels of a run, of which `rest` pixels and the last are to come: all where the row ends in it, else whole ones of
+/* Blocks of copied texels of a run, of which `rest` pixels and the last are to come: all where the row ends in it, else whole ones of
  * which no less than `least` come behind. Returns the rest. */
-SMEAR_INLINE int32_t draw_run_blocks(struct texel_track *k, int32_t rest, int32_t least, bool is_last, int log2_width, int log2_height)
+SMEAR_INLINE int32_t draw_run_blocks(struct texel_track *k, int32_t rest, int32_t least, bool is_last, int log2_width, int log2_height,
+                                     enum texel_kind kind)
 {
     const int32_t blocks = (rest - least) >> k->log2, behind = rest - (blocks << k->log2);
     if (blocks > 0 || is_last)
-        texel_blocks(k, blocks, is_last ? behind : 0, log2_width, log2_height);
+        texel_blocks(k, blocks, is_last ? behind : 0, log2_width, log2_height, kind);
     return is_last ? 0 : behind;
 }
 
@@ -299,9 +300,9 @@ enum { DIVIDED_ROWS = !SMEAR_ON_WASM };
 SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
 {
     const int32_t block = 1 << k->log2;
-    if (TEXEL_BLOCKS && kind == TEXELS_NARROW && SMEAR_IS_CONSTANT(log2_width)) {
+    if (TEXEL_BLOCKS && !texels_are_lit(kind) && SMEAR_IS_CONSTANT(log2_width)) {
         const int32_t blocks = (rest - 1) >> k->log2;
-        texel_blocks(k, blocks, rest - (blocks << k->log2), log2_width, log2_height);
+        texel_blocks(k, blocks, rest - (blocks << k->log2), log2_width, log2_height, kind);
         return;
     }
     if (TEXELS_LANES && !texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
@@ -336,9 +337,9 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
     bool is_in_run = p->a == x;
     do {
         int32_t count = block, more = 0;
-        if (TEXEL_BLOCKS && kind == TEXELS_NARROW && SMEAR_IS_CONSTANT(log2_width) && is_in_run && rest >= least) {
+        if (TEXEL_BLOCKS && !texels_are_lit(kind) && SMEAR_IS_CONSTANT(log2_width) && is_in_run && rest >= least) {
             const int32_t before = rest;
-            rest = draw_run_blocks(k, rest, least, p->b == right, log2_width, log2_height);
+            rest = draw_run_blocks(k, rest, least, p->b == right, log2_width, log2_height, kind);
             if (rest != before)
                 continue;
         }

@@ -110,15 +110,24 @@ enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, Z = KIND + 1, DZ, COLOR_END, DEPTH_END }
 #endif
 
 #if SMEAR_ASM_ARMV7EM
-static void blocks_prepare(struct kernel_call *c)
+static void blocks_narrow_prepare(struct kernel_call *c)
 {
     prepare(c);
     c->bytes[0] = c->n * 2;
     c->bytes[2] = 2 << (LOG2_WIDTH + LOG2_HEIGHT);
 }
 
+static void blocks_wide_prepare(struct kernel_call *c)
+{
+    prepare(c);
+    c->bytes[0] = c->n * 4;
+    c->bytes[1] = c->n * 2;
+    c->bytes[2] = 4 << (LOG2_WIDTH + LOG2_HEIGHT);
+}
+
 /* Blocks of n pixels, or as many whole ones as these have. */
-SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, int32_t, int32_t, int, int))
+SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, int32_t, int32_t, int, int, enum texel_kind),
+                         enum texel_kind kind)
 {
     struct texel_track k;
     set_track(c, &k);
@@ -136,7 +145,7 @@ SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, 
     k.run.z = c->word[Z];
     k.run.dz = c->word[DZ];
     const int32_t count = (c->n - 2) >> k.log2, rest = c->n - 1 - (count << k.log2);
-    draw(&k, count, (c->word[KIND] & 3u) != 0 ? rest : 0, LOG2_WIDTH, LOG2_HEIGHT);
+    draw(&k, count, (c->word[KIND] & 3u) != 0 ? rest : 0, LOG2_WIDTH, LOG2_HEIGHT, kind);
     c->word[Q] = (uint32_t)k.q;
     c->word[U] = (uint32_t)k.place.u;
     c->word[V] = (uint32_t)k.place.v;
@@ -146,8 +155,10 @@ SMEAR_INLINE void blocks(struct kernel_call *c, void draw(struct texel_track *, 
     c->word[DEPTH_END] = (uint32_t)((uint8_t *)k.run.depth - (uint8_t *)c->plane[1]);
 }
 
-static void blocks_reference(struct kernel_call *c) { blocks(c, texel_blocks_reference); }
-static void blocks_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em); }
+static void narrow_reference(struct kernel_call *c) { blocks(c, texel_blocks_reference, TEXELS_NARROW); }
+static void narrow_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em, TEXELS_NARROW); }
+static void wide_reference(struct kernel_call *c) { blocks(c, texel_blocks_reference, TEXELS_WIDE); }
+static void wide_armv7em(struct kernel_call *c) { blocks(c, texel_blocks_armv7em, TEXELS_WIDE); }
 #endif
 
 #if TEXELS_LANES
@@ -209,8 +220,10 @@ const struct kernel kernels_texel_track[] = {
 #endif
       } },
 #if SMEAR_ASM_ARMV7EM
-    { .name = "texel_blocks", .least = 3, .most = 140, .size = { 2, 2, 2 }, .prepare = blocks_prepare,
-      .form = { { "reference", blocks_reference }, { "armv7em", blocks_armv7em } } },
+    { .name = "texel_blocks (narrow)", .least = 3, .most = 140, .size = { 2, 2, 2 }, .prepare = blocks_narrow_prepare,
+      .form = { { "reference", narrow_reference }, { "armv7em", narrow_armv7em } } },
+    { .name = "texel_blocks (wide)", .least = 3, .most = 140, .size = { 4, 2, 4 }, .prepare = blocks_wide_prepare,
+      .form = { { "reference", wide_reference }, { "armv7em", wide_armv7em } } },
 #endif
 #if TEXELS_LANES
     { .name = "texels_row (narrow)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
