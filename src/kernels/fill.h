@@ -15,6 +15,18 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
     register uint32_t b __asm__("r4") = value;
     register uint32_t c __asm__("r5") = value;
     register uint32_t d __asm__("r6") = value;
+#ifndef __OPTIMIZE_SIZE__
+    int32_t rounds = n >> 2;
+    n &= 3;
+    if (rounds > 0)
+        __asm__ volatile(".syntax unified\n"
+                         "1:\n\t.rept 8\n\tstmia %[p]!, {r3, r4, r5, r6}\n\t.endr\n\t"
+                         "subs %[n], %[n], #1\n\t"
+                         "bne 1b"
+                         : [p] "+l"(p), [n] "+l"(rounds)
+                         : "r"(a), "r"(b), "r"(c), "r"(d)
+                         : "cc", "memory");
+#endif
     if (n > 0)
         __asm__ volatile(".syntax unified\n"
                          "1: stmia %[p]!, {r3, r4, r5, r6}\n\t"
