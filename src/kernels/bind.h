@@ -255,12 +255,6 @@
 #define mulh_u32_narrow mulh_u32_reference
 #endif
 
-#if SMEAR_ASM_ARMV6M
-#define words_copy words_copy_armv6m
-#else
-#define words_copy words_copy_reference
-#endif
-
 /* TEXEL_BLOCKS: several blocks of copied texels along a row are one. */
 #define TEXEL_BLOCKS SMEAR_ASM_ARMV7EM
 #if TEXEL_BLOCKS

@@ -37,7 +37,9 @@ struct few_texels {
     void *pixels;
 };
 
-#define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || SMEAR_VECTORS)
+/* Loops of a core's own are there, and such of light. */
+#define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || SMEAR_VECTORS || (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_FILE))
+#define FEW_LIGHT_LOOP (!SMEAR_ASM_ARMV6M)
 #define FEW_TURN (SMEAR_ASM_ARMV7EM ? INT32_MIN : 0)
 
 /* Whether an edge function is negative. */

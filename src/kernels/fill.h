@@ -116,26 +116,4 @@ static inline void pixels_clear_narrow(uint16_t *p, int32_t n)
 /* Sets both bytes of each to the lowest one of `byte`. */
 static inline void pixels_fill_bytes(uint16_t *p, int byte, int32_t n) { __builtin_memset(p, byte, (size_t)n * sizeof *p); }
 
-/* Copies words from where other words lie. */
-SMEAR_INLINE void words_copy_reference(uint32_t *to, const uint32_t *from, size_t bytes) { __builtin_memcpy(to, from, bytes); }
-
-#if SMEAR_ASM_ARMV6M
-/* A call takes longer than most copies, and so do single words. */
-SMEAR_INLINE void words_copy_armv6m(uint32_t *to, const uint32_t *from, size_t bytes)
-{
-    size_t fours = bytes / 16;
-    if (fours != 0)
-        __asm__ volatile(".syntax unified\n"
-                         "1: ldmia %[from]!, {r3, r4, r5, r6}\n\t"
-                         "stmia %[to]!, {r3, r4, r5, r6}\n\t"
-                         "subs %[n], #1\n\t"
-                         "bne 1b"
-                         : [from] "+l"(from), [to] "+l"(to), [n] "+l"(fours)
-                         :
-                         : "r3", "r4", "r5", "r6", "cc", "memory");
-    for (size_t i = 0; i < bytes % 16 / 4; i++)
-        ((pixel_word *)to)[i] = ((const pixel_word *)from)[i];
-}
-#endif
-
 #endif

@@ -376,7 +376,7 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
     void *const pixels = narrow ? (void *)t->direct : (void *)t->color;
     l->rows = (struct few_texels){ .width = l->width, .height = l->height, .texels = l->texels, .depth = t->depth, .pixels = pixels,
                                    .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u) };
-    few_words_take(l->rows.word, (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), l->kind);
+    few_words_take(&l->rows, (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), l->kind);
 }
 
 /* Draws the box by a loop of this core. */
@@ -489,7 +489,7 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     int32_t ring_row = rows->ring_row + (top - t->y0);
     ring_row -= ring_row >= rows->ring ? rows->ring : 0;
     const int32_t at = ring_row * rows->stride - rows->x0 + left, fits = rows->ring - ring_row;
-    if (FEW_ROWS_LOOP && !k.bent && !cut && l->kind <= (k.light_kind == LIGHT_WHITE ? FEW_NARROW_LIT : FEW_WIDE)) {
+    if (FEW_ROWS_LOOP && !k.bent && !cut && l->kind <= (FEW_LIGHT_LOOP && k.light_kind == LIGHT_WHITE ? FEW_NARROW_LIT : FEW_WIDE)) {
         k.box.columns = (uint32_t)(right - left);
         k.box.depth = t->depth + at;
         few_rows_kernel(&k.box, l, rows, bottom - top, fits);

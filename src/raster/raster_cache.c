@@ -30,9 +30,9 @@ SMEAR_INLINE uint32_t *kept_part(struct setup *s, size_t from, size_t n, uint32_
 {
     uint32_t *const member = (uint32_t *)(void *)((uint8_t *)s + from);
     if (back)
-        words_copy(member, kept, n);
+        __builtin_memcpy(member, kept, n);
     else
-        words_copy(kept, member, n);
+        __builtin_memcpy(kept, member, n);
     return kept + n / 4;
 }
 
