@@ -100,7 +100,6 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
 
 SMEAR_NOINLINE void smear_frame_prepare(struct smear_context *c, bool by_depth)
 {
-    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     c->stats = (smear_stats){ .arena_bytes = c->stats.arena_bytes };
     c->stats.pixels = (uint32_t)(c->rows.window.width * c->rows.window.height);
     for (int i = 0; i < c->rows.jobs.workers; i++)

@@ -129,6 +129,7 @@ int smear_begin(smear_context *c, const smear_frame *frame)
         return SMEAR_ERR_ARG;
     if (c->state == STATE_DRAWING)
         return SMEAR_ERR_ORDER;
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     smear_frame f = *frame;
     const int result = resolve(c, &f);
     if (result != SMEAR_OK)
@@ -203,11 +204,11 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     static const smear_transform identity = SMEAR_IDENTITY;
     if (c == NULL || draw == NULL)
         return SMEAR_ERR_ARG;
+    if (c->state != STATE_BEGUN)
+        return SMEAR_ERR_ORDER;
     const int result = smear_check_draw(draw);
     if (result != SMEAR_OK)
         return result;
-    if (c->state != STATE_BEGUN)
-        return SMEAR_ERR_ORDER;
     const int32_t at = smear_history_find(&c->history, draw->id);
     if (is_submitted(c, draw->id, at))
         return FAULT(DRAW_ID);

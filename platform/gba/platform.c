@@ -33,7 +33,8 @@ void gba_enter_stage(int stage)
     static int entered = SMEAR_STAGE_DRAW;        /* start.S */
     static uint8_t *const load[] = { link_assemble_load, link_draw_load };
     static uint8_t *const size[] = { link_assemble_size, link_draw_size };
-    const uint32_t words = (uint32_t)size[stage] / 4;
+    const uint32_t assembles = (uint32_t)link_assemble_size, all = (uint32_t)size[stage];
+    const uint32_t words = (assembles < all ? assembles : all) / 4;     /* no more than the other stage's lie in the place of */
     if (words == 0 || stage == entered)
         return;
     entered = stage;

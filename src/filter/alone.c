@@ -106,6 +106,7 @@ int smear_filter_begin(smear_context *c, const smear_frame *frame)
     smear_frame_keep(c, &f);
     c->state = STATE_FILTER;
     c->draw_count = 0;
+    SMEAR_ENTER_STAGE(SMEAR_STAGE_ASSEMBLE);
     smear_frame_prepare(c, false);
     SMEAR_ENTER_STAGE(SMEAR_STAGE_DRAW);
     c->rows.opaque = c->rows.blend = SMEAR_NO_TRIANGLE;

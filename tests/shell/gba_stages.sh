@@ -15,7 +15,7 @@ printf '%s\n' "$stages" | awk '
                     place[substr(line, RSTART + 6, RLENGTH - 7)] = stage
         }
     }
-    { count[$2]++ }
+    { called[$1] = $2 }
     $1 in place {
         found++
         if (place[$1] != $2) {
@@ -24,7 +24,8 @@ printf '%s\n' "$stages" | awk '
         }
     }
     END {
-        if (count["assemble"] < 20 || count["both"] < 5 || count["draw"] < 50 || found < 20) {
+        if (called["smear_assemble"] != "assemble" || called["smear_shade"] != "assemble" || called["smear_submit"] != "both" ||
+            called["smear_cover"] != "draw" || found < 20) {
             print "gba_stages.sh: stages are not told apart"
             bad = 1
         }
