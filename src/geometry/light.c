@@ -273,22 +273,11 @@ void smear_shade(struct smear_color *out, const struct smear_shading *s, const u
 {
     uint32_t light = s->lit ? light_of(s, 0, cosine) : 65536u;
     for (int i = 0; i < 3; i++) {
-        uint32_t c = s->base[i];
         if (s->lit && !s->sun->white)
             light = light_of(s, i, cosine);
-        if (color != NULL)
-            c = times_lin(c, smear_srgb_decode[color[i]]);
-        if (face_color != NULL)
-            c = times_lin(c, smear_srgb_decode[face_color[i]]);
-        c = min_u32(c * light >> 16, 65535u);
-        out->channel[i] = shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
+        out->channel[i] = shading_value(s, shading_channel(s, i, color, face_color) * light >> 16);
     }
-    uint32_t alpha = s->base[3];
-    if (color != NULL)
-        alpha = times_lin(alpha, color[3] * 257u);
-    if (face_color != NULL)
-        alpha = times_lin(alpha, face_color[3] * 257u);
-    out->channel[3] = (uint16_t)alpha;
+    out->channel[3] = shading_alpha(s, color, face_color);
 }
 
 uint32_t smear_color_pack(const struct smear_color *color, smear_transfer transfer)
@@ -297,19 +286,5 @@ uint32_t smear_color_pack(const struct smear_color *color, smear_transfer transf
     uint32_t packed = c[3] >> 8;
     for (int i = 0; i < 3; i++)
         packed = packed << 8 | code_of_channel((uint32_t)c[i] << 8, transfer);
-    return packed;
-}
-
-uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine)
-{
-    if (!s->lit || shading_is_linear(s) || !s->white || !s->sun->white) {
-        struct smear_color shaded;
-        smear_shade(&shaded, s, NULL, color, cosine);
-        return smear_color_pack(&shaded, s->transfer);
-    }
-    const uint32_t light = light_of(s, 0, cosine);
-    uint32_t packed = times_lin(65535u, color[3] * 257u) >> 8;
-    for (int i = 0; i < 3; i++)
-        packed = packed << 8 | light_encode(times_lin(65535u, smear_srgb_decode[color[i]]) * light >> 20);
     return packed;
 }

@@ -66,9 +66,6 @@ uint32_t smear_light_face(const struct smear_shading *s, const int16_t a[3], con
 void smear_shade(struct smear_color *out, const struct smear_shading *s, const uint8_t color[4],
                  const uint8_t face_color[4], uint32_t cosine);
 
-/* Shades a face's colour and packs it, as smear_shade and smear_color_pack do. */
-uint32_t smear_shade_face(const struct smear_shading *s, const uint8_t color[4], uint32_t cosine);
-
 /* Returns a b, where 65535 is one. */
 static inline uint32_t times_lin(uint32_t a, uint32_t b)
 {
@@ -79,6 +76,30 @@ static inline uint32_t times_lin(uint32_t a, uint32_t b)
 static inline uint32_t light_encode(uint32_t light)
 {
     return SMEAR_WITH_LINEAR ? smear_srgb_encode[light] : srgb_encode_searched(light);
+}
+
+/* Returns what a channel of material, vertex and face is together, 65535 is one; null: white. */
+static inline uint32_t shading_channel(const struct smear_shading *s, int i, const uint8_t *color, const uint8_t *face_color)
+{
+    uint32_t c = s->base[i];
+    if (color != NULL)
+        c = times_lin(c, smear_srgb_decode[color[i]]);
+    return face_color != NULL ? times_lin(c, smear_srgb_decode[face_color[i]]) : c;
+}
+
+static inline uint16_t shading_alpha(const struct smear_shading *s, const uint8_t *color, const uint8_t *face_color)
+{
+    uint32_t alpha = s->base[3];
+    if (color != NULL)
+        alpha = times_lin(alpha, color[3] * 257u);
+    return (uint16_t)(face_color != NULL ? times_lin(alpha, face_color[3] * 257u) : alpha);
+}
+
+/* Returns a channel of linear light as a working value. */
+static inline uint16_t shading_value(const struct smear_shading *s, uint32_t c)
+{
+    c = min_u32(c, 65535u);
+    return shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
 }
 
 /* Packs a colour into 0xAARRGGBB, r g b as sRGB codes. */

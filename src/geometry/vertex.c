@@ -269,8 +269,6 @@ static inline uint32_t shaded_face(const struct smear_assembly *d, const struct 
         d->lights.used->by->face(&color, d, face);
         return smear_color_pack(&color, d->shading.transfer);
     }
-    if (SMEAR_SHADES_FACES && face->vertex_color == NULL && face->color != NULL)
-        return smear_shade_face(&d->shading, face->color, face->cosine);
     smear_shade(&color, &d->shading, face->vertex_color, face->color, face->cosine);
     return smear_color_pack(&color, d->shading.transfer);
 }

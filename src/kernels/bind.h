@@ -228,9 +228,8 @@
 /* ------------------------------------------------------------------ what pays on this core */
 
 /* A face's light takes longer than asking whether the face before has the same, and roots of 64 bits take twice as long as those of
- * 48. SMEAR_SHADES_FACES: faces' colours have a function without those of vertices. */
+ * 48. */
 #define SMEAR_LIGHT_IS_DEAR (!SMEAR_SMALL_FILE && (SMEAR_ON_ARMV6M || SMEAR_ON_ARMV4T))
-#define SMEAR_SHADES_FACES (SMEAR_LIGHT_IS_DEAR && SMEAR_ON_ARMV6M)
 
 /* Rows of pixels are converted several at once: not where a row's pixels take longer than what there is around them. */
 #define SMEAR_ROWS_AT_ONCE \

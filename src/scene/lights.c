@@ -304,30 +304,6 @@ static void light_face(struct fall *f, const struct smear_lights_seen *l, const 
 
 /* ------------------------------------------------------------------ colours */
 
-/* Returns what a channel of material, vertex and face is together, 65535 is one; null: white. */
-static inline uint32_t shading_channel(const struct smear_shading *s, int i, const uint8_t *color, const uint8_t *face_color)
-{
-    uint32_t c = s->base[i];
-    if (color != NULL)
-        c = times_lin(c, smear_srgb_decode[color[i]]);
-    return face_color != NULL ? times_lin(c, smear_srgb_decode[face_color[i]]) : c;
-}
-
-static inline uint16_t shading_alpha(const struct smear_shading *s, const uint8_t *color, const uint8_t *face_color)
-{
-    uint32_t alpha = s->base[3];
-    if (color != NULL)
-        alpha = times_lin(alpha, color[3] * 257u);
-    return (uint16_t)(face_color != NULL ? times_lin(alpha, face_color[3] * 257u) : alpha);
-}
-
-/* Returns a channel of linear light as a working value. */
-static inline uint16_t shading_value(const struct smear_shading *s, uint32_t c)
-{
-    c = min_u32(c, 65535u);
-    return shading_is_linear(s) ? (uint16_t)c : (uint16_t)(light_encode(c >> 4) * 256u);
-}
-
 /* Returns the share of the sun that a highlight has, q16. */
 static uint32_t highlight(const struct smear_lights_seen *l, const struct fall *f)
 {
