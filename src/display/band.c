@@ -176,32 +176,7 @@ static void convert(const struct row_job *r, const uint32_t *in, int32_t x0, int
                      (smear_dither)rows->desc->display.dither);
 }
 
-/* Converts columns [x0, x1) of row y with what lies over them. */
-static SMEAR_NOINLINE void convert_covered(const struct row_job *r, const uint32_t *in, int32_t x0, int32_t x1, int32_t y)
-{
-    const struct smear_rows *rows = r->rows;
-    const struct overlay_box box = smear_overlay_row(rows->overlay, y);
-    /* Parts begin and end on whole bytes of every format. */
-    const int32_t first = clamp_i32(box.x0, x0, x1) & ~7, covered = max_i32(first, x0), end = min_i32((box.x1 + 7) & ~7, x1);
-    uint32_t part[OVERLAY_PART];
-    if (box.x0 >= x1 || end <= covered) {
-        convert(r, in, x0, x1, y);
-        return;
-    }
-    if (covered > x0)
-        convert(r, in, x0, covered, y);
-    for (int32_t x = covered, next; x < end; x = next) {
-        const uint32_t *pixels = in + (x - x0);
-        next = min_i32((x & ~7) + OVERLAY_PART, end);
-        if (smear_overlay_draw(rows->overlay, part, pixels, x, next, y, frame_transfer(&rows->raster)))
-            pixels = part;
-        convert(r, pixels, x, next, y);
-    }
-    if (end < x1)
-        convert(r, in + (end - x0), end, x1, y);
-}
-
-/* Converts pixels with nothing over them, as many rows at once as lie one behind the other in their ring. False where rows are
+/* Converts as many rows at once as lie one behind the other in their ring. False where rows are
  * converted one by one. */
 static bool convert_at_once(const struct row_job *r, const struct smear_raster_target *t, const struct overlay_box *box)
 {
@@ -223,18 +198,14 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
                              int32_t x1)
 {
     const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
-    const bool covered = rows_have_overlay(r->rows) && smear_overlay_touches(r->rows->overlay, &box);
     if (rows_have_points(r->rows))
         smear_points_draw(r->rows, t, &box);
-    if (SMEAR_ROWS_AT_ONCE && !covered && x0 < x1 && convert_at_once(r, t, &box))
+    if (rows_have_overlay(r->rows))
+        smear_overlay_draw(r->rows->overlay, t, &box, frame_transfer(&r->rows->raster));
+    if (SMEAR_ROWS_AT_ONCE && x0 < x1 && convert_at_once(r, t, &box))
         return;
-    for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++) {
-        const uint32_t *in = t->color + target_row(&t->color_rows, t, y) + x0;
-        if (SMEAR_WITH_OVERLAY && covered)
-            convert_covered(r, in, x0, x1, y);
-        else
-            convert(r, in, x0, x1, y);
-    }
+    for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++)
+        convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);
 }
 
 void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)

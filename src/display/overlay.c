@@ -6,13 +6,11 @@
 
 #if SMEAR_WITH_OVERLAY
 
-/* A part of a row. */
+/* Columns [x0, x1) of a row, of which `out` is the first. */
 struct part {
     uint32_t *out;
-    const uint32_t *in;
     int32_t x0, x1;
     smear_transfer transfer;
-    bool touched;               /* pixels of `in` have been copied */
 };
 
 static int32_t scale_of(const smear_overlay_item *item)
@@ -100,20 +98,9 @@ static inline void cover(const struct part *p, int32_t x0, int32_t x1, uint32_t 
 
 void smear_shape_cover(const smear_shape_row *row, int32_t x0, int32_t x1, uint32_t color)
 {
-    const struct part p = { row->pixel, NULL, row->x0, row->x1, row->transfer, true };
+    const struct part p = { row->pixel, row->x0, row->x1, row->transfer };
     if (max_i32(x0, row->x0) < min_i32(x1, row->x1))
         cover(&p, x0, x1, color);
-}
-
-/* Copies the part, once, where columns [x0, x1) lie in it. */
-static bool reaches(struct part *p, int32_t x0, int32_t x1)
-{
-    if (x0 >= p->x1 || x1 <= p->x0)
-        return false;
-    if (!p->touched)
-        __builtin_memcpy(p->out, p->in, (size_t)(p->x1 - p->x0) * sizeof *p->out);
-    p->touched = true;
-    return true;
 }
 
 static uint32_t row_bytes(const smear_image *m)
@@ -161,12 +148,10 @@ static inline void draw_bits(uint32_t *out, const uint8_t *row, int32_t n, uint3
 }
 
 /* Draws a row of an image from column x on. */
-static void draw_row(struct part *p, const smear_image *m, const uint8_t *row, int32_t x, int32_t scale, uint32_t argb)
+static void draw_row(const struct part *p, const smear_image *m, const uint8_t *row, int32_t x, int32_t scale, uint32_t argb)
 {
     int32_t i = 0;
-    if (!reaches(p, x, x + m->width * scale))
-        return;
-    for (; x + scale <= p->x0; x += scale)
+    for (; i < m->width && x + scale <= p->x0; x += scale)
         i++;
     for (; i < m->width && x < p->x1; i++, x += scale) {
         if (m->format != SMEAR_IMAGE_MASK1)
@@ -176,7 +161,7 @@ static void draw_row(struct part *p, const smear_image *m, const uint8_t *row, i
     }
 }
 
-static void draw_text(struct part *p, const smear_overlay_item *item, int32_t line, int32_t scale, uint32_t argb)
+static void draw_text(const struct part *p, const smear_overlay_item *item, int32_t line, int32_t scale, uint32_t argb)
 {
     const smear_font *font = item->font;
     const smear_image *m = &font->glyph;
@@ -190,67 +175,45 @@ static void draw_text(struct part *p, const smear_overlay_item *item, int32_t li
         if (x + width <= p->x0 || cell >= cells)
             continue;
         const uint8_t *letter = row + cell * size;
-        if (plain && x >= p->x0 && x + width <= p->x1 && p->touched)
+        if (plain && x >= p->x0 && x + width <= p->x1)
             draw_bits(p->out + (x - p->x0), letter, width, argb & 0xffffffu);
         else
             draw_row(p, m, letter, x, scale, argb);
     }
 }
 
-/* Returns the line of an item that row y shows, in its own pixels, or -1. */
-static int32_t line_at(const smear_overlay_item *item, int32_t y)
+/* Draws row `line` of an item, counted from its first, which the part reaches. */
+static inline void draw_line(const struct part *p, const smear_overlay_item *item, int32_t line, int32_t scale, uint32_t argb)
 {
-    if (item->shape != NULL) {
-        const struct overlay_box box = smear_overlay_box(item);
-        return y < box.y0 || y >= box.y1 ? -1 : y - box.y0;
-    }
-    const int32_t scale = scale_of(item), line = y - item->y;
-    const int32_t lines = item->text != NULL ? item->font->glyph.height : item->image != NULL ? item->image->height : item->height;
-    return line < 0 || line >= lines * scale ? -1 : scale == 1 ? line : line / scale;
+    const smear_image *m = item->image;
+    if (scale != 1)
+        line /= scale;
+    if (item->text != NULL)
+        draw_text(p, item, line, scale, argb);
+    else if (m != NULL)
+        draw_row(p, m, m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)line) * row_bytes(m), item->x, scale, argb);
+    else
+        cover(p, p->x0, p->x1, argb);
 }
 
-struct overlay_box smear_overlay_row(const smear_overlay *overlay, int32_t y)
-{
-    struct overlay_box all = { INT32_MAX, y, INT32_MIN, y + 1 };
-    for (int32_t i = 0; i < overlay->count; i++)
-        if (line_at(&overlay->item[i], y) >= 0) {
-            const struct overlay_box box = smear_overlay_box(&overlay->item[i]);
-            all.x0 = min_i32(all.x0, box.x0);
-            all.x1 = max_i32(all.x1, box.x1);
-        }
-    return all;
-}
-
-static void draw_shape(struct part *p, const smear_overlay_item *item, int32_t y)
-{
-    const struct overlay_box box = smear_overlay_box(item);
-    if (reaches(p, box.x0, box.x1)) {
-        const smear_shape_row row = { p->out, p->x0, p->x1, y, p->transfer };
-        item->shape->draw_row(item, &row);
-    }
-}
-
-bool smear_overlay_draw(const smear_overlay *overlay, uint32_t *out, const uint32_t *in, int32_t x0, int32_t x1, int32_t y,
+void smear_overlay_draw(const smear_overlay *overlay, const struct smear_raster_target *t, const struct overlay_box *area,
                         smear_transfer transfer)
 {
-    struct part p = { out, in, x0, x1, transfer, out == in };
     for (int32_t i = 0; i < overlay->count; i++) {
         const smear_overlay_item *item = &overlay->item[i];
-        const smear_image *m = item->image;
-        const int32_t scale = scale_of(item), line = line_at(item, y);
+        const struct overlay_box box = smear_overlay_box(item);
+        const int32_t x0 = max_i32(box.x0, area->x0), x1 = min_i32(box.x1, area->x1), y1 = min_i32(box.y1, area->y1);
+        const int32_t scale = scale_of(item);
         const uint32_t argb = smear_overlay_color(item);
-        if (line < 0 || (item->x >= x1 && item->shape == NULL))
-            continue;
-        if (item->shape != NULL)
-            draw_shape(&p, item, y);
-        else if (item->text != NULL)
-            draw_text(&p, item, line, scale, argb);
-        else if (m != NULL)
-            draw_row(&p, m, m->pixels + ((uint32_t)item->cell * m->height + (uint32_t)line) * row_bytes(m), item->x, scale, argb);
-        else if (reaches(&p, item->x, item->x + item->width * scale))
-            cover(&p, item->x, item->x + item->width * scale, argb);
+        for (int32_t y = max_i32(box.y0, area->y0); x0 < x1 && y < y1; y++) {
+            const struct part p = { t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, transfer };
+            const smear_shape_row row = { p.out, x0, x1, y, transfer };
+            if (item->shape != NULL)
+                item->shape->draw_row(item, &row);
+            else
+                draw_line(&p, item, y - box.y0, scale, argb);
+        }
     }
-    return p.touched;
 }
 
 #endif

@@ -343,8 +343,7 @@ static int draw_direct_row(struct smear_rows *rows, int row)
 static bool is_covered(const struct smear_rows *rows, int row)
 {
     const struct overlay_box box = { 0, row_top(rows, row), rows->window.width, row_bottom(rows, row) };
-    return rows_have_overlay(rows)
-        && (smear_overlay_touches(rows->overlay, &box) || smear_points_touch(rows, box.y0, box.y1));
+    return rows_are_covered(rows, &box) || (rows_have_overlay(rows) && smear_points_touch(rows, box.y0, box.y1));
 }
 
 /* Draws a row by way of the window. */

@@ -125,8 +125,8 @@ static SMEAR_NOINLINE void hand_on(const struct smear_finish *f, const struct sm
     smear_band_convert_rows(&f->row, &out, t->x0, t->x1);
 }
 
-/* Converts static tiles from `first` on; returns the first that is not, or `end`. Points are drawn over what the next frame
- * needs no more. */
+/* Converts static tiles from `first` on; returns the first that is not, or `end`. What lies over the frame is drawn over what the
+ * next frame needs no more. */
 static int finish_static(const struct smear_finish *f, int first, int end, int worker)
 {
     const struct smear_rows *rows = f->row.rows;
@@ -134,7 +134,8 @@ static int finish_static(const struct smear_finish *f, int first, int end, int w
     while (next < end && is_static(&f->self->moving.travel[next]))
         next++;
     const int32_t x0 = tile_left(rows, first), x1 = tile_right(rows, next - 1);
-    if (!static_is_kept(f->self->damage) || !rows_list_has_points(rows, x0, x1)) {
+    const struct overlay_box box = { x0, job_top(&f->row), x1, job_bottom(&f->row) };
+    if (!static_is_kept(f->self->damage) || !(rows_list_has_points(rows, x0, x1) || rows_are_covered(rows, &box))) {
         smear_band_convert_rows(&f->row, &f->background, x0, x1);
         return next;
     }
@@ -318,7 +319,7 @@ int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, const 
     f->row.band = smear_band_begin(rows);
     rows_list_points(rows, row_top(rows, row), row_bottom(rows, row));
     const int strips = (int)((rows->window.width + self->strip - 1) / self->strip);
-    if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_kept(self->damage) && rows_have_points(rows)))
+    if (rows->jobs.workers == 1 && run_is_static(self, run) && !(static_is_kept(self->damage) && rows_have_overlay(rows)))
         finish_static(f, run->first, run->end, 0);
     else if (rows->refill == NULL)
         smear_jobs_run(&rows->jobs, finish_job, f, strips);
