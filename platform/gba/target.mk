@@ -17,6 +17,10 @@ LDLIBS  += -lgcc
 # The library as ARM code, which multiplies to 64 bits, and the scene's sines.
 $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CFLAGS += -marm
 
+# What runs from ROM most of the time is Thumb code: half as many bytes to fetch for an instruction.
+$(addprefix $(BUILD)/src/,$(addsuffix .o,draws draws_prepare validate display/band display/overlay display/pixel_format methods/temporal \
+    raster/few_draw temporal/lines temporal/subframe_gap temporal/tile_method)): CFLAGS += -mthumb
+
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
 # Fog makes hot functions larger than fast memory has room for, further lights the stack.
 CFLAGS += -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_LIGHTS=0
