@@ -172,6 +172,20 @@ static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, 
     return true;
 }
 
+/* Whether all of the target's columns of rows [top, bottom) lie beyond one of a triangle's edges, in whole pixels, each of which may be
+ * one too low. A large one that does not fit into them often is elsewhere, and ready in vain. */
+static inline bool is_beyond_edge(const struct smear_raster_target *t, const int32_t *const v[3], int32_t top, int32_t bottom)
+{
+    for (int i = 0; i < 3; i++) {
+        const int32_t *const a = v[i], *const b = v[i == 2 ? 0 : i + 1];
+        const int32_t dx = (b[VERTEX_X] - a[VERTEX_X]) >> 8, dy = (b[VERTEX_Y] - a[VERTEX_Y]) >> 8;
+        const int32_t x = (dy >= 0 ? t->x0 : t->x1) - (a[VERTEX_X] >> 8), y = (dx >= 0 ? bottom : top) - (a[VERTEX_Y] >> 8);
+        if (dx * y - dy * x + abs_i32(dx) + abs_i32(dy) + abs_i32(x) + abs_i32(y) + 2 < 0)
+            return true;
+    }
+    return false;
+}
+
 /* Draws a triangle, whatever it is, with these vertices, and this box of them where it is given. `number`: by which it is kept for the
  * rows below, or SMEAR_NO_TRIANGLE. */
 static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color, uint32_t number, const int32_t *const v[3],
@@ -189,6 +203,8 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     const bool continues = top < target->y0, goes_on = bottom > target->y1;
     const struct pixel_box box = { left, right, max_i32(top, target->y0), min_i32(bottom, target->y1) };
     if (box.top >= box.bottom)
+        return;
+    if (!SMEAR_SMALL_CODE && !small && (left < target->x0 || right > target->x1) && is_beyond_edge(target, v, box.top, box.bottom))
         return;
 
     bool known;
