@@ -40,14 +40,6 @@ static inline void tiny_start(struct tiny_edges *e, int32_t vx, int32_t vy, int3
     e->down0 = (x2 - x1) * 256;
 }
 
-/* Returns floor(a w / 2^15) for a weight q15 of at most one. */
-static inline int32_t tiny_part(int32_t a, int32_t w)
-{
-    if (SMEAR_HAS_MUL64)
-        return (int32_t)((int64_t)a * w >> 15);
-    return (a >> 15) * w + ((a & 0x7fff) * w >> 15);
-}
-
 /* Mixes a channel of the vertices (16 bits each) by weights q14; 2^14 is one. */
 static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w1, int32_t w2)
 {

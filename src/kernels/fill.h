@@ -63,16 +63,11 @@ static inline void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
 }
 
 /* Eight words a round: stores of many registers where a core has them. */
-static inline void pixels_fill_unrolled(uint32_t *p, uint32_t value, int32_t n)
+static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
 {
     fill_eights(p, value, n >> 3);
     for (int32_t i = n & ~7; i < n; i++)
         p[i] = value;
-}
-
-static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
-{
-    pixels_fill_unrolled(p, value, n);
 }
 
 /* Sets n >= 0 pixels of 16 bits to value < 2^16. */
@@ -83,7 +78,7 @@ static inline void pixels_fill_narrow_reference(uint16_t *p, uint32_t value, int
 }
 
 /* In words, from the first aligned one on. */
-static inline void pixels_fill_narrow_unrolled(uint16_t *p, uint32_t value, int32_t n)
+static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
 {
     if (n > 0 && ((uintptr_t)p & 2u) != 0) {
         *p++ = (uint16_t)value;
@@ -96,11 +91,6 @@ static inline void pixels_fill_narrow_unrolled(uint16_t *p, uint32_t value, int3
         *pairs++ = value;
     if (n > 0)
         *(uint16_t *)(void *)pairs = (uint16_t)value;
-}
-
-static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
-{
-    pixels_fill_narrow_unrolled(p, value, n);
 }
 
 /* Sets them to 0: smaller, or faster than what a libc has. */

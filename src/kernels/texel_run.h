@@ -307,23 +307,4 @@ static inline int32_t block_next(int32_t block, int32_t rest)
     return rest >= BLOCK_LONG ? BLOCK_LONG : min_i32(rest, COLOR_BLOCK_MAX);
 }
 
-/* A value that is a plane over rows, at + x dx + row dy, modulo 2^32. */
-struct texel_plane {
-    int32_t at, dx, dy;
-};
-
-static inline int32_t texel_plane_at(const struct texel_plane *p, int32_t x, int32_t row)
-{
-    return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, row)));
-}
-
-/* What places are made of: raster/setup.h, struct texture_setup. */
-struct texel_planes {
-    struct texel_plane q, u, v;
-    int32_t slope;
-    int32_t block;              /* pixels: 1, 4, 8, 16, 32 or 64 */
-    int up;
-    bool divided, parabolic;    /* parabolic only if divided */
-};
-
 #endif

@@ -5,7 +5,7 @@
 #include "tests/kernels/kernels.h"
 
 static void words_reference(struct kernel_call *c) { pixels_fill_reference(c->plane[0], c->word[0], c->n); }
-static void words_unrolled(struct kernel_call *c) { pixels_fill_unrolled(c->plane[0], c->word[0], c->n); }
+static void words_unrolled(struct kernel_call *c) { pixels_fill(c->plane[0], c->word[0], c->n); }
 
 static void narrow_reference(struct kernel_call *c)
 {
@@ -14,7 +14,7 @@ static void narrow_reference(struct kernel_call *c)
 
 static void narrow_unrolled(struct kernel_call *c)
 {
-    pixels_fill_narrow_unrolled(c->plane[0], c->word[0] & 0xffffu, c->n);
+    pixels_fill_narrow(c->plane[0], c->word[0] & 0xffffu, c->n);
 }
 
 
