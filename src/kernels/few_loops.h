@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* few_loops.h - loops for rows of textured triangles of few pixels, with all planes in a vector, or in registers that compilers do not
- * have. The loop that defines their results is few_rows of raster/few_draw.c. */
+/* few_loops.h - loops for rows of textured triangles of few pixels, with all planes in registers that compilers do not have. The loop that defines their results is few_rows of raster/few_draw.c. */
 #ifndef SMEAR_KERNELS_FEW_LOOPS_H
 #define SMEAR_KERNELS_FEW_LOOPS_H
 
@@ -49,63 +48,17 @@ static inline void few_words_take(struct few_texels *t, uint32_t to_pixels, enum
     word[n] = to_pixels;
 }
 
-#if SMEAR_VECTORS
-/* Draws one row or more. */
-SMEAR_INLINE void few_rows_lanes(struct few_box *box, const struct few_texels *t, enum few_kind kind)
+static inline bool few_is_white(const int32_t *color)
 {
-    const smear_v4u right = v4u_load((const uint32_t *)box->right.plane), down = v4u_load((const uint32_t *)box->down.plane);
-    const smear_v4u turn = { 0, t->width << 16, t->height << 16, 0 };
-    const uint64_t right_edges = box->right.edges, down_edges = box->down.edges;
-    const uint32_t width = t->width, columns = box->columns;
-    const void *const texels = t->texels;
-    void *const pixels = t->pixels;
-    uint16_t *const depth = t->depth;
-    smear_v4u first = v4u_load((const uint32_t *)box->at.plane);
-    uint64_t first_edges = box->at.edges;
-    size_t row = (size_t)(box->depth - depth);
-    const size_t end = (size_t)(box->depth_end - depth), stride = box->depth_bytes / 2u;
-    for (; row != end; row += stride, first += down, first_edges += down_edges) {
-        smear_v4u p = first;
-        uint64_t edges = first_edges;
-        uint32_t left = columns;
-        for (; few_outside(edges) && --left != 0; p += right)
-            edges += right_edges;
-        if (left == 0)
-            continue;
-        size_t i = row + (columns - left);
-        do {
-            const uint32_t code = ((smear_v8u)p)[2 * FEW_DEPTH + 1];
-            if (code > depth[i]) {
-                const smear_v8u texel = (smear_v8u)v4u_mulh16(p, turn);
-                depth[i] = (uint16_t)code;
-                few_pixel_draw(pixels, i, texels, texel[2 * FEW_V + 1] * width + texel[2 * FEW_U + 1], p[FEW_BLUE], kind);
-            }
-            edges += right_edges;
-            p += right;
-            i++;
-        } while (!few_outside(edges));
-    }
-    box->at.edges = first_edges;
-    v4u_store((uint32_t *)box->at.plane, first);
+    return (uint32_t)color[0] == ((uint32_t)color[1] & 0xffffu) * 0x10001u;
 }
 
-SMEAR_CALLED void few_rows_narrow(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_NARROW); }
-SMEAR_CALLED void few_rows_wide(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_WIDE); }
-SMEAR_CALLED void few_rows_linear(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_LINEAR); }
-SMEAR_CALLED void few_rows_narrow_lit(struct few_box *box, const struct few_texels *t) { few_rows_lanes(box, t, FEW_NARROW_LIT); }
-
-static inline void few_rows_loop(struct few_box *box, const struct few_texels *t, enum few_kind kind)
+/* Channel c of a vertex, 16 bits, with a margin from 0 and 65536 that errors of slopes do not cross; codes are rounded. */
+static inline int32_t few_light_value(const int32_t *color, int c, bool linear)
 {
-    if (kind == FEW_NARROW)
-        few_rows_narrow(box, t);
-    else if (kind == FEW_WIDE)
-        few_rows_wide(box, t);
-    else if (kind == FEW_LINEAR)
-        few_rows_linear(box, t);
-    else
-        few_rows_narrow_lit(box, t);
+    const int32_t value = (int32_t)((uint32_t)color[c >> 1] >> (c << 4 & 16) & 0xffffu);
+    return linear && c < 3 ? value - (value >> 9) + 64 : min_i32(value, 0xff00) + 0x80;
 }
-#endif
 
 #if SMEAR_ASM_ARMV7EM || SMEAR_ASM_ARMV6M
 SMEAR_STATIC_ASSERT(sizeof(struct few_values) == 40 && offsetof(struct few_box, columns) == 120

@@ -35,10 +35,16 @@ struct few_texels {
     const void *texels;
     uint16_t *depth;                /* of the first pixel, and what is drawn there */
     void *pixels;
+    uint8_t up, uv_shift;           /* from mesh units q15 to coordinates; mesh units of a turn */
+    uint8_t color;                  /* words to colours of vertices, or 0 */
+    bool lit, linear, flat_depth;
 };
 
+/* Boxes of at most so many columns and rows. */
+enum { FEW_PX = 16 };
+
 /* Loops of a core's own are there, and such of light. */
-#define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || SMEAR_VECTORS || (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_FILE))
+#define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_FILE))
 #define FEW_LIGHT_LOOP (!SMEAR_ASM_ARMV6M)
 #define FEW_TURN (SMEAR_ASM_ARMV7EM ? INT32_MIN : 0)
 

@@ -34,6 +34,29 @@ struct span_side {
     int32_t edge;               /* right, wherever that is */
 };
 
+/* One plane of pixels of which some rows exist, in a ring: the target's row `y0` is row `ring_row` of the
+ * memory, and after row `ring - 1` comes row 0. Column x is at x - x0. */
+struct smear_plane_rows {
+    int32_t stride;         /* pixels */
+    int32_t ring_row, ring, x0;
+};
+
+/* smear.h, smear_depth_units */
+enum depth_slope {
+    SLOPE_FAR,              /* code = units */
+    SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
+    SLOPE_BOTH
+};
+
+#define SLOPE_BREAK (32768 << 11)       /* q11 units */
+
+/* Depth code in 16.16, rounding included, of units in q11. */
+static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
+{
+    return slope == SLOPE_FAR ? ((uint32_t)units << 5) + 0x8000u
+                              : ((uint32_t)units << 1) + (0x80000000u - 0x08000000u + 0x8000u);
+}
+
 /* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
 enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
 

@@ -12,6 +12,10 @@
 
 #if SMEAR_VECTORS
 typedef uint32_t smear_v4u __attribute__((vector_size(16)));
+typedef int32_t smear_v4i __attribute__((vector_size(16)));
+typedef int16_t smear_v8i __attribute__((vector_size(16)));
+typedef uint16_t smear_v8u __attribute__((vector_size(16)));
+typedef uint64_t smear_v2u __attribute__((vector_size(16)));
 
 static inline smear_v4u v4u_load(const uint32_t *p)
 {
@@ -20,13 +24,7 @@ static inline smear_v4u v4u_load(const uint32_t *p)
     return v;
 }
 
-static inline void v4u_store(uint32_t *p, smear_v4u v)
-{
-    __builtin_memcpy(p, &v, sizeof v);
-}
-
-typedef int32_t smear_v4i __attribute__((vector_size(16)));
-typedef int16_t smear_v8i __attribute__((vector_size(16)));
+static inline void v4u_store(uint32_t *p, smear_v4u v) { __builtin_memcpy(p, &v, sizeof v); }
 
 static inline smear_v8i v8i_load(const uint16_t *p)
 {
@@ -45,13 +43,8 @@ static inline smear_v8i v4_of_8i_load(const uint16_t *p)
 
 static inline bool v4u_any(smear_v4u a)
 {
-#ifdef __SSE2__
-    return _mm_movemask_epi8(_mm_cmpeq_epi8((__m128i)a, _mm_setzero_si128())) != 0xffff;
-#else
-    typedef uint64_t v2u __attribute__((vector_size(16)));
-    const v2u half = (v2u)a;
+    const smear_v2u half = (smear_v2u)a;
     return (half[0] | half[1]) != 0;
-#endif
 }
 
 static inline smear_v4i v4i_of_u16(const uint16_t *p)
@@ -64,21 +57,12 @@ static inline smear_v4i v4i_of_u16(const uint16_t *p)
 }
 
 /* Chooses per element: a where `which` is all ones, b where it is 0. */
-static inline smear_v4u v4u_choose(smear_v4i which, smear_v4u a, smear_v4u b)
-{
-    return (a & (smear_v4u)which) | (b & ~(smear_v4u)which);
-}
+static inline smear_v4u v4u_choose(smear_v4i which, smear_v4u a, smear_v4u b) { return (a & (smear_v4u)which) | (b & ~(smear_v4u)which); }
 
-static inline smear_v8i v8i_all(int16_t a)
-{
-    return (smear_v8i){ a, a, a, a, a, a, a, a };
-}
+static inline smear_v8i v8i_all(int16_t a) { return (smear_v8i){ a, a, a, a, a, a, a, a }; }
 
 /* Chooses per element: a where `which` is all ones, b where it is 0. */
-static inline smear_v8i v8i_choose(smear_v8i which, smear_v8i a, smear_v8i b)
-{
-    return (a & which) | (b & ~which);
-}
+static inline smear_v8i v8i_choose(smear_v8i which, smear_v8i a, smear_v8i b) { return (a & which) | (b & ~which); }
 
 static inline smear_v8i v8i_min(smear_v8i a, smear_v8i b)
 {
@@ -98,10 +82,7 @@ static inline smear_v8i v8i_max(smear_v8i a, smear_v8i b)
 #endif
 }
 
-static inline void v8i_store(uint16_t *p, smear_v8i v)
-{
-    __builtin_memcpy(p, &v, sizeof v);
-}
+static inline void v8i_store(uint16_t *p, smear_v8i v) { __builtin_memcpy(p, &v, sizeof v); }
 
 /* Takes the upper halves of the words of a, then of b. */
 static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
@@ -115,30 +96,11 @@ static inline smear_v8i v8i_upper(smear_v4u a, smear_v4u b)
 }
 
 /* Takes each of elements 0 .. 3 twice; v4i_twice_high each of 4 .. 7. */
-static inline smear_v4i v4i_twice_low(smear_v8i a)
-{
-#ifdef __SSE2__
-    return (smear_v4i)_mm_unpacklo_epi16((__m128i)a, (__m128i)a);
-#else
-    return (smear_v4i)(smear_v8i){ a[0], a[0], a[1], a[1], a[2], a[2], a[3], a[3] };
-#endif
-}
-
-static inline smear_v4i v4i_twice_high(smear_v8i a)
-{
-#ifdef __SSE2__
-    return (smear_v4i)_mm_unpackhi_epi16((__m128i)a, (__m128i)a);
-#else
-    return (smear_v4i)(smear_v8i){ a[4], a[4], a[5], a[5], a[6], a[6], a[7], a[7] };
-#endif
-}
+static inline smear_v4i v4i_twice_low(smear_v8i a) { return (smear_v4i)(smear_v8i){ a[0], a[0], a[1], a[1], a[2], a[2], a[3], a[3] }; }
+static inline smear_v4i v4i_twice_high(smear_v8i a) { return (smear_v4i)(smear_v8i){ a[4], a[4], a[5], a[5], a[6], a[6], a[7], a[7] }; }
 
 /* Multiplies 16-bit halves: a b modulo 2^16; v4u_mulh16 a b / 2^16. */
-static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b)
-{
-    typedef uint16_t v8 __attribute__((vector_size(16)));
-    return (smear_v4u)((v8)a * (v8)b);
-}
+static inline smear_v4u v4u_mul16(smear_v4u a, smear_v4u b) { return (smear_v4u)((smear_v8u)a * (smear_v8u)b); }
 
 static inline smear_v4u v4u_mulh16(smear_v4u a, smear_v4u b)
 {
@@ -150,25 +112,11 @@ static inline smear_v4u v4u_mulh16(smear_v4u a, smear_v4u b)
 #endif
 }
 
-static inline smear_v4u v4u_all(uint32_t a)
-{
-    return (smear_v4u){ a, a, a, a };
-}
+static inline smear_v4u v4u_all(uint32_t a) { return (smear_v4u){ a, a, a, a }; }
+static inline smear_v4i v4i_all(int32_t a) { return (smear_v4i){ a, a, a, a }; }
 
-static inline smear_v4i v4i_all(int32_t a)
-{
-    return (smear_v4i){ a, a, a, a };
-}
-
-static inline smear_v4i v4i_min(smear_v4i a, smear_v4i b)
-{
-    return (smear_v4i)v4u_choose(a < b, (smear_v4u)a, (smear_v4u)b);
-}
-
-static inline smear_v4i v4i_max(smear_v4i a, smear_v4i b)
-{
-    return (smear_v4i)v4u_choose(a < b, (smear_v4u)b, (smear_v4u)a);
-}
+static inline smear_v4i v4i_min(smear_v4i a, smear_v4i b) { return (smear_v4i)v4u_choose(a < b, (smear_v4u)a, (smear_v4u)b); }
+static inline smear_v4i v4i_max(smear_v4i a, smear_v4i b) { return (smear_v4i)v4u_choose(a < b, (smear_v4u)b, (smear_v4u)a); }
 
 /* Takes the highest bit of each element: that of element 0 is bit 0. */
 static inline uint32_t v4i_signs(smear_v4i a)
@@ -178,6 +126,32 @@ static inline uint32_t v4i_signs(smear_v4i a)
 #else
     const smear_v4u sign = (smear_v4u)a >> 31;
     return sign[0] | sign[1] << 1 | sign[2] << 2 | sign[3] << 3;
+#endif
+}
+
+static inline smear_v4i v4i_load(const int32_t *p) { return (smear_v4i)v4u_load((const uint32_t *)p); }
+
+/* Shuffles, as their results say. */
+static inline smear_v4i v4i_spread(smear_v4i a, int i) { return (smear_v4i){ a[i], a[i], a[i], a[i] }; }
+static inline smear_v4i v4i_turned(smear_v4i a) { return (smear_v4i){ a[2], a[3], a[0], a[1] }; }
+static inline smear_v4i v4i_low(smear_v4i a, smear_v4i b) { return (smear_v4i){ a[0], b[0], a[1], b[1] }; }
+static inline smear_v4i v4i_high(smear_v4i a, smear_v4i b) { return (smear_v4i){ a[2], b[2], a[3], b[3] }; }
+static inline smear_v4i v4i_low_pairs(smear_v4i a, smear_v4i b) { return (smear_v4i){ a[0], a[1], b[0], b[1] }; }
+static inline smear_v4i v4i_evens(smear_v4i a, smear_v4i b) { return (smear_v4i){ a[0], a[2], b[0], b[2] }; }
+static inline smear_v4i v4i_high_pairs(smear_v4i a, smear_v4i b) { return (smear_v4i){ a[2], a[3], b[2], b[3] }; }
+static inline smear_v4i v4i_lasts(smear_v4i a, smear_v4i b, smear_v4i c, smear_v4i d)
+{
+    return v4i_high_pairs(v4i_high(a, b), v4i_high(c, d));
+}
+static inline smear_v8i v8i_uppers(smear_v8i a) { return (smear_v8i){ a[1], a[3], a[1], a[3], a[4], a[5], a[6], a[7] }; }
+
+/* Multiplies elements 0 and 2, modulo 2^32; what elements 1 and 3 become is of no use. */
+static inline smear_v4i v4i_even(smear_v4i a, smear_v4i b)
+{
+#ifdef __SSE2__
+    return (smear_v4i)_mm_mul_epu32((__m128i)a, (__m128i)b);
+#else
+    return (smear_v4i)((smear_v4u)a * (smear_v4u)b);
 #endif
 }
 
@@ -245,21 +219,12 @@ static inline smear_v4u v8i_pairs(smear_v8i a)
 /* Stores element i of each of four vectors one after the other, for i = 0 .. 3. */
 static inline void v4i_store_columns(int32_t out[16], smear_v4i a, smear_v4i b, smear_v4i c, smear_v4i d)
 {
-#ifdef __SSE2__
-    const __m128i ab = _mm_unpacklo_epi32((__m128i)a, (__m128i)b), cd = _mm_unpacklo_epi32((__m128i)c, (__m128i)d);
-    const __m128i AB = _mm_unpackhi_epi32((__m128i)a, (__m128i)b), CD = _mm_unpackhi_epi32((__m128i)c, (__m128i)d);
-    v4u_store((uint32_t *)out, (smear_v4u)_mm_unpacklo_epi64(ab, cd));
-    v4u_store((uint32_t *)out + 4, (smear_v4u)_mm_unpackhi_epi64(ab, cd));
-    v4u_store((uint32_t *)out + 8, (smear_v4u)_mm_unpacklo_epi64(AB, CD));
-    v4u_store((uint32_t *)out + 12, (smear_v4u)_mm_unpackhi_epi64(AB, CD));
-#else
-    for (int i = 0; i < 4; i++, out += 4)
-        v4u_store((uint32_t *)out, (smear_v4u){ (uint32_t)a[i], (uint32_t)b[i], (uint32_t)c[i], (uint32_t)d[i] });
-#endif
+    const smear_v4i ab = v4i_low(a, b), cd = v4i_low(c, d), AB = v4i_high(a, b), CD = v4i_high(c, d);
+    v4u_store((uint32_t *)out, (smear_v4u)v4i_low_pairs(ab, cd));
+    v4u_store((uint32_t *)out + 4, (smear_v4u)v4i_high_pairs(ab, cd));
+    v4u_store((uint32_t *)out + 8, (smear_v4u)v4i_low_pairs(AB, CD));
+    v4u_store((uint32_t *)out + 12, (smear_v4u)v4i_high_pairs(AB, CD));
 }
-
-typedef uint16_t smear_v8u __attribute__((vector_size(16)));
-typedef uint64_t smear_v2u __attribute__((vector_size(16)));
 
 /* Returns what is left of halves without a sign where b is taken away, 0 at least. */
 static inline smear_v8u v8u_less(smear_v8u a, smear_v8u b)
@@ -268,26 +233,6 @@ static inline smear_v8u v8u_less(smear_v8u a, smear_v8u b)
     return (smear_v8u)_mm_subs_epu16((__m128i)a, (__m128i)b);
 #else
     return (a - b) & (smear_v8u)(a > b);
-#endif
-}
-
-/* Takes elements 0 and 1 of a, then of b. */
-static inline smear_v4i v4i_low_pairs(smear_v4i a, smear_v4i b)
-{
-#ifdef __SSE2__
-    return (smear_v4i)_mm_unpacklo_epi64((__m128i)a, (__m128i)b);
-#else
-    return (smear_v4i){ a[0], a[1], b[0], b[1] };
-#endif
-}
-
-/* Takes element 3 of each. */
-static inline smear_v4i v4i_lasts(smear_v4i a, smear_v4i b, smear_v4i c, smear_v4i d)
-{
-#ifdef __SSE2__
-    return (smear_v4i)_mm_unpackhi_epi64(_mm_unpackhi_epi32((__m128i)a, (__m128i)b), _mm_unpackhi_epi32((__m128i)c, (__m128i)d));
-#else
-    return (smear_v4i){ a[3], b[3], c[3], d[3] };
 #endif
 }
 
@@ -302,23 +247,8 @@ static inline bool v4u_all_set(smear_v4u a)
 }
 
 /* Shifts 16-bit halves. */
-static inline smear_v4u v4u_right16(smear_v4u a, int bits)
-{
-#ifdef __SSE2__
-    return (smear_v4u)_mm_srl_epi16((__m128i)a, _mm_cvtsi32_si128(bits));
-#else
-    return a >> (uint32_t)bits & (0xffffu >> bits) * 0x10001u;
-#endif
-}
-
-static inline smear_v4u v4u_left16(smear_v4u a, int bits)
-{
-#ifdef __SSE2__
-    return (smear_v4u)_mm_sll_epi16((__m128i)a, _mm_cvtsi32_si128(bits));
-#else
-    return a << (uint32_t)bits & (0xffffu << bits & 0xffffu) * 0x10001u;
-#endif
-}
+static inline smear_v4u v4u_right16(smear_v4u a, int bits) { return (smear_v4u)((smear_v8u)a >> bits); }
+static inline smear_v4u v4u_left16(smear_v4u a, int bits) { return (smear_v4u)((smear_v8u)a << bits); }
 
 /* Takes the means of 16-bit halves, rounded up. */
 static inline smear_v4u v4u_mean16(smear_v4u a, smear_v4u b)

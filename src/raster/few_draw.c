@@ -11,7 +11,7 @@
 #include "raster/few_draw.h"
 
 #include "geometry/tiny.h"
-#include "kernels/few_loops.h"
+#include "kernels/few_lanes.h"
 #include "raster/fog.h"
 #include "raster/span.h"
 
@@ -194,11 +194,6 @@ static inline bool few_coordinates_make(struct few *k, const struct few_weights 
 
 /* ------------------------------------------------------------------ light */
 
-static inline bool is_white(const int32_t *color)
-{
-    return (uint32_t)color[0] == ((uint32_t)color[1] & 0xffffu) * 0x10001u;
-}
-
 static void few_flat_light(struct few *k, uint32_t color, bool linear)
 {
     for (int c = 0; c < 4; c++) {
@@ -208,13 +203,6 @@ static void few_flat_light(struct few *k, uint32_t color, bool linear)
     k->light_kind = pixel_red(color) == pixel_green(color) && pixel_red(color) == pixel_blue(color) ? LIGHT_WHITE : LIGHT_COLORED;
 }
 
-/* Channel c of a vertex, 16 bits, with a margin from 0 and 65536 that errors of slopes do not cross; codes are rounded. */
-static inline int32_t few_light_value(const int32_t *color, int c, bool linear)
-{
-    const int32_t value = (int32_t)((uint32_t)color[c >> 1] >> (c << 4 & 16) & 0xffffu);
-    return linear && c < 3 ? value - (value >> 9) + 64 : min_i32(value, 0xff00) + 0x80;
-}
-
 /* False where light needs perspective. */
 static bool few_light_make(struct few *k, const struct few_weights *w, const int32_t *const r[3], struct beyond q)
 {
@@ -222,7 +210,7 @@ static bool few_light_make(struct few *k, const struct few_weights *w, const int
     const bool linear = frame_is_linear(l->frame);
     const int32_t *const c0 = r[0] + l->segment->color, *const c1 = r[1] + l->segment->color, *const c2 = r[2] + l->segment->color;
     const uint32_t change = beyond_range(q) >> 12;
-    k->light_kind = is_white(c0) && is_white(c1) && is_white(c2) ? LIGHT_WHITE : LIGHT_COLORED;
+    k->light_kind = few_is_white(c0) && few_is_white(c1) && few_is_white(c2) ? LIGHT_WHITE : LIGHT_COLORED;
     for (int c = few_light_first(k, FEW_ANY); c < few_light_end(k, FEW_ANY); c++) {
         const int32_t value = few_light_value(c0, c, linear);
         const struct beyond b = few_beyond(value, few_light_value(c1, c, linear), few_light_value(c2, c, linear));
@@ -375,7 +363,11 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
     const bool narrow = l->kind == FEW_NARROW || l->kind == FEW_NARROW_LIT;
     void *const pixels = narrow ? (void *)t->direct : (void *)t->color;
     l->rows = (struct few_texels){ .width = l->width, .height = l->height, .texels = l->texels, .depth = t->depth, .pixels = pixels,
-                                   .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u) };
+                                   .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u), .up = l->up,
+                                   .uv_shift = l->draw->sampler.uv_shift,
+                                   .color = segment_gouraud(l->segment) ? l->segment->color : (uint8_t)0,
+                                   .lit = l->segment->shade != SHADE_NONE, .linear = frame_is_linear(l->frame),
+                                   .flat_depth = segment_flat_depth(l->segment) };
     few_words_take(&l->rows, (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), l->kind);
 }
 
@@ -441,13 +433,13 @@ bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, 
                 : !frame_is_linear(frame) && target_is_direct(t) && m->format == SMEAR_TEXEL_565 ? FEW_NARROW_LIT : FEW_WHITE;
     else if (m->format == (target_is_direct(t) ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888))
         l->kind = target_is_direct(t) ? FEW_NARROW : FEW_WIDE;
-    if (FEW_ROWS_LOOP)
+    if (FEW_ROWS_LOOP || SMEAR_VECTORS)
         few_texels_take(l, t);
     return true;
 }
 
-bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
-                    const struct setup *setup)
+static inline bool few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
+                            const struct setup *setup)
 {
     const int32_t x = v[0][VERTEX_X], x1 = v[1][VERTEX_X] - x, x2 = v[2][VERTEX_X] - x;
     const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
@@ -503,4 +495,13 @@ bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *
     k.fits = fits;
     few_rows_any(&k);
     return true;
+}
+
+bool smear_few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
+                    const struct setup *setup)
+{
+    if (!SMEAR_VECTORS || l->kind > FEW_NARROW_LIT)
+        return few_draw(l, t, v, color, setup);
+    const enum few_answer answer = few_lanes_draw(&l->rows, &t->window_rows, &t->x0, v, color, l->kind);
+    return answer == FEW_LEFT ? few_draw(l, t, v, color, setup) : answer == FEW_DONE;
 }

@@ -7,9 +7,6 @@
 #include "kernels/few_rows.h"
 #include "raster/setup.h"
 
-/* Boxes of at most so many columns and rows. */
-enum { FEW_PX = 16 };
-
 /* What such triangles of a segment have in common. With turns, coordinates are turns q32, and a texel is number
  * v >> from_v & mask_v | u >> from_u; else they are mesh units q15. */
 struct few_look {

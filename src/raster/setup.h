@@ -22,17 +22,8 @@ static inline int32_t plane_at(const struct plane *p, int32_t x, int32_t y)
     return add_wrap(p->at, add_wrap(mul_wrap(p->dx, x), mul_wrap(p->dy, y)));
 }
 
-/* smear.h, smear_depth_units */
-enum depth_slope {
-    SLOPE_FAR,              /* code = units */
-    SLOPE_NEAR,             /* code = 32768 + (units - 32768) / 16 */
-    SLOPE_BOTH
-};
-
 /* Nothing but opaque triangles of one colour was compiled in. */
 #define ALWAYS_FLAT (!SMEAR_WITH_TEXTURE && !SMEAR_WITH_GOURAUD && !SMEAR_WITH_ALPHA && !SMEAR_WITH_FOG)
-
-#define SLOPE_BREAK (32768 << 11)       /* q11 units */
 
 /* What a plane's slopes are at most. */
 #define PLANE_STEEP (1 << 28)
@@ -129,13 +120,7 @@ struct pixel_box {
     int32_t left, right, top, bottom;
 };
 
-/* Depth code in 16.16, rounding included, of units in q11; and how it steps. */
-static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
-{
-    return slope == SLOPE_FAR ? ((uint32_t)units << 5) + 0x8000u
-                              : ((uint32_t)units << 1) + (0x80000000u - 0x08000000u + 0x8000u);
-}
-
+/* How a depth code in 16.16 steps. */
 static inline int32_t step_from_units(int32_t units, enum depth_slope slope)
 {
     return shl_wrap(units, slope == SLOPE_FAR ? 5 : 1);

@@ -7,13 +7,6 @@
 #include "base/pixel.h"
 #include "raster/texture.h"
 
-/* One plane of pixels of which some rows exist, in a ring: the target's row `y0` is row `ring_row` of the
- * memory, and after row `ring - 1` comes row 0. Column x is at x - x0. */
-struct smear_plane_rows {
-    int32_t stride;         /* pixels */
-    int32_t ring_row, ring, x0;
-};
-
 /* Memory for what was found out about triangles that reach beyond a
  * target's rows, for the rows after them, and for orders of lists: raster_cache.c. */
 struct smear_raster_cache {
