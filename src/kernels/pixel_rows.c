@@ -223,55 +223,33 @@ SMEAR_INLINE void lanes_store(uint16_t *out, struct lanes k, enum row_16bit form
     v8i_store(out, (smear_v8i)pixel);
 }
 
-static inline smear_v8u nearest_levels(smear_v8u code, uint16_t factor, uint16_t half, int shift)
+/* What eight columns add: thresholds in the order of lanes_of, or the steps of such as are 4 k + 2, or what rounds to the nearest level
+ * where there are none. */
+SMEAR_INLINE struct lanes lanes_of_thresholds(const uint8_t *t, int32_t mask, bool is_555)
 {
-    return (code * v8u_all(factor) + v8u_all(half)) >> shift;
+    smear_v8u all = v8u_all(1014);
+    for (int i = 0; i < 8 && t != NULL; i++)
+        all[i] = mask == 7 ? smear_dither_steps[t[i] >> 2] : t[i];
+    return (struct lanes){ (smear_v8u)v4i_twice_low((smear_v8i)all), (smear_v8u)v4i_twice_high((smear_v8i)all),
+                           mask != 7 || is_555 ? all : t == NULL ? v8u_all(505) : all >> 1 };
 }
 
-SMEAR_INLINE void nearest_lanes(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
+/* Levels of codes: by a step, or by any threshold, level_q16 / 2^8 and that, of which the upper byte is the level. */
+SMEAR_INLINE smear_v8u lanes_levels(smear_v8u code, smear_v8u step, bool is_63, bool steps)
 {
-    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555;
-    for (; n >= 8; n -= 8, in += 8, out += 8) {
-        struct lanes k = lanes_of(v4u_load(in), v4u_load(in + 4));
-        k.low = nearest_levels(k.low, 249, 1014, 11);
-        k.high = nearest_levels(k.high, 249, 1014, 11);
-        k.green = is_555 ? nearest_levels(k.green, 249, 1014, 11) : nearest_levels(k.green, 253, 505, 10);
-        lanes_store(out, k, format);
-    }
-    row_nearest_reference(out, in, n, format);
-}
-
-void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
-{
-    if (SMEAR_WITH_RGB && format == ROW_555)
-        nearest_lanes(out, in, n, ROW_555);
-    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
-        nearest_lanes(out, in, n, ROW_565_SWAPPED);
-    else if (SMEAR_WITH_RGB565)
-        nearest_lanes(out, in, n, ROW_565);
-}
-
-/* level_q16 / 2^8 and a threshold, of which the upper byte is the level. */
-static inline smear_v8u dithered_levels(smear_v8u code, uint16_t levels, smear_v8u threshold)
-{
-    const smear_v8u factor = v8u_all(levels);
-    return (code * factor + ((code + (code >> 7)) * factor >> 8) + threshold) >> 8;
-}
-
-/* Thresholds of eight columns, in the order of lanes_of. */
-static inline struct lanes lanes_of_thresholds(const uint8_t *t)
-{
-    const smear_v8i all = (smear_v8i){ t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7] };
-    return (struct lanes){ (smear_v8u)v4i_twice_low(all), (smear_v8u)v4i_twice_high(all), (smear_v8u)all };
+    if (steps)
+        return is_63 ? (code * v8u_all(DITHER_63) + step) >> 10 : (code * v8u_all(DITHER_31) + step) >> 11;
+    const smear_v8u factor = v8u_all(is_63 ? 63 : 31);
+    return (code * factor + ((code + (code >> 7)) * factor >> 8) + step) >> 8;
 }
 
 /* Blocks of eight columns whose first has a number that eight divides. A block of one colour looks like the last of its
  * colour where thresholds repeat. */
-SMEAR_INLINE void dithered_lanes(uint16_t *out, const uint32_t *in, int32_t blocks, int32_t x, const uint8_t *threshold,
-                                 int32_t mask, enum row_16bit format)
+SMEAR_INLINE void lanes_rows(uint16_t *out, const uint32_t *in, int32_t blocks, int32_t x, const uint8_t *threshold,
+                             int32_t mask, enum row_16bit format)
 {
-    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555;
-    struct lanes step = lanes_of_thresholds(threshold);
+    const bool is_555 = SMEAR_WITH_RGB && format == ROW_555, steps = mask == 7;
+    struct lanes step = lanes_of_thresholds(threshold, mask, is_555);
     smear_v4u last = v4u_all(0);
     const uint16_t *kept = NULL;                /* of the colour `last` */
     for (; blocks > 0; blocks--, in += 8, out += 8, x += 8) {
@@ -281,17 +259,34 @@ SMEAR_INLINE void dithered_lanes(uint16_t *out, const uint32_t *in, int32_t bloc
             __builtin_memcpy(out, kept, 16);
             continue;
         }
-        if (mask != 7)
-            step = lanes_of_thresholds(threshold + (x & mask));
+        if (!steps)
+            step = lanes_of_thresholds(threshold + (x & mask), mask, is_555);
         struct lanes k = lanes_of(a, b);
-        k.low = dithered_levels(k.low, 31, step.low);
-        k.high = dithered_levels(k.high, 31, step.high);
-        k.green = dithered_levels(k.green, is_555 ? 31 : 63, step.green);
+        k.low = lanes_levels(k.low, step.low, false, steps);
+        k.high = lanes_levels(k.high, step.high, false, steps);
+        k.green = lanes_levels(k.green, step.green, !is_555, steps);
         lanes_store(out, k, format);
         if (!flat)
             last = v4u_all(in[7]);
-        kept = flat && mask == 7 ? out : NULL;
+        kept = flat && steps ? out : NULL;
     }
+}
+
+SMEAR_INLINE void lanes_rows_of(uint16_t *out, const uint32_t *in, int32_t blocks, int32_t x, const uint8_t *threshold, int32_t mask,
+                                enum row_16bit format)
+{
+    if (SMEAR_WITH_RGB && format == ROW_555)
+        lanes_rows(out, in, blocks, x, threshold, mask, ROW_555);
+    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
+        lanes_rows(out, in, blocks, x, threshold, mask, ROW_565_SWAPPED);
+    else if (SMEAR_WITH_RGB565)
+        lanes_rows(out, in, blocks, x, threshold, mask, ROW_565);
+}
+
+void smear_row_nearest_vector(uint16_t *out, const uint32_t *in, int32_t n, enum row_16bit format)
+{
+    lanes_rows_of(out, in, n >> 3, 0, NULL, 7, format);
+    row_nearest_reference(out + (n & ~7), in + (n & ~7), n & 7, format);
 }
 
 void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
@@ -303,12 +298,10 @@ void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int
     out += head;
     in += head;
     x += head;
-    if (SMEAR_WITH_RGB && format == ROW_555)
-        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_555);
-    else if (SMEAR_WITH_RGB565 && format == ROW_565_SWAPPED)
-        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_565_SWAPPED);
-    else if (SMEAR_WITH_RGB565)
-        dithered_lanes(out, in, blocks, x, threshold, mask, ROW_565);
+    if (mask == 7)
+        lanes_rows_of(out, in, blocks, x, threshold, 7, format);
+    else
+        lanes_rows_of(out, in, blocks, x, threshold, mask, format);
     if (rest != 0)
         row_dithered_reference(out + 8 * blocks, in + 8 * blocks, rest, x + 8 * blocks, threshold, mask, format);
 }

@@ -150,7 +150,7 @@ void smear_row_dithered_blocks(uint16_t *out, const uint32_t *in, int32_t n, int
  * multiples of eight, and each begins at a multiple of four bytes. */
 void smear_rows_dithered_blocks(const struct dithered_rows *r, enum row_16bit format);
 #if SMEAR_VECTORS && !defined(__OPTIMIZE_SIZE__)
-/* Stores eight pixels a round, by any thresholds; mask is 7 or 31. */
+/* Stores eight pixels a round, by thresholds of the form 4 k + 2 (mask is 7), or by any (31). */
 void smear_row_dithered_vector(uint16_t *out, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold,
                                int32_t mask, enum row_16bit format);
 #endif
