@@ -383,7 +383,11 @@ static inline smear_transform smear_inverse_rigid(smear_transform t)
 static inline smear_transform smear_blob_under(smear_vec3 thing, int32_t ground, int32_t radius)
 {
     const int32_t factor = radius > 127 * 65536 ? 127 * SMEAR_BASIS_ONE : radius * 256;
-    return smear_compose(smear_move(thing.x, ground, thing.z), smear_scale(factor, SMEAR_BASIS_ONE, factor));
+    smear_transform t = smear_scale(factor, SMEAR_BASIS_ONE, factor);
+    t.origin[0] = thing.x;
+    t.origin[1] = ground;
+    t.origin[2] = thing.z;
+    return t;
 }
 
 /* Takes every place to where its shadow falls on the plane through `point` at right angles to `normal`, in light that comes from

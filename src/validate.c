@@ -409,9 +409,8 @@ static bool has_levels(const smear_texture *t)
 
 static bool is_texture(const smear_texture *t)
 {
-    return SMEAR_TEXTURE_MOST && t->texels != NULL && t->width >= 1 && t->width <= 4096 && t->height >= 1
-        && t->height <= 4096 && t->format <= SMEAR_TEXEL_PALETTE8
-        && (t->format != SMEAR_TEXEL_PALETTE8 || t->palette != NULL) && t->wrap_u <= SMEAR_MIRROR
+    return SMEAR_TEXTURE_MOST && t->texels != NULL && t->width - 1u < 4096u && t->height - 1u < 4096u
+        && t->format <= (t->palette != NULL ? SMEAR_TEXEL_OWN : SMEAR_TEXEL_565) && t->wrap_u <= SMEAR_MIRROR
         && t->wrap_v <= SMEAR_MIRROR && (t->levels == 0 || has_levels(t));
 }
 

@@ -10,44 +10,34 @@
 /* Loops of their own for what is common. */
 enum { SPAN_SPECIALIZED = !SMEAR_SMALL_FILE };
 
-void smear_span_flat(const struct setup *s, const struct span *p)
+static void span_of_color(const struct setup *s, const struct span *p, uint32_t pixel)
 {
-    const uint32_t color = target_pixel(s->target, s->color);
+    const uint32_t color = target_pixel(s->target, pixel);
     if (target_is_direct(s->target))
         flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, true);
     else
         flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, false);
 }
+
+void smear_span_flat(const struct setup *s, const struct span *p) { span_of_color(s, p, s->color); }
 
 #if SMEAR_WITH_FOG
 void smear_span_level(const struct setup *s, const struct span *p)
 {
-    const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
-    const uint32_t color = target_pixel(s->target, smear_fog_row_color(s, left, right, p->y));
-    if (target_is_direct(s->target))
-        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, true);
-    else
-        flat_run_reference(p->color, p->depth, p->b - p->a, p->z, (uint32_t)p->dz, color, false);
+    span_of_color(s, p, smear_fog_row_color(s, max_i32(p->left, 0), min_i32(p->right, s->frame->width), p->y));
 }
 #endif
-
-/* Blends a colour over a pixel, or a shadow: as if of all that cover the pixel only the darkest did, whose alpha its top byte keeps. */
-static inline uint32_t blended_pixel(uint32_t pixel, uint32_t over, bool shadow, smear_transfer transfer)
-{
-    const uint32_t has = pixel_alpha(over), had = shadow ? pixel_alpha(pixel) : 0;
-    if (shadow && has <= had)
-        return pixel;
-    const uint32_t part = had == 0 ? has : (has - had) * 255u / (255u - had);
-    return pixel_blend(pixel & 0xffffffu, over, part, transfer) | (shadow ? has << 24 : 0);
-}
 
 void smear_span_shadow(const struct setup *s, const struct span *p)
 {
     const smear_transfer transfer = frame_transfer(s->frame);
-    uint32_t *color = (uint32_t *)p->color, z = p->z;
+    uint32_t *color = (uint32_t *)p->color, z = p->z, last = 0xff000000u, dark = last;     /* as dark as can be */
     for (int32_t i = 0; !SMEAR_SMALL_CODE && i < p->b - p->a; i++, z += (uint32_t)p->dz)
-        if (z >> 16 > p->depth[i])
-            color[i] = blended_pixel(color[i], s->color, true, transfer);
+        if (z >> 16 > p->depth[i]) {
+            if (color[i] != last)
+                last = color[i], dark = blended_pixel(last, s->color, true, transfer);
+            color[i] = dark;
+        }
 }
 
 /* ------------------------------------------------------------------ blocks */
@@ -261,16 +251,10 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
-    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw)) {
-        for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
-            if (z >> 16 > *depth)
-                *color = blended_pixel(*color, *in, true, frame_transfer(s->frame));
-        return;
-    }
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = blended_pixel(*color, *in, SMEAR_SMALL_CODE && draw_is_shadow(s->draw), frame_transfer(s->frame));
+                *color = blended_pixel(*color, *in, draw_is_shadow(s->draw), frame_transfer(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {

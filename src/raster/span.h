@@ -58,6 +58,16 @@ static inline void span_mark_tiles(const struct smear_raster_target *t, const st
  * camera's is still to be told from depth, unknown. */
 void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown);
 
+/* Blends a colour over a pixel, or a shadow: as if of all that cover the pixel only the darkest did, whose alpha its top byte keeps. */
+static inline uint32_t blended_pixel(uint32_t pixel, uint32_t over, bool shadow, smear_transfer transfer)
+{
+    const uint32_t has = pixel_alpha(over), had = shadow ? pixel_alpha(pixel) : 0;
+    if (shadow && has <= had)
+        return pixel;
+    const uint32_t part = had == 0 ? has : (has - had) * 255u / (255u - had);
+    return pixel_blend(pixel & 0xffffffu, over, part, transfer) | (shadow ? has << 24 : 0);
+}
+
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 32 };
 
@@ -78,6 +88,12 @@ smear_rows_fn smear_rows_shade;
 
 /* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
 smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
+
+/* What a texture of the library's own (SMEAR_TEXEL_OWN) has in place of a palette. */
+struct smear_own_texels {
+    uint32_t palette[32];
+    smear_rows_fn *(*choose)(const struct setup *s);        /* in place of smear_rows_choose */
+};
 
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)

@@ -156,7 +156,6 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
         *out++ = sample_at(s, at, turns, format);
 }
 
-/* Sizes that are no powers of two, or other wraps. */
 /* Coordinates of an axis that wrap alike: those below `period` beyond `from`. */
 struct wrapped {
     int32_t from, period, size;
@@ -212,7 +211,7 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
         sample_run(out, s, run, first, n, false, 0);
     else if (sampler.format == SMEAR_TEXEL_8888)
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_8888);
-    else if (sampler.format == SMEAR_TEXEL_PALETTE8)
+    else if (sampler.format >= SMEAR_TEXEL_PALETTE8)
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
     else
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);
