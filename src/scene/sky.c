@@ -22,7 +22,7 @@ enum { RISE, RISE_X, RISE_Y,            /* q22: in the frame's centre, and per h
        WIDTH, HEIGHT, TRANSFER,
        ROWS, SPAN_LOG2,                 /* rows that look alike, and columns from one point to the next */
        HALVES,                          /* struct half, up and down */
-       PART_ONE = 4096,
+       PART_ONE = 4096, NO_COLOR = -1,
        ROWS_MOST = 8, SPAN_LEAST = 3, SPAN_MOST = 7 };
 
 /* ------------------------------------------------------------------ where the camera looks */
@@ -127,7 +127,11 @@ struct pen {
     int32_t square;                     /* of the ray's way forward and up, q16 */
     int32_t pixel;                      /* rise from a pixel to the next */
     int32_t at[ROWS_MOST];              /* where the rows lie that are filled at once, so many: */
-    int rows;
+    int rows, span_log2;                /* log2 of columns between points */
+    int even[2];                        /* log2 of sines that look alike */
+    int32_t from;                       /* where the run begins that is not filled yet, of this colour: of a sine, shifted */
+    uint32_t color;
+    int32_t level;                      /* or -1 */
 };
 
 /* What is known of a point. */
@@ -174,27 +178,38 @@ static void find_point(struct point *out, const struct pen *p, int32_t u)
     out->sine = sine_of(out->rise, out->inverse);
 }
 
-/* Fills columns [x0, x1) of the pen's rows, as far as they are the target's. */
-static inline void fill_run(const struct pen *p, int32_t x0, int32_t x1, uint32_t pixel)
+/* Fills n pixels of each row from a column on, or of all rows at once where they lie one behind the other. */
+static SMEAR_NOINLINE void fill_rows(const struct pen *p, int32_t x, int32_t n)
 {
     const struct smear_raster_target *t = p->target;
-    x0 = max_i32(x0, t->x0);
-    x1 = min_i32(x1, t->x1);
-    if (x0 >= x1)
+    const bool whole = p->at[p->rows - 1] - p->at[0] == (p->rows - 1) * n;
+    const int rows = whole ? 1 : p->rows;
+    n = whole ? n * p->rows : n;
+    for (int k = 0; k < rows; k++)
+        if (target_is_direct(t))
+            pixels_fill_narrow(t->direct + p->at[k] + x, rgb565_nearest(p->color), n);
+        else
+            pixels_fill(t->color + p->at[k] + x, p->color, n);
+}
+
+/* Goes on with another colour from a column on: fills what was before it, as far as it is the target's. */
+static SMEAR_NOINLINE void begin_run(struct pen *p, int32_t x, uint32_t color)
+{
+    p->level = -1;
+    if (color == p->color)
         return;
-    if (target_is_direct(t))
-        for (int k = 0; k < p->rows; k++)
-            pixels_fill_narrow(t->direct + p->at[k] + x0, rgb565_nearest(pixel), x1 - x0);
-    else
-        for (int k = 0; k < p->rows; k++)
-            pixels_fill(t->color + p->at[k] + x0, pixel, x1 - x0);
+    const int32_t x0 = max_i32(p->from, p->target->x0), x1 = min_i32(x, p->target->x1);
+    if (x0 < x1)
+        fill_rows(p, x0, x1 - x0);
+    p->from = x;
+    p->color = color;
 }
 
 /* Returns how many times a span is halved so that what changes by so many codes along it does so by two in each part. */
 static int halvings(const struct pen *p, int32_t codes)
 {
     int log = 0;
-    while (log < p->sky->own[SPAN_LOG2] && codes > 2 << log)
+    while (log < p->span_log2 && codes > 2 << log)
         log++;
     return log;
 }
@@ -205,13 +220,20 @@ static uint32_t color_of(const struct half *h, int32_t sine)
 }
 
 /* Fills a span of rows, all of it on one side of the horizon. */
-static void fill_span(const struct pen *p, const struct point *a, const struct point *b, int32_t x)
+static void fill_span(struct pen *p, const struct point *a, const struct point *b, int32_t x)
 {
-    const struct half *h = &p->half[a->rise < 0];
+    const int below = a->rise < 0, even = p->even[below];
+    const struct half *h = &p->half[below];
     const int32_t step = b->sine - a->sine;
-    const int log = halvings(p, abs_i32(step) * h->contrast >> 8), run = p->sky->own[SPAN_LOG2] - log;
-    for (int32_t i = 0; i < 1 << log; i++)
-        fill_run(p, x + (i << run), x + ((i + 1) << run), color_of(h, a->sine + (step * (2 * i + 1) >> (log + 1))));
+    const bool alike = a->sine >> even == b->sine >> even;
+    const int log = alike ? 0 : halvings(p, abs_i32(step) * h->contrast >> 8), run = p->span_log2 - log;
+    for (int32_t i = 0; i < 1 << log; i++) {
+        const int32_t level = (alike ? a->sine : a->sine + (step * (2 * i + 1) >> (log + 1))) >> even;
+        if (level == p->level)
+            continue;
+        begin_run(p, x + (i << run), color_of(h, (level << even) + (1 << even >> 1)));
+        p->level = level;
+    }
 }
 
 /* Returns the part of the exposure for which a point is above the horizon. */
@@ -240,8 +262,9 @@ static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y
     struct pen row = *of, *const p = &row;
     row.at[0] = of->at[k];
     row.rows = 1;
+    row.from = x;
     begin_row(p, p->sky->own[HEIGHT] - 2 * y - 1);
-    const int32_t span = 1 << p->sky->own[SPAN_LOG2], left = 2 * x - p->sky->own[WIDTH];
+    const int32_t span = 1 << p->span_log2, left = 2 * x - p->sky->own[WIDTH];
     struct point a, b;
     find_point(&a, p, left);
     find_point(&b, p, left + 2 * span);
@@ -251,8 +274,9 @@ static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y
     const int32_t run = span >> log;
     for (int32_t i = 0; i < span; i += run) {
         find_point(&a, p, left + 2 * i + run);
-        fill_run(p, x + i, x + i + run, mixed_color(p, &a));
+        begin_run(p, x + i, mixed_color(p, &a));
     }
+    begin_run(p, x + span, (uint32_t)NO_COLOR);
 }
 
 /* Whether the horizon is seen in none of the rows. */
@@ -261,31 +285,73 @@ static bool is_beside(const struct point *a, const struct point *b, int32_t marg
     return (a->rise ^ b->rise) >= 0 && abs_i32(a->rise) >= (a->width >> 1) + margin && abs_i32(b->rise) >= (b->width >> 1) + margin;
 }
 
+/* Returns the log2 of columns from point to point in the pen's rows, which rise by less than `most`, q22: the less, the less err sines
+ * between points. */
+static int span_of(const struct pen *p, uint32_t most)
+{
+    int log = p->sky->own[SPAN_LOG2];
+    for (; log <= SPAN_MOST && 1 << log < p->sky->own[WIDTH] && most < 1u << 20; most *= 4)
+        log++;
+    return log;
+}
+
+/* Returns how many rows, of which that is one, look alike: twice as many where all of them show the half of less contrast. */
+static int32_t rows_of(const struct pen *p, int32_t y)
+{
+    const int32_t *own = p->sky->own, rows = own[ROWS], height = own[HEIGHT], first = y & -2 * rows;
+    const bool down = p->half[1].contrast < p->half[0].contrast;
+    const int32_t across = abs_i32(own[RISE_X]) * own[WIDTH], sign = down ? -1 : 1;
+    const int32_t upper = own[RISE] + (height - 2 * first - 1) * own[RISE_Y],
+                  lower = own[RISE] + (height - 2 * (first + 2 * rows)) * own[RISE_Y];
+    return rows < ROWS_MOST && 2 * p->half[down].contrast <= p->half[!down].contrast && upper * sign > across && lower * sign > across
+         ? 2 * rows : rows;
+}
+
+/* Returns the log2 of sines whose colours differ by less than two codes. */
+static int alike(const struct half *h)
+{
+    int log = 0;
+    while (log < 8 && h->contrast << log <= 256)
+        log++;
+    return log;
+}
+
 static void fill(const smear_sky *sky, const struct smear_raster_target *t)
 {
-    const int32_t *own = sky->own, rows = own[ROWS], width = own[WIDTH], height = own[HEIGHT], span = 1 << own[SPAN_LOG2];
+    const int32_t *own = sky->own, width = own[WIDTH], height = own[HEIGHT];
     const int32_t across = abs_i32(own[RISE_X]), along = abs_i32(own[RISE_Y]);
     /* Twice the length, within 7 %. */
     struct pen p = { .sky = sky, .target = t, .pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2) };
     __builtin_memcpy(p.half, &own[HALVES], sizeof p.half);
-    for (int32_t y = t->y0; y < t->y1;) {
-        const int32_t first = y & -rows, end = min_i32(first + rows, t->y1);
+    for (int i = 0; i < 2; i++)
+        p.even[i] = alike(&p.half[i]);
+    for (int32_t y = t->y0, end; y < t->y1; y = end) {
+        const int32_t rows = rows_of(&p, y), first = y & -rows;
+        end = min_i32(first + rows, t->y1);
         struct point a, b;
-        int32_t x = t->x0 & -span;
         p.rows = end - y;
         for (int32_t k = 0; k < p.rows; k++)
             p.at[k] = target_row(target_is_direct(t) ? &t->window_rows : &t->color_rows, t, y + k);
         begin_row(&p, height - 2 * first - rows);
+        p.span_log2 = span_of(&p, (uint32_t)abs_i32(p.rise) + (uint32_t)(across * width));
+        p.color = (uint32_t)NO_COLOR;
+        p.level = -1;
+        const int32_t span = 1 << p.span_log2;
+        int32_t x = t->x0 & -span;
+        p.from = x;
         find_point(&a, &p, 2 * x - width);
         for (; x < t->x1; x += span, a = b) {
             find_point(&b, &p, 2 * (x + span) - width);
-            if (is_beside(&a, &b, rows * along))
+            if (is_beside(&a, &b, rows * along)) {
                 fill_span(&p, &a, &b, x);
-            else
-                for (int32_t k = 0; k < p.rows; k++)
-                    fill_mixed(&p, x, y + k, k);
+                continue;
+            }
+            begin_run(&p, x, (uint32_t)NO_COLOR);
+            for (int32_t k = 0; k < p.rows; k++)
+                fill_mixed(&p, x, y + k, k);
+            p.from = x + span;
         }
-        y = end;
+        begin_run(&p, x, (uint32_t)NO_COLOR);
     }
 }
 
