@@ -278,13 +278,14 @@ uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_seg
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
-    struct smear_lit *const last = SMEAR_LIGHT_IS_DEAR ? d->shading.last : NULL;
-    const bool is_plain = last != NULL && face->vertex_color == NULL && face->color != NULL;
-    if (is_plain && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, face->color))
+    static const uint8_t white[4] = { 255, 255, 255, 255 };
+    struct smear_lit *const last = SMEAR_LIGHT_IS_DEAR && face->vertex_color == NULL ? d->shading.last : NULL;
+    const uint8_t *const color = face->color != NULL ? face->color : white;
+    if (last != NULL && last->color != NULL && last->color_cosine == face->cosine && same_color(last->color, color))
         return last->packed;
     const uint32_t packed = shaded_face(d, face);
-    if (is_plain) {
-        last->color = face->color;
+    if (last != NULL) {
+        last->color = color;
         last->color_cosine = face->cosine;
         last->packed = packed;
     }

@@ -30,13 +30,13 @@ void smear_span_level(const struct setup *s, const struct span *p)
 
 void smear_span_shadow(const struct setup *s, const struct span *p)
 {
-    const smear_transfer transfer = frame_transfer(s->frame);
-    uint32_t *color = (uint32_t *)p->color, z = p->z, last = 0xff000000u, dark = last;     /* as dark as can be */
-    for (int32_t i = 0; !SMEAR_SMALL_CODE && i < p->b - p->a; i++, z += (uint32_t)p->dz)
-        if (z >> 16 > p->depth[i]) {
-            if (color[i] != last)
-                last = color[i], dark = blended_pixel(last, s->color, true, transfer);
-            color[i] = dark;
+    const uint16_t *depth = p->depth, *const end = depth + (p->b - p->a);
+    uint32_t *color = (uint32_t *)p->color, z = p->z, dz = (uint32_t)p->dz, last = 0xff000000u, dark = last;     /* as dark as can be */
+    for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz)
+        if (z >> 16 > *depth) {
+            if (*color != last)
+                last = *color, dark = blended_pixel(last, s->color, true, frame_transfer(s->frame));
+            *color = dark;
         }
 }
 

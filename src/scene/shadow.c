@@ -2,6 +2,7 @@
 /* shadow.c - what shadows look like, and a round one for whatever moves. Programs that name none have none. */
 #include "smear_scene.h"
 
+#include "raster/texcoord.h"
 #include "raster/span.h"
 
 enum { SIDE = 32, UV_SHIFT = 14, HALF = 1 << UV_SHIFT, OPACITY_LOG2 = 7, PIECE_LEAST = 16, PIECE_MOST = 128 };
@@ -56,6 +57,7 @@ static const uint16_t blob_left[1 << OPACITY_LOG2] = {
 /* A coordinate along a row: q30 turns at column x0, how it changes there, and by how much that does. */
 struct track {
     int32_t at, dx, dxx, x0;
+    int32_t down, change, dx_down;      /* by how much it is more in the next row, how that changes, and the slope */
 };
 
 /* In row y. A coordinate of one is not that of zero, as it is where turns have 32 bits. */
@@ -64,9 +66,18 @@ static struct track track_of(const struct setup *s, int axis, int32_t y)
     const struct curve *c = &s->texture.curve[axis];
     const int32_t corner = (axis == 0 ? setup_mesh_u(s, 0) : setup_mesh_v(s, 0)) << (30 - UV_SHIFT);
     const int32_t at = corner + (sub_wrap(c->at, shl_wrap(corner, 2)) >> 2);
+    const int32_t dyy = c->dyy >> 2, dxy = c->dxy >> 2;
     y -= s->texture.y0;
-    return (struct track){ add_wrap(at, mul_wrap(add_wrap(c->dy >> 2, mul_wrap(c->dyy >> 2, y)), y)),
-                           add_wrap(c->dx >> 2, mul_wrap(c->dxy >> 2, y)), c->dxx >> 2, s->texture.x0 };
+    const int32_t dy = add_wrap(c->dy >> 2, mul_wrap(dyy, y));
+    return (struct track){ add_wrap(at, mul_wrap(dy, y)), add_wrap(c->dx >> 2, mul_wrap(dxy, y)), c->dxx >> 2, s->texture.x0,
+                           add_wrap(dy, mul_wrap(dyy, y + 1)), shl_wrap(dyy, 1), dxy };
+}
+
+static inline void track_next(struct track *t)
+{
+    t->at = add_wrap(t->at, t->down);
+    t->down = add_wrap(t->down, t->change);
+    t->dx = add_wrap(t->dx, t->dx_down);
 }
 
 /* How far a column is from the middle, where the radius is 2^14, and by how much more the next one is. */
@@ -78,9 +89,32 @@ static int32_t way_from_middle(const struct track *t, int32_t x, int32_t *step)
     return (add_wrap(t->at, mul_wrap(add_wrap(t->dx, along), x)) - (1 << 29)) >> 15;
 }
 
+/* The same of two columns of a row whose coordinates are quotients: the ways of the first, and by how much more those are of each next. */
+static void divided_ways(int32_t way[2], int32_t step[2], const struct setup *s, int32_t left, int32_t right, int32_t y)
+{
+    const struct texture_setup *t = &s->texture;
+    const int32_t n = right - left, log = 31 - count_leading_zeros((uint32_t)n), far = n <= 16 ? n : 1 << log;
+    struct place at[2];
+    for (int i = 0; i < 2; i++) {
+        const int32_t x = i == 0 ? left : left + far;
+        at[i] = place_at(t, TEXTURE_DIVIDED, NULL, plane_at(&t->q, x, y), plane_at(&t->uv[0], x, y), plane_at(&t->uv[1], x, y), true);
+        at[i].u = (at[i].u - (1 << (31 - t->shift))) >> (17 - t->shift);
+        at[i].v = (at[i].v - (1 << (31 - t->shift))) >> (17 - t->shift);
+    }
+    way[0] = at[0].u;
+    way[1] = at[0].v;
+    step[0] = n <= 16 ? part_of(at[1].u - at[0].u, n) : (at[1].u - at[0].u) >> log;
+    step[1] = n <= 16 ? part_of(at[1].v - at[0].v, n) : (at[1].v - at[0].v) >> log;
+}
+
 /* Columns in which coordinates are taken for planes: as many as leaves them within a 500th of the radius. */
 static int32_t piece_of(const struct setup *s)
 {
+    if (s->texture.mode == TEXTURE_DIVIDED) {
+        const int32_t least = min_i32(s->v[0][VERTEX_DEPTH], min_i32(s->v[1][VERTEX_DEPTH], s->v[2][VERTEX_DEPTH])) >> 8;
+        const bool level = magnitude_i32(s->depth.dx) < (1u << 23) && abs_i32(s->depth.dx) * PIECE_MOST <= least;
+        return level ? PIECE_MOST : PIECE_LEAST;
+    }
     const uint32_t bend = magnitude_i32(s->texture.curve[0].dxx) + magnitude_i32(s->texture.curve[1].dxx);
     int32_t piece = PIECE_LEAST;
     while (piece < PIECE_MOST && bend < 1u << 18 && bend * (uint32_t)(piece * piece) < 1u << 22)
@@ -140,18 +174,21 @@ static SMEAR_NOINLINE void darken_any(const struct shade_run *r, const uint16_t 
 }
 
 /* Darkens columns [a, b) of a row, of which a piece, or what of it lies in the triangle, is told by its middle. */
-static inline void darken_row(struct shade_run r, const struct track track[2], const struct span_side *side, int32_t piece, int32_t a,
-                              int32_t b, smear_transfer transfer)
+static inline void darken_row(const struct setup *s, struct shade_run r, const struct track track[2], const struct span_side *side,
+                              int32_t piece, int32_t a, int32_t b, int32_t y)
 {
     uint16_t left_of[PIECE_MOST];
     for (int32_t end; a < b; a = end) {
         const int32_t left = max_i32(a & -piece, side->left), right = min_i32((a & -piece) + piece, side->right);
-        const int32_t middle = (left + right) >> 1;
+        const int32_t from = s->texture.mode == TEXTURE_CURVED ? (left + right) >> 1 : left;
         uint32_t square = 0, step = 0, change = 0;
-        int32_t first;
+        int32_t first, ways[2], steps[2];
+        if (s->texture.mode == TEXTURE_DIVIDED)
+            divided_ways(ways, steps, s, left, right, y);
         for (int axis = 0; axis < 2; axis++) {
-            int32_t d;
-            const int32_t way = way_from_middle(&track[axis], middle, &d) + d * (a - middle);
+            if (s->texture.mode == TEXTURE_CURVED)
+                ways[axis] = way_from_middle(&track[axis], from, &steps[axis]);
+            const int32_t d = steps[axis], way = ways[axis] + d * (a - from);
             square += (uint32_t)(way * way);
             step += (uint32_t)((2 * way + d) * d);
             change += 2u * (uint32_t)(d * d);
@@ -159,37 +196,46 @@ static inline void darken_row(struct shade_run r, const struct track track[2], c
         end = min_i32(b, right);
         const int32_t n = find_left(left_of, &first, end - a, square, step, change);
         const struct shade_run seen = { r.color + a + first, r.depth + a + first, r.z + r.dz * (uint32_t)(a + first), r.dz };
-        darken_any(&seen, left_of, transfer_is_linear(transfer) ? 0 : darken_codes(&seen, left_of, n), n, transfer);
+        const smear_transfer transfer = frame_transfer(s->frame);
+        const int32_t done = transfer_is_linear(transfer) ? 0 : darken_codes(&seen, left_of, n);
+        if (done != n)
+            darken_any(&seen, left_of, done, n, transfer);
     }
 }
 
-SMEAR_INLINE void darken_rows(const struct setup *s, const struct span_rows *r, smear_transfer transfer)
+/* Finds the next run of a row from a pixel on, as smear_row_run_next does. */
+static inline bool run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row, int32_t x)
+{
+    if (!rows_are_whole(s, r))
+        return smear_row_run_next(p, s, r, row, x);
+    *p = (struct row_run){ x, r->side[row].right, code_from_units(plane_at(&s->depth, 0, r->y + row), s->slope),
+                           (uint32_t)step_from_units(s->depth.dx, s->slope) };
+    return x < p->b;
+}
+
+static void darken_rows(const struct setup *s, const struct span_rows *r)
 {
     const struct smear_raster_target *t = s->target;
     const int32_t piece = piece_of(s);
-    for (int32_t row = 0; row < r->count; row++) {
-        const struct span_side *side = &r->side[row];
-        const int32_t y = r->y + row, a = max_i32(side->left, t->x0), b = min_i32(side->right, t->x1);
-        if (a >= b)
-            continue;
-        const struct track track[2] = { track_of(s, 0, y), track_of(s, 1, y) };
-        const struct shade_run run = { t->color + target_row(&t->color_rows, t, y), t->depth + target_row(&t->window_rows, t, y),
-                                       code_from_units(plane_at(&s->depth, 0, y), s->slope),
-                                       (uint32_t)step_from_units(s->depth.dx, s->slope) };
-        darken_row(run, track, side, piece, a, b, transfer);
+    struct track track[2] = { track_of(s, 0, r->y), track_of(s, 1, r->y) };
+    for (int32_t row = 0; row < r->count; row++, track_next(&track[0]), track_next(&track[1])) {
+        struct row_run p;
+        for (int32_t x = r->side[row].left; run_next(&p, s, r, row, x); x = p.b) {
+            const int32_t y = r->y + row;
+            const struct shade_run run = { t->color + target_row(&t->color_rows, t, y), t->depth + target_row(&t->window_rows, t, y),
+                                           p.z, p.dz };
+            darken_row(s, run, track, &r->side[row], piece, p.a, p.b, y);
+        }
     }
 }
 
-static void rows_of_codes(const struct setup *s, const struct span_rows *r) { darken_rows(s, r, TRANSFER_CODES); }
-static void rows_of_light(const struct setup *s, const struct span_rows *r) { darken_rows(s, r, TRANSFER_LINEAR); }
-
-/* Where perspective is strong, depths lie on both sides of their code's break, or it is seen in fog, texels do. */
+/* In fog, without perspective, or in a light of its own, texels do. */
 static smear_rows_fn *choose(const struct setup *s)
 {
-    if (s->texture.mode != TEXTURE_CURVED || s->slope == SLOPE_BOTH || s->segment->shade != SHADE_NONE || fog_of(s) != FOG_NONE
-        || !draw_is_shadow(s->draw))
+    const bool fits = s->texture.mode == TEXTURE_CURVED || (s->texture.mode == TEXTURE_DIVIDED && s->texture.shift < 17);
+    if (!fits || s->segment->shade != SHADE_NONE || fog_of(s) != FOG_NONE || !draw_is_shadow(s->draw))
         return NULL;
-    return frame_is_linear(s->frame) ? rows_of_light : rows_of_codes;
+    return darken_rows;
 }
 
 /* ------------------------------------------------------------------ what is drawn */

@@ -150,12 +150,15 @@ static bool shade(double out[3], const struct shaded *s, bool linear, bool round
 static void test_shadows_lie_where_no_light_comes(void)
 {
     static uint32_t got[PIXELS];
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 8; k++) {
         struct shaded s;
         const bool linear = k % 2 == 1, round = k >= 2;
         double sum = 0;
         int count = 0, dark = 0;
         make_shaded(&s, SMEAR_NONE, linear, round, 0);
+        if (k >= 4)         /* seen from close by, and askew */
+            s.camera.pose = smear_look_at(smear_vec(q16(0.3), q16(k < 6 ? 1.1 : 2.5), q16(k < 6 ? 2.4 : 3)), smear_vec(0, 0, q16(-0.3)),
+                                          smear_vec(q16(k < 6 ? 0 : 0.7), 1 << 16, 0));
         if (!see(got, &s))
             continue;
         for (int i = 0; i < PIXELS; i++) {
@@ -170,7 +173,7 @@ static void test_shadows_lie_where_no_light_comes(void)
         const double error = sqrt(sum / (3.0 * count));
         CHECK(dark > PIXELS / 50);
         if (!CHECK(error < 1.5) || getenv("SMEAR_SHOW") != NULL)
-            printf("  %s %s: %.3f, dark %d\n", round ? "round" : "planar", linear ? "linear" : "encoded", error, dark);
+            printf("  %d %s %s: %.3f, dark %d\n", k, round ? "round" : "planar", linear ? "linear" : "encoded", error, dark);
     }
 }
 
