@@ -187,7 +187,8 @@ static int32_t eyes_of(const struct lens_end *end, int r, int exponent)
 static int transform_ends(struct end end[2], const struct lens *l, const smear_point *point)
 {
     int32_t offset[3], way[3];
-    int16_t v[3], w[3];
+    int32_t v[3];
+    int16_t w[3];
     uint32_t any = 1u << 10 | l->apart;
     for (int i = 0; i < 3; i++) {
         offset[i] = difference(point->now[i], l->eye[i]);

@@ -44,9 +44,9 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* Returns a row of struct smear_projection for a vertex. Without a wide multiply, the two halves of the factors are
+/* Returns a row of struct smear_projection for a vertex in its steps. Without a wide multiply, the two halves of the factors are
  * summed one by one: the lower ones have 14 bits, so three products fit. */
-static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
+static inline int32_t transform_row(const int32_t m[4], const int32_t v[3])
 {
     if (SMEAR_HAS_MUL64)
         return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
@@ -58,8 +58,9 @@ static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 }
 
 static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p,
-                                    const int16_t v[3])
+                                    const int16_t position[3])
 {
+    const int32_t v[3] = { shl_wrap(position[0], p->up), shl_wrap(position[1], p->up), shl_wrap(position[2], p->up) };
     out->x = transform_row(p->m[0], v);
     out->y = transform_row(p->m[1], v);
     out->w = transform_row(p->m[2], v);
