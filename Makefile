@@ -228,7 +228,7 @@ readme-pictures: $(BIN)/smear $(BIN)/smear-demo build/demo/target_screen $(BUILD
 	done
 	$(BIN)/smear-demo --enlarge 2 $(BUILD)/readme.ppm $(PICTURES)/first.png
 	$(BIN)/smear render builtin:suite/dolly --clear 0c1220 --sun 304060,-1,1,0.3 --second 102848,1,0.2,1 \
-	    --lamp ffc080,0,1.5,0,10 -o $(PICTURES)/lamp.png
+	    --lamp ffc080,0,1.5,0,10 --size 320x240 -o $(PICTURES)/lamp.png
 
 ## tests: includes run one way: a file includes only what lies in its own room or below
 layers:
@@ -541,7 +541,7 @@ $(BUILD)/methods: tests/examples/memory.c $(LIB)
 .PHONY: readme-figures rates-readme failures-readme manual-names
 ## again: the manual's table of names
 manual-names:
-	for header in smear smear_math smear_overlay smear_ribbon smear_scene smear_model smear_memory smear_methods smear_stats; do \
+	for header in smear smear_math smear_overlay smear_ribbon smear_matcap smear_scene smear_model smear_memory smear_methods smear_stats; do \
 	    sed 's://.*::' include/$$header.h | awk -f tests/shell/header_names.awk; done > build/header_names.txt
 	awk -f tests/shell/manual_names.awk build/header_names.txt include/README.md > build/names.md
 	awk -f platform/footprint_readme.awk include/README.md > build/readme.md && mv build/readme.md include/README.md

@@ -14,7 +14,7 @@ $(LESSONS:%=$(BUILD)/lessons/%$(EXE)): $(BUILD)/lessons/%$(EXE): $(BUILD)/platfo
 	$(CC) $(LDFLAGS) $(BENCH_LDFLAGS) -o $@ $(filter %.o,$^) $(LIB) $(LDLIBS)
 
 .PHONY: lessons lessons-test lessons-cost test-lessons lessons-accept lessons-readme
-## start: six lessons of a page each, from a cube to a race (platform/lessons): their pictures in build/lessons
+## start: seven lessons of a page each, from a cube to a race (platform/lessons): their pictures in build/lessons
 lessons: $(LIB) $(BIN)/smear-demo
 	LIB=$(LIB) DEMO=$(BIN)/smear-demo CC="$(CC)" sh tests/shell/lessons.sh pictures $(LESSONS)
 

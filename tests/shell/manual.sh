@@ -77,7 +77,7 @@ check() { # KIND NAME PATTERN FILE
     grep -q -- "$3" "$4" || { echo "$page: no $1 $2" >&2; missing=$((missing + 1)); }
 }
 known=0
-headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_ribbon.h include/smear_scene.h include/smear_model.h include/smear_memory.h
+headers="include/smear.h include/smear_math.h include/smear_overlay.h include/smear_ribbon.h include/smear_matcap.h include/smear_scene.h include/smear_model.h include/smear_memory.h
     include/smear_methods.h include/smear_stats.h"
 for header in $headers; do
     names "$header" >"$base/names"

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* lights_cost.c - what lights cost per vertex: in the units of platform.h's clock, a frame of 240x240 of a waving ground of 289
- * vertices with normals, all of them seen, and by how much each of them takes longer under further lights. */
+ * vertices with normals, all of them seen, and by how much each of them takes longer under further lights; and what its place on a
+ * matcap takes. */
 #include "tests/target/cost.h"
 
+#include "smear_matcap.h"
 #include "smear_scene.h"
 #include "smear_stats.h"
 
@@ -61,6 +63,30 @@ static uint32_t cost(smear_light_space light, const smear_scene *scene, uint8_t 
     return count;
 }
 
+static void print_tenths(uint32_t tenths)
+{
+    print_decimal(tenths / 10);
+    platform_print(".");
+    print_decimal(tenths % 10);
+}
+
+/* Prints what smear_matcap_uv takes per vertex where the basis scales alike, and where it does not. */
+static void report_matcap(void)
+{
+    static int16_t uv[2 * VERTICES];
+    const smear_mesh ground = { .position = position, .normal = normal, .vertex_count = VERTICES };
+    const smear_camera eye = { .pose = SMEAR_IDENTITY, .focal = ONE, .near_plane = ONE / 2 };
+    platform_print("matcap, uneven    ");
+    for (int uneven = 0; uneven < 2; uneven++) {
+        smear_transform pose = smear_move(0, 0, -ONE);
+        pose.basis[0] >>= uneven;
+        const uint32_t before = platform_clock();
+        smear_matcap_uv(uv, &ground, &pose, &eye);
+        print_tenths(platform_clock_count(platform_clock() - before) * 10 / VERTICES);
+        platform_print(uneven ? "\n" : ", ");
+    }
+}
+
 /* Prints what a vertex takes more than one under the sun alone. */
 static bool report(const char *name, smear_light_space light, const smear_lights *lights, uint8_t gloss)
 {
@@ -69,9 +95,7 @@ static bool report(const char *name, smear_light_space light, const smear_lights
     platform_print(name);
     const uint32_t tenths = (lit < bare ? bare - lit : lit - bare) * 10 / VERTICES;
     platform_print(lit < bare ? "-" : "");
-    print_decimal(tenths / 10);
-    platform_print(".");
-    print_decimal(tenths % 10);
+    print_tenths(tenths);
     platform_print(" of ");
     print_decimal(bare);
     platform_print("\n");
@@ -99,5 +123,6 @@ int main(int argc, char **argv)
         done = report("both              ", (smear_light_space)!light, &both, 0) && done;
         done = report("both, highlights  ", (smear_light_space)!light, &both, 200) && done;
     }
+    report_matcap();
     return done ? 0 : 1;
 }

@@ -4,6 +4,7 @@
 
 /* As a core without a wide multiply computes, whatever the target: the first test compares the product itself. */
 #define SMEAR_HAS_MUL64 0
+#include <smear_matcap.h>
 #include <smear_math.h>
 
 #include "tests/random.h"
@@ -324,6 +325,32 @@ static void test_all_machines_have_the_same_bits(void)
         hash = (hash ^ (uint32_t)smear_focal_from_fov(yaw)) * 16777619u;
     }
     CHECK_EQ(hash, 2698374490u);
+}
+
+/* Poses of any size, mirrored ones and those that are scaled unevenly among them. */
+static void test_matcaps_have_the_same_bits(void)
+{
+    uint32_t hash = 2166136261u;
+    random_state = 2;
+    for (int i = 0; i < 1000; i++) {
+        int8_t normal[3];
+        int16_t uv[2] = { 0, 0 };
+        const smear_mesh mesh = { .normal = normal, .vertex_count = 1 };
+        smear_camera camera = smear_perspective(SMEAR_DEGREES(60), 1, 0);
+        camera.pose = smear_from_euler(random_u32(), random_u32(), random_u32());
+        camera.half_height = i % 5 == 4 ? 65536 : 0;
+        smear_transform place = smear_from_euler(random_u32(), random_u32(), random_u32());
+        for (int k = 0; k < 3; k++) {
+            normal[k] = (int8_t)(random_u32() % 147 - 73);
+            place.origin[k] = (int32_t)random_u32() >> 8;
+            for (int j = 0; i % 3 == 1 && j < 3; j++)
+                place.basis[3 * k + j] = (place.basis[3 * k + j] >> (j + i % 7)) * (j == i % 4 ? -1 : 1);
+        }
+        smear_matcap_uv(uv, &mesh, &place, &camera);
+        hash = (hash ^ (uint16_t)uv[0]) * 16777619u;
+        hash = (hash ^ (uint16_t)uv[1]) * 16777619u;
+    }
+    CHECK_EQ(hash, 4211184789u);
 }
 
 #include "build/suites/math.h"

@@ -32,7 +32,7 @@ mkdir -p "$out/single"
 for name in $merged; do
     printf '/* SPDX-License-Identifier: MIT */\n/* %s.h - is a part of smear.h here. */\n#include "smear.h"\n' "$name" >"$out/single/$name.h"
 done
-cp include/smear_math.h include/smear_ribbon.h include/smear.hpp LICENSE "$out/single"
+cp include/smear_math.h include/smear_matcap.h include/smear_ribbon.h include/smear.hpp LICENSE "$out/single"
 [ "${FORMS:-}" != single ] || exit 0
 
 # ---------------------------------------------------------------------- what forms are made of
