@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_coarse.c - meshes written by hand have few coarse steps: a floor from -8 to 8, texture coordinates of 0 and 1. They are where
- * the same mesh in fine steps is, and so are their textures: near the eye, where triangles are cut, at rest and blurred. */
+ * the same mesh in fine steps is, and so are their textures: near the eye, where triangles are cut, at rest and blurred. Textures of few
+ * large texels have them where the same ones enlarged have theirs. */
 #include "tests/random.h"
 #include <smear_math.h>
 
@@ -22,7 +23,8 @@ static int random_below(uint32_t n) { return (int)(random_u32() % n); }
 static void make(struct made *m, bool box, int steps, int repeats)
 {
     static const uint16_t flat[6] = { 0, 1, 3, 0, 3, 2 },
-                          round[36] = { 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5 };
+                          round[36] = { 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5 };
     const int half[3] = { steps, 1 + random_below((uint32_t)steps), box ? 1 + random_below((uint32_t)steps) : 0 };
     for (int i = 0; i < CORNERS; i++) {
         for (int k = 0; k < 3; k++)
@@ -72,6 +74,8 @@ static void random_view(struct view *v, int i, double size)
                                              q16(size * (random_below(200) - 100) / 80)),
                                    smear_vec(q16(size * (random_below(200) - 100) / 300), 0, q16(size * (random_below(200) - 100) / 300)),
                                    smear_vec(0, 1, 0));
+    v->camera.half_height = i % 7 == 6 ? q16(size) : 0;
+    v->camera.far_plane = v->camera.half_height > 0 ? q16(size * 8) : 0;
     v->open = v->camera;
     v->open.pose.origin[0] += i % 2 ? q16(size / 20) : 0;
     v->place = smear_compose(smear_rotate_y(random_u32()), smear_rotate_x(SMEAR_DEGREES(-90)));
@@ -111,6 +115,45 @@ static void test_coarse_meshes_are_where_fine_ones_are(void)
     }
     if (!CHECK(worst < 3 && sum < 0.1) || getenv("SMEAR_SHOW") != NULL)
         printf("coarse: %.2f codes off, %.3f in the mean\n", worst, sum);
+}
+
+/* Of two by two texels. */
+static void test_large_texels_have_straight_edges(void)
+{
+    static uint16_t few[2 * 2] = { 0xffff, 0x0000, 0x2222, 0xeeee }, many[256 * 256];
+    const smear_texture small = { .texels = few, .width = 2, .height = 2, .format = SMEAR_TEXEL_565 };
+    smear_texture large = { .texels = many, .width = 256, .height = 256, .format = SMEAR_TEXEL_565 };
+    double worst = 0, sum = 0;
+    for (int i = 0; i < 256 * 256; i++)
+        many[i] = few[i / 256 / 128 * 2 + i % 256 / 128];
+    smear_desc desc = { .width = SIDE, .height = SIDE, .flush = place_band, .methods = SMEAR_SET(SMEAR_AUTO) };
+    RIG(coarse, &desc, false);
+    RIG(fine, &desc, false);
+    for (int i = 0; i < CASES; i++) {
+        struct made m;
+        struct view v;
+        make(&m, i % 4 == 0, 1000 + random_below(10000), 1 + random_below(4));
+        for (int k = 0; k < 2 * CORNERS; k++)
+            m.uv[k] = (int16_t)(m.uv[k] * 1024 + 300);
+        m.mesh.shift = 12;
+        m.mesh.uv_shift = 11;
+        random_view(&v, i, 2);
+        v.camera.near_plane = 1000;
+        v.draw.mesh = &m.mesh;
+        v.material.texture = &small;
+        CHECK_EQ(rig_frame(&coarse, &v.frame, &v.draw, 1), SMEAR_OK);
+        v.material.texture = &large;
+        CHECK_EQ(rig_frame(&fine, &v.frame, &v.draw, 1), SMEAR_OK);
+        int off = 0;
+        for (int p = 0; p < SIDE * SIDE; p++)
+            off += abs(coarse.picture[4 * p] - fine.picture[4 * p]) > 16;
+        worst = fmax(worst, off);
+        sum += (double)off / CASES;
+        if (getenv("SMEAR_SHOW") != NULL && off > 50)
+            printf("case %d: %d pixels\n", i, off);
+    }
+    if (!CHECK(worst < 100 && sum < 2) || getenv("SMEAR_SHOW") != NULL)
+        printf("coarse: %.0f pixels, %.3f in the mean\n", worst, sum);
 }
 
 #include "build/suites/coarse.h"
