@@ -113,14 +113,6 @@ static void classify_draw(struct smear_context *c, uint32_t i)
     c->stats.draws_moved += r->moves || draw_is_mover(c, i);
 }
 
-/* Returns the shift of a mesh's texture coordinates in records. Coarse ones grow: where triangles are cut, they are rounded. */
-static int uv_shift_of(const smear_mesh *mesh)
-{
-    enum { COARSE = 9 };
-    const int shift = mesh_uv_shift(mesh);
-    return shift > COARSE || mesh->uv == NULL ? shift : min_i32(shift + smear_mesh_spare(mesh->uv, 2u * mesh->vertex_count), 15);
-}
-
 static void look_up_material(struct smear_context *c, uint32_t i)
 {
     const smear_draw *d = &c->submitted[i].draw;
@@ -129,8 +121,10 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     const smear_texture *texture = SMEAR_TEXTURE_MOST && m != NULL ? m->texture : NULL;
     r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
     r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
+    /* Coarse texture coordinates grow: where triangles are cut, they are rounded. */
     if (texture != NULL)
-        smear_sampler_make(&r->sampler, texture, uv_shift_of(d->mesh), m->bilinear, frame_transfer(&c->rows.raster));
+        smear_sampler_make(&r->sampler, texture, min_i32(15, mesh_uv_shift(d->mesh) + smear_mesh_spare(d->mesh->uv, 2u * d->mesh->vertex_count)),
+                           m->bilinear, frame_transfer(&c->rows.raster));
     c->rows.blends = c->rows.blends || draw_is_blended(r);
     /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
     c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);
