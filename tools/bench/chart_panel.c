@@ -79,6 +79,8 @@ static void draw_grid(struct svg *svg, const struct panel *p)
         snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
         if (is_on(&p->x, ticks[i]) && is_labelled(&p->x, i, 2.6 * p->tick_size, p->name_size == 0.0))
             svg_text(svg, at(&p->x, ticks[i]), b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
+    }
+    for (int i = 0; i < TICKS; i++) {
         snprintf(text, sizeof text, "%g", ticks[i]);
         if (is_on(&p->y, ticks[i]) && is_labelled(&p->y, i, 1.4 * p->tick_size, false))
             svg_text(svg, b->x - 6.0, at(&p->y, ticks[i]) + 0.35 * p->tick_size, ANCHOR_END, font, text);

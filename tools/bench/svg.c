@@ -22,12 +22,23 @@ static void put_escaped(FILE *out, const char *text)
     }
 }
 
-/* Ends the path that is being written, if there is one. */
-static void end_path(struct svg *svg)
+/* Ends the path or text that is being written, if there is one. */
+static void end_element(struct svg *svg)
 {
     if (svg->style[0] != '\0')
-        fprintf(svg->out, "\"%s/>\n", svg->style);
+        fprintf(svg->out, svg->is_text ? "</text>\n" : "\"%s/>\n", svg->style);
     svg->style[0] = '\0';
+}
+
+/* Whether what comes next, of this style, begins an element; else it is added to the one that is being written. */
+static bool begins(struct svg *svg, bool is_text, const char *style)
+{
+    if (svg->is_text == is_text && strcmp(svg->style, style) == 0)
+        return false;
+    end_element(svg);
+    svg->is_text = is_text;
+    snprintf(svg->style, sizeof svg->style, "%s", style);
+    return true;
 }
 
 bool svg_begin(struct svg *svg, int width, int height, const char *title, struct failure *f)
@@ -48,7 +59,7 @@ bool svg_begin(struct svg *svg, int width, int height, const char *title, struct
 
 bool svg_end(struct svg *svg, const char *path, struct failure *f)
 {
-    end_path(svg);
+    end_element(svg);
     fprintf(svg->out, "</svg>\n");
     bool ok = fclose(svg->out) == 0 || fail(f, "out of memory");
     ok = ok && file_write(path, (const uint8_t *)svg->text, svg->size, f);
@@ -58,14 +69,9 @@ bool svg_end(struct svg *svg, const char *path, struct failure *f)
 
 /* ------------------------------------------------------------------ lines */
 
-/* Adds to the path that is being written where that has the same style, else begins one. */
 static void put_path(struct svg *svg, const char *style, const double *x, const double *y, int count, bool closed)
 {
-    if (strcmp(svg->style, style) != 0) {
-        end_path(svg);
-        fprintf(svg->out, "<path d=\"");
-        snprintf(svg->style, sizeof svg->style, "%s", style);
-    }
+    fputs(begins(svg, false, style) ? "<path d=\"" : "", svg->out);
     for (int i = 0; i < count; i++)
         fprintf(svg->out, "%c%.1f,%.1f", i == 0 ? 'M' : i == 1 ? 'L' : ' ', x[i], y[i]);
     fputs(closed ? "Z" : "", svg->out);
@@ -99,7 +105,7 @@ void svg_area(struct svg *svg, const double *x, const double *y, int count, cons
 void svg_rectangle(struct svg *svg, double x, double y, double width, double height,
                    const char *fill, const char *stroke)
 {
-    end_path(svg);
+    end_element(svg);
     fprintf(svg->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
             "stroke=\"%s\"/>\n", x, y, width, height, fill, stroke);
 }
@@ -131,7 +137,7 @@ void svg_mark(struct svg *svg, enum chart_mark mark, double x, double y, double 
     double px[MOST_CORNERS], py[MOST_CORNERS];
     const char *fill = filled ? color : "#ffffff";
     if (mark == MARK_CIRCLE) {
-        end_path(svg);
+        end_element(svg);
         fprintf(svg->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.2f\" fill=\"%s\" stroke=\"%s\" "
                 "stroke-width=\"1.6\"/>\n", x, y, size, fill, color);
         return;
@@ -171,35 +177,32 @@ double svg_text_width(struct svg_font font, const char *text)
     return sum * font.size / 1000.0 * (font.bold ? 1.08 : 1.0);
 }
 
-/* `where` has the place and the anchor. */
-static void put_text(struct svg *svg, const char *where, struct svg_font font, const char *text)
+static void make_font(char out[SVG_STYLE], struct svg_font font, const char *anchor)
 {
-    end_path(svg);
-    fprintf(svg->out, "<text %s font-size=\"%.4g\" fill=\"%s\"", where, font.size, font.color);
-    if (font.bold)
-        fprintf(svg->out, " font-weight=\"bold\"");
-    if (font.italic)
-        fprintf(svg->out, " font-style=\"italic\"");
-    if (font.halo)
-        fprintf(svg->out, " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
-                "paint-order=\"stroke\"");
-    fprintf(svg->out, ">");
-    put_escaped(svg->out, text);
-    fprintf(svg->out, "</text>\n");
+    snprintf(out, SVG_STYLE, " text-anchor=\"%s\" font-size=\"%.4g\" fill=\"%s\"%s%s%s", anchor, font.size,
+             font.color, font.bold ? " font-weight=\"bold\"" : "", font.italic ? " font-style=\"italic\"" : "",
+             font.halo ? " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"" : "");
 }
 
 void svg_text(struct svg *svg, double x, double y, enum svg_anchor anchor, struct svg_font font,
               const char *text)
 {
     static const char *const anchors[] = { "start", "middle", "end" };
-    char where[80];
-    snprintf(where, sizeof where, "x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"", x, y, anchors[anchor]);
-    put_text(svg, where, font, text);
+    char style[sizeof svg->style];
+    make_font(style, font, anchors[anchor]);
+    if (begins(svg, true, style))
+        fprintf(svg->out, "<text%s>", style);
+    fprintf(svg->out, "<tspan x=\"%.1f\" y=\"%.1f\">", x, y);
+    put_escaped(svg->out, text);
+    fprintf(svg->out, "</tspan>");
 }
 
 void svg_text_up(struct svg *svg, double x, double y, struct svg_font font, const char *text)
 {
-    char where[80];
-    snprintf(where, sizeof where, "transform=\"translate(%.1f,%.1f) rotate(-90)\" text-anchor=\"middle\"", x, y);
-    put_text(svg, where, font, text);
+    char style[sizeof svg->style];
+    make_font(style, font, "middle");
+    end_element(svg);
+    fprintf(svg->out, "<text transform=\"translate(%.1f,%.1f) rotate(-90)\"%s>", x, y, style);
+    put_escaped(svg->out, text);
+    fprintf(svg->out, "</text>\n");
 }

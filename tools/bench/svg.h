@@ -10,11 +10,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+enum { SVG_STYLE = 240 };
+
 struct svg {
     FILE *out;
     char *text;
     size_t size;
-    char style[200];            /* of the path that is being written: lines and marks of one style, one after the other, are one path */
+    char style[SVG_STYLE];      /* of the path or text that is being written: those of one style, one after the other, are one element */
+    bool is_text;
 };
 
 /* On a white ground. `title` is for those who cannot see it. */
