@@ -63,19 +63,16 @@ static int make_road(struct scene *s, smear_mesh *road, int method, bool flat_de
 
 static bool see(struct seen *out, bool linear, bool flat_depth)
 {
-    struct rig r;
     const smear_desc desc = desc_of(SMEAR_SET(SMEAR_RECONSTRUCT));
     struct scene s;
     smear_mesh road;
     const int count = make_road(&s, &road, SMEAR_RECONSTRUCT, flat_depth);
     s.frame.light_space = linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED;
-    bool ok = rig_begin(&r, &desc, true) && CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK);
-    if (ok) {
-        memcpy(out->color, r.color, sizeof out->color);
-        memcpy(out->depth, r.depth, sizeof out->depth);
-        out->camera = s.camera;
-    }
-    rig_end(&r);
+    RIG(r, &desc, true);
+    const bool ok = CHECK_EQ(rig_frame(&r, &s.frame, s.draw, count), SMEAR_OK);
+    memcpy(out->color, r.color, sizeof out->color);
+    memcpy(out->depth, r.depth, sizeof out->depth);
+    out->camera = s.camera;
     return ok;
 }
 

@@ -60,8 +60,7 @@ static void test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels(
 {
     static uint32_t texels[TEXELS], palette[256];
     const smear_desc desc = desc_of();
-    struct rig r;
-    END_UNLESS(rig_begin(&r, &desc, false));
+    RIG(r, &desc, false);
     for (int format = SMEAR_TEXEL_8888; format <= SMEAR_TEXEL_PALETTE8; format++) {
         smear_texture t;
         make_texture(&t, texels, palette, (smear_texel_format)format, false);
@@ -88,7 +87,6 @@ static void test_triangles_show_the_picture_whose_texels_are_as_large_as_pixels(
         t.wrap_v = SMEAR_CLAMP;
         CHECK_EQ(shown(&r, &t, 10, SMEAR_NONE, 0, false) & 0xf8f8f8u, level_color[0] & 0xf8f8f8u);
     }
-    rig_end(&r);
 }
 
 static void test_levels_that_cannot_be_are_refused(void)
@@ -99,9 +97,8 @@ static void test_levels_that_cannot_be_are_refused(void)
         { 48, 64, 1, false }, { 64, 63, 1, false }, { 48, 63, 0, true }, { 64, 64, 255, false }
     };
     const smear_desc desc = desc_of();
-    struct rig r;
     struct scene s;
-    END_UNLESS(rig_begin(&r, &desc, false));
+    RIG(r, &desc, false);
     make_scene(&s, 0, SMEAR_NONE);
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
         smear_texture t;
@@ -114,7 +111,6 @@ static void test_levels_that_cannot_be_are_refused(void)
         CHECK_EQ(smear_begin(r.ctx, &s.frame), SMEAR_OK);
         CHECK_EQ(smear_error_kind(smear_submit(r.ctx, &draw)), tried[i].ok ? SMEAR_OK : SMEAR_ERR_ARG);
     }
-    rig_end(&r);
 }
 
 #include "build/suites/mipmaps.h"

@@ -416,10 +416,9 @@ static void test_deformation_scales_with_objects(void)
                                        SMEAR_OBJECT, SMEAR_LAYERED };
     static const uint16_t scale[] = { 64, 128, 384, 1024, 4096 };       /* the last: as 2048 */
     static int16_t bent[2][12], told[2][12];
-    struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.methods = SMEAR_SET_FILTERS | SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL | SMEAR_SET_LAYERS;
-    END_UNLESS(rig_begin(&r, &desc, true));
+    RIG(r, &desc, true);
     for (int m = 0; m < 7; m++)
         for (int i = 0; i < 5; i++)
             for (int poses = 0; poses < 2; poses++) {
@@ -464,7 +463,6 @@ static void test_deformation_scales_with_objects(void)
                     CHECK(scaled == NULL || memcmp(scaled, r.picture, WIDTH * HEIGHT * 4) != 0);
                 free(scaled);
             }
-    rig_end(&r);
 }
 
 /* The square's upper edge at a time in frames, falling: positions of one and two frames ago tell where it is while the shutter
@@ -480,12 +478,12 @@ static void test_vertices_follow_the_curve_of_three_poses(void)
     static const uint8_t methods[] = { SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_AUTO, SMEAR_TIMEMASK };
     static const double time[2][2] = { { -1, -2 }, { -0.25, 0.25 } };
     static int16_t bent[2][2][12];
-    struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.methods = SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
     for (int i = 0; i < 4; i++)
         bend_square(bent[i / 2][i % 2], time[i / 2][i % 2]);
-    for (int m = 0; m < 4 && rig_begin(&r, &desc, false); m++) {
+    for (int m = 0; m < 4; m++) {
+        RIG(r, &desc, false);
         uint8_t *picture[2];
         for (int poses = 0; poses < 2; poses++) {
             struct stage s;
@@ -505,7 +503,6 @@ static void test_vertices_follow_the_curve_of_three_poses(void)
             say("      method %d: %d bytes differ\n", methods[m], different);
         free(picture[0]);
         free(picture[1]);
-        rig_end(&r);
     }
 }
 
@@ -530,11 +527,10 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
 {
     static const uint32_t rate[] = { 144, 120, 60, 50, 30, 25, 24, 10 };
     static const uint8_t methods[] = { SMEAR_ACCUMULATE, SMEAR_SUBFRAMES, SMEAR_TIMEMASK, SMEAR_AUTO };
-    struct rig r;
     struct stage s;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-    END_UNLESS(rig_begin(&r, &desc, false));
+    RIG(r, &desc, false);
     for (int m = 0; m < 4; m++)
         for (int mode = 0; mode < 4; mode++)
             for (int i = 0; i < 8; i++) {
@@ -565,7 +561,6 @@ static void test_fixed_shutters_keep_the_length_of_streaks(void)
     s.frame.shutter.us = 0;
     s.frame.shutter.mode = SMEAR_SHUTTER_FIXED + 1;
     CHECK_EQ(smear_error_kind(rig_frame(&r, &s.frame, &s.draw[1], 1)), SMEAR_ERR_ARG);
-    rig_end(&r);
 }
 
 static void test_the_exposure_of_a_fixed_shutter_is_exact(void)

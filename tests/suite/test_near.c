@@ -23,12 +23,10 @@ static bool draw(uint8_t method, int32_t samples, double near_plane, uint8_t out
         { .id = 1, .mesh = &ground, .material = &grey, .now = &still },
         { .id = 2, .mesh = &stripe, .material = &white, .now = &still }
     };
-    struct rig r;
     smear_desc desc = small_desc(WIDTH, HEIGHT);
     desc.format = SMEAR_XRGB8888;
     desc.methods |= SMEAR_SET(SMEAR_ACCUMULATE) | SMEAR_SET_TEMPORAL;
-    if (!rig_begin(&r, &desc, false))
-        return false;
+    RIG(r, &desc, false);
     bool ok = true;
     for (int i = 0; i < 2 && ok; i++) {
         smear_camera camera = camera_at(0.2 - 0.5 * i, 1.0, 2.0 - 0.9 * i, 0.5);
@@ -38,9 +36,7 @@ static bool draw(uint8_t method, int32_t samples, double near_plane, uint8_t out
         rig_forget_output(&r);
         ok = CHECK_EQ(rig_frame(&r, &frame, draws, 2), SMEAR_OK) && CHECK(r.picture_size == (size_t)BYTES);
     }
-    for (int i = 0; ok && i < BYTES; i++)
-        out[i] = r.picture[i];
-    rig_end(&r);
+    memcpy(out, r.picture, BYTES);
     return ok;
 }
 
@@ -107,13 +103,9 @@ static bool draw_at_the_eye(int tile, uint32_t number, uint8_t out[BYTES])
     desc.methods = SMEAR_SET_TEMPORAL;
     desc.tile = (int16_t)tile;
     desc.max_triangles = 2000;
-    struct rig r;
-    if (!rig_begin(&r, &desc, false))
-        return false;
+    RIG(r, &desc, false);
     const bool ok = CHECK_EQ(rig_frame(&r, &frame, &a, 1), SMEAR_OK) && CHECK(r.picture_size == (size_t)BYTES);
-    for (int i = 0; ok && i < BYTES; i++)
-        out[i] = r.picture[i];
-    rig_end(&r);
+    memcpy(out, r.picture, BYTES);
     return ok;
 }
 

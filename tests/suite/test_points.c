@@ -54,7 +54,6 @@ static double light_at(double px, double py, const double a[2], const double b[2
 static double error_of(const smear_point *point, const double a[2], const double b[2], double radius, uint32_t clear, int method,
                        bool linear)
 {
-    struct rig r;
     smear_point copy = *point;
     const smear_points points = { &copy, 1 };
     const smear_overlay overlay = { NULL, 0, &points };
@@ -65,8 +64,7 @@ static double error_of(const smear_point *point, const double a[2], const double
     const smear_desc desc = desc_of();
     double sum = 0;
     int count = 0;
-    if (!rig_begin(&r, &desc, false))
-        return 1e9;
+    RIG(r, &desc, false);
     CHECK_EQ(rig_frame(&r, &frame, NULL, 0), SMEAR_OK);
     const uint32_t *picture = (const uint32_t *)(void *)r.picture;
     for (int y = 0; y < HEIGHT; y++)
@@ -84,7 +82,6 @@ static double error_of(const smear_point *point, const double a[2], const double
                 count += light != 0;
             }
         }
-    rig_end(&r);
     return count != 0 ? sqrt(sum / count) : 0;
 }
 

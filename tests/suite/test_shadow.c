@@ -70,12 +70,10 @@ static void make_shaded(struct shaded *s, int method, bool linear, bool round, d
 
 static bool see(uint32_t *out, const struct shaded *s)
 {
-    struct rig r;
     const smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .reach = 12, .methods = ALL_METHODS };
-    bool ok = rig_begin(&r, &desc, false) && CHECK_EQ(rig_frame(&r, &s->frame, s->draw, s->count), SMEAR_OK);
-    if (ok)
-        memcpy(out, r.picture, PIXELS * 4);
-    rig_end(&r);
+    RIG(r, &desc, false);
+    const bool ok = CHECK_EQ(rig_frame(&r, &s->frame, s->draw, s->count), SMEAR_OK);
+    memcpy(out, r.picture, PIXELS * 4);
     return ok;
 }
 

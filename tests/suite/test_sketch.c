@@ -175,23 +175,20 @@ static smear_desc sketch_desc(void)
 /* The third of three frames, alone in its rig; the caller frees it. */
 static uint8_t *third(const smear_desc *desc, enum kind kind, int method, int target, smear_stats *stats)
 {
-    struct rig r;
     struct world w;
     uint8_t *picture = NULL;
-    if (rig_begin(&r, desc, false))
-        for (int i = 0; i < 3; i++) {
-            make_world(&w, kind, i);
-            w.frame.method = (uint8_t)method;
-            w.frame.target = (uint16_t)target;
-            if (method == SMEAR_NONE)
-                w.frame.edges = SMEAR_EDGES_HARD;
-            free(picture);
-            picture = rig_copy(&r, &w.frame, w.draw, DRAWS);
-        }
-    if (stats != NULL && r.ctx != NULL)
+    RIG(r, desc, false);
+    for (int i = 0; i < 3; i++) {
+        make_world(&w, kind, i);
+        w.frame.method = (uint8_t)method;
+        w.frame.target = (uint16_t)target;
+        if (method == SMEAR_NONE)
+            w.frame.edges = SMEAR_EDGES_HARD;
+        free(picture);
+        picture = rig_copy(&r, &w.frame, w.draw, DRAWS);
+    }
+    if (stats != NULL)
         smear_get_stats(r.ctx, stats);
-    CHECK(guards_intact(&r));
-    rig_end(&r);
     return picture;
 }
 
