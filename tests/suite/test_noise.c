@@ -134,24 +134,21 @@ static void test_walls_of_noise_are_near_the_exact_mean(void)
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO);
     desc.max_draws = PANELS;
-    struct rig r;
-    bool ok = rig_begin(&r, &desc, false);
+    RIG(r, &desc, false);
     double sharp = 0;
-    for (uint32_t i = 0; i < count && ok; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         double apart = 0;
         random_state = (first + i) * 2654435761u + 77u;
         for (int k = 0; k < 4; k++)
             random_u32();
         const struct pass p = random_pass();
-        ok = measure(&error[i], &apart, &r, &p);
+        END_UNLESS(measure(&error[i], &apart, &r, &p));
         sharp += apart / count;
         if (getenv("SMEAR_FIRST") != NULL)
             printf("  %.2f codes, sharp %.1f: case %u: %s, grain %.1f travels %.0f px, heading %.2f yaw %.2f%s%s\n", error[i], apart,
                    (unsigned)(first + i), kind_name[p.kind], p.grain, p.travel, p.heading, p.yaw, p.linear ? ", linear" : "",
                    p.smooth ? ", smooth" : "");
     }
-    rig_end(&r);
-    REQUIRE(ok);
     qsort(error, count, sizeof error[0], by_value);
     printf("  of %u walls of noise half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f; sharp ones are "
            "%.1f off\n", (unsigned)count, error[count / 2], error[count * 9 / 10], error[count - 1], sharp);

@@ -134,21 +134,18 @@ static void check_target(bool outside, uint16_t target, uint16_t methods, double
     const uint32_t count = wanted < CASES_MAX ? wanted : CASES_MAX, first = number_from("SMEAR_FIRST", 1);
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO) | methods;
-    struct rig r;
-    bool ok = rig_begin(&r, &desc, false);
-    for (uint32_t i = 0; i < count && ok; i++) {
+    RIG(r, &desc, false);
+    for (uint32_t i = 0; i < count; i++) {
         random_state = (first + i) * 2654435761u + 77u;
         for (int k = 0; k < 4; k++)
             random_u32();
         const struct visit v = random_visit(outside);
-        ok = measure(&error[i], &sharp, &r, &v, target);
+        END_UNLESS(measure(&error[i], &sharp, &r, &v, target));
         farther = fmax(farther, error[i] - sharp);
         if (getenv("SMEAR_FIRST") != NULL && (error[i] > most * 0.8 || error[i] > sharp + 1))
             printf("  %.2f codes, sharp %.2f: case %u: %s speed %.3f yaw %.2f pitch %.2f radius %.1f at %.1f %.1f %.1f repeats %d\n",
                    error[i], sharp, (unsigned)(first + i), kind_name[v.kind], v.speed, v.yaw, v.pitch, v.radius, v.x, v.y, v.z, v.repeats);
     }
-    rig_end(&r);
-    REQUIRE(ok);
     qsort(error, count, sizeof error[0], by_value);
     printf("  of %u textured rooms half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f: %.2f + sharp\n",
            (unsigned)count, error[count / 2], error[count * 9 / 10], error[count - 1], farther);
