@@ -117,7 +117,8 @@ int smear_accumulate_render(struct smear_context *c)
         if (!c->sums->whole)
             accumulate_rows(c, row, row + 1);
         sums_average_row(c->sums, &c->rows, row, c->frame.samples);
-        result = smear_band_finish_row(&c->rows, row);
+        struct row_job job = { .rows = &c->rows, .row = row };
+        result = smear_band_finish(&job);
     }
     return result;
 }

@@ -208,13 +208,6 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
         convert(r, t->color + target_row(&t->color_rows, t, y) + x0, x0, x1, y);
 }
 
-void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1)
-{
-    struct smear_raster_target t;
-    smear_window_target(r->rows, job_top(r), job_bottom(r), &t);
-    smear_band_convert_rows(r, &t, x0, x1);
-}
-
 /* Points `t` at rows of a tile apart from the window, which shares its depths. */
 static void tile_target(const struct row_job *r, int column, uint32_t *tile, struct smear_raster_target *t)
 {
@@ -243,17 +236,15 @@ void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile)
 static void convert_job(void *argument, int job, int worker)
 {
     const struct row_job *r = (const struct row_job *)argument;
+    struct smear_raster_target t;
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(r->rows, job, &x0, &x1);
-    if (SMEAR_WITH_DAMAGE) {
-        x0 = max_i32(x0, job_left(r));
-        x1 = min_i32(x1, job_right(r));
-    }
-    smear_band_convert_window(r, x0, x1);
+    smear_window_target(r->rows, job_top(r), job_bottom(r), &t);
+    smear_band_convert_rows(r, &t, max_i32(x0, job_left(r)), min_i32(x1, job_right(r)));
 }
 
-static int finish_bands(struct row_job *job)
+int smear_band_finish(struct row_job *job)
 {
     struct smear_rows *rows = job->rows;
     int result = SMEAR_OK;
@@ -265,13 +256,3 @@ static int finish_bands(struct row_job *job)
     }
     return result;
 }
-
-int smear_band_finish_row(struct smear_rows *rows, int row)
-{
-    struct row_job job = { .rows = rows, .row = row };
-    return finish_bands(&job);
-}
-
-#if SMEAR_WITH_DAMAGE
-int smear_band_finish_columns(struct row_job *job) { return finish_bands(job); }
-#endif

@@ -56,9 +56,8 @@ bool smear_band_next(struct row_job *job);
 /* Hands the job's tile row, or its part of it, to the display. Returns SMEAR_OK, or what flush says if negative. */
 int smear_band_flush(const struct row_job *r);
 
-/* Converts columns [x0, x1) of the job's rows, which lie in a target or in the window. */
+/* Converts columns [x0, x1) of the job's rows, which lie in a target. */
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1);
-void smear_band_convert_window(const struct row_job *r, int32_t x0, int32_t x1);
 
 /* Converts a tile of finished pixels, rows a tile apart. */
 void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile);
@@ -66,8 +65,7 @@ void smear_band_convert_tile(const struct row_job *r, int column, uint32_t *tile
 /* Draws blended triangles of the row (rows->blend) over the job's rows of a tile, finished pixels. */
 void smear_band_blend_tile(const struct row_job *r, int column, uint32_t *tile);
 
-/* Convert and hand out what lies finished in the window, band after band: the job's columns of a tile row, or all of one. */
-int smear_band_finish_columns(struct row_job *job);
-int smear_band_finish_row(struct smear_rows *rows, int row);
+/* Converts and hands out what lies finished in the window, band after band: the job's columns of a tile row. */
+int smear_band_finish(struct row_job *job);
 
 #endif

@@ -221,12 +221,15 @@ void smear_groups_list_begin(struct smear_layers *l)
     }
 }
 
-void smear_groups_list_add(struct smear_group *group, const struct smear_bins *g, uint32_t head)
+uint32_t smear_groups_list_add(struct smear_group *group, const struct smear_bins *g, uint32_t i)
 {
-    for (uint32_t i = head; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next) {
-        group->head = i;
+    for (; i < group->end; i = bins_triangle(g, i)->next) {         /* none is the largest number */
+        if (group->head == SMEAR_NO_TRIANGLE)
+            group->head = i;
+        group->tail = i;
         extend(group, g, bins_triangle(g, i));
     }
+    return i;
 }
 
 void smear_groups_list_end(struct smear_layers *l)
@@ -242,14 +245,8 @@ void smear_groups_list(struct smear_layers *l, const struct smear_bins *g, uint3
 {
     smear_groups_list_begin(l);
     /* Numbers grow along the list, group by group; a group may have none. */
-    uint32_t i = head;
-    for (struct smear_group *group = l->group; group < l->group + l->group_count; group++)
-        for (; i < group->end; i = bins_triangle(g, i)->next) {         /* none is the largest number */
-            if (group->head == SMEAR_NO_TRIANGLE)
-                group->head = i;
-            group->tail = i;
-            extend(group, g, bins_triangle(g, i));
-        }
+    for (uint32_t i = 0; i < l->group_count; i++)
+        head = smear_groups_list_add(&l->group[i], g, head);
     smear_groups_list_end(l);
 }
 

@@ -113,9 +113,9 @@ bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assem
 void smear_groups_list(struct smear_layers *l, const struct smear_bins *bins, uint32_t head);
 
 /* Does so where a tile row is drawn from several fills of the store: begins, adds triangles of a group, from `head` on, and
- * ends. A group that has none keeps no head. */
+ * ends. A group that has none keeps no head. Returns the first that is not the group's. */
 void smear_groups_list_begin(struct smear_layers *l);
-void smear_groups_list_add(struct smear_group *group, const struct smear_bins *bins, uint32_t head);
+uint32_t smear_groups_list_add(struct smear_group *group, const struct smear_bins *bins, uint32_t head);
 void smear_groups_list_end(struct smear_layers *l);
 
 /* Finds where groups lie in part behind others that are merged before them; returns false where none does. `reach` is

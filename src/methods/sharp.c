@@ -349,10 +349,10 @@ static bool is_covered(const struct smear_rows *rows, int row)
 /* Draws a row by way of the window. */
 static inline int draw_window_row(struct smear_rows *rows, int row)
 {
+    struct row_job job = { .rows = rows, .row = row };
     smear_sharp_draw_row(rows, row);
     smear_row_blend(rows, row);
-    const int result = smear_band_finish_row(rows, row);
-    return result;
+    return smear_band_finish(&job);
 }
 
 /* ------------------------------------------------------------------ what the display lacks */
@@ -368,7 +368,7 @@ static int draw_damaged_run(struct smear_rows *rows, int row, const struct smear
     smear_row_run(rows, draw_job, &job, FILL_STATIC | FILL_MOVING);
     smear_row_blend_columns(&job);
     stage_end(rows, &rows->stats->time.raster, start);
-    return smear_band_finish_columns(&job);
+    return smear_band_finish(&job);
 }
 
 static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage, int row)
@@ -400,11 +400,8 @@ int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool 
     if (may_be_apart(rows, direct, first, end) && rows_apart(rows, first, end, &result))
         return result;
     for (int row = first; row < end && result == SMEAR_OK; row++) {
-        if (SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row)) {
-            result = draw_direct_row(rows, row);
-        } else {
-            result = draw_window_row(rows, row);
-        }
+        const bool straight = SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row);
+        result = straight ? draw_direct_row(rows, row) : draw_window_row(rows, row);
     }
     return result;
 }
