@@ -400,18 +400,11 @@ int smear_check_overlay(const smear_overlay *overlay)
 
 /* ------------------------------------------------------------------ draw */
 
-/* Smaller pictures halve sizes that are powers of two, down to 1 x 1. */
-static bool has_levels(const smear_texture *t)
-{
-    return (t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0 && t->levels <= 12
-        && (t->width | t->height) >> t->levels != 0;
-}
-
 static bool is_texture(const smear_texture *t)
 {
     return SMEAR_TEXTURE_MOST && t->texels != NULL && t->width - 1u < 4096u && t->height - 1u < 4096u
-        && t->format <= (t->palette != NULL ? SMEAR_TEXEL_OWN : SMEAR_TEXEL_565) && t->wrap_u <= SMEAR_MIRROR
-        && t->wrap_v <= SMEAR_MIRROR && (t->levels == 0 || has_levels(t));
+        && t->format <= (t->palette != NULL ? SMEAR_TEXEL_PALETTE8 : SMEAR_TEXEL_565) && t->wrap_u <= SMEAR_MIRROR
+        && t->wrap_v <= SMEAR_MIRROR && texture_has_levels(t->width, t->height, t->levels);
 }
 
 static bool is_mesh(const smear_mesh *m)

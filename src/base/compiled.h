@@ -63,6 +63,12 @@ enum {
     SMEAR_TEXTURE_MOST = SMEAR_WITH_TEXTURE
 };
 
+/* Smaller pictures of a texture halve sizes that are powers of two, down to 1 x 1. */
+static inline bool texture_has_levels(uint32_t width, uint32_t height, uint32_t levels)
+{
+    return levels == 0 || ((width & (width - 1)) == 0 && (height & (height - 1)) == 0 && levels <= 12 && (width | height) >> levels != 0);
+}
+
 /* ------------------------------------------------------------------ what a desc's set of methods needs */
 
 /* The desc has a method of the set; false without a look where none was compiled in. */

@@ -266,11 +266,8 @@ void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct s
                      int32_t column)
 {
     int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
-    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
-        const uint32_t *in = w->color + window_ring_row(w, y) * w->width + x0;
-        for (int32_t i = 0; i < x1 - x0; i++)
-            out[i] = in[i];
-    }
+    for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile)
+        __builtin_memcpy(out, w->color + window_ring_row(w, y) * w->width + x0, (size_t)(x1 - x0) * sizeof *out);
 }
 
 /* The taps of a pixel: n / 2 pairs at the midpoints of n equal parts of [-v, v], all in q16 px. */

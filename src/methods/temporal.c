@@ -39,21 +39,25 @@ void smear_background_job(void *argument, int job, int worker)
 static void copy_background(const struct smear_tile_run *t)
 {
     const struct smear_raster_target *s = &t->background;
-    for (int32_t y = s->y0; y < s->y1; y++) {
-        const uint32_t *in = s->color + target_row(&s->color_rows, s, y) + s->x0;
-        for (int32_t i = 0; i < s->x1 - s->x0; i++)
-            t->out[(y - s->y0) * t->pitch + i] = in[i];
-    }
+    for (int32_t y = s->y0; y < s->y1; y++)
+        __builtin_memcpy(t->out + (y - s->y0) * t->pitch, s->color + target_row(&s->color_rows, s, y) + s->x0,
+                         (size_t)(s->x1 - s->x0) * sizeof *t->out);
+}
+
+/* Points `out` at the finished pixels of tiles, with the depths of the background. */
+static void finished_target(const struct smear_tile_run *t, struct smear_raster_target *out)
+{
+    *out = t->background;
+    out->color = t->out;
+    out->color_rows = (struct smear_plane_rows){ t->pitch, 0, out->y1 - out->y0, out->x0 };
 }
 
 /* Draws blended triangles over a tile without moving ones. */
 static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
 {
-    const struct smear_raster_target *s = &t->background;
+    struct smear_raster_target over;
     copy_background(t);
-    struct smear_raster_target over = *s;
-    over.color = t->out;
-    over.color_rows = (struct smear_plane_rows){ t->pitch, 0, s->y1 - s->y0, s->x0 };
+    finished_target(t, &over);
     if (t->fill == NULL)
         smear_raster_list(&rows->raster, &over, t->blend);
     else
@@ -103,14 +107,6 @@ static struct smear_tile_run tiles_of(const struct smear_finish *f, int first, i
     t.x0 = t.background.x0 = tile_left(rows, first);
     t.x1 = t.background.x1 = tile_right(rows, end - 1);
     return t;
-}
-
-/* Points `out` at the finished pixels of tiles, with the depths of the background. */
-static void finished_target(const struct smear_tile_run *t, struct smear_raster_target *out)
-{
-    *out = t->background;
-    out->color = t->out;
-    out->color_rows = (struct smear_plane_rows){ t->pitch, 0, out->y1 - out->y0, out->x0 };
 }
 
 static SMEAR_NOINLINE void hand_on(const struct smear_finish *f, const struct smear_tile_run *t)

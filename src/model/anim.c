@@ -344,14 +344,11 @@ static void local_of(smear_transform *out, const smear_model *m, uint32_t index,
     const smear_model_node *n = m->node + index;
     int32_t trs[10];
     if (!n->moves) {
-        for (int i = 0; i < 9; i++)
-            out->basis[i] = n->rest[i];
-        for (int i = 0; i < 3; i++)
-            out->origin[i] = n->rest[9 + i];
+        __builtin_memcpy(out->basis, n->rest, sizeof out->basis);
+        __builtin_memcpy(out->origin, n->rest + 9, sizeof out->origin);
         return;
     }
-    for (int i = 0; i < 10; i++)
-        trs[i] = n->rest[i];
+    __builtin_memcpy(trs, n->rest, sizeof trs);
     for (; c->channel != c->end && c->channel->target == index; c->channel++) {
         if (c->channel->path == SMEAR_PATH_WEIGHTS)
             break;
@@ -440,19 +437,13 @@ static void pose_joints(struct smear_actor *a, const smear_model_skin *skin)
     }
 }
 
-static void copy_positions(int16_t *out, const int16_t *in, uint32_t vertices)
-{
-    for (uint32_t i = 0; i < 3 * vertices; i++)
-        out[i] = in[i];
-}
-
 static void pose_positions(struct smear_actor *a, const smear_model_draw *d, int16_t *out)
 {
     const smear_model *m = a->model;
     const smear_mesh *mesh = m->mesh + d->mesh;
     const int16_t *in = mesh->position;
     if (d->target_count > 0) {
-        copy_positions(out, in, mesh->vertex_count);
+        __builtin_memcpy(out, in, 3u * mesh->vertex_count * sizeof *out);
         in = out;
         for (uint32_t k = 0; k < d->target_count; k++)
             if (a->weight[d->weight_first + k] != 0)
@@ -473,8 +464,7 @@ static void pose_normals(struct smear_actor *a, const smear_model_draw *d, int8_
     const int8_t *in = mesh->normal;
     bool changed = false;
     if (d->target_count > 0 || d->skin == SMEAR_MODEL_NONE) {
-        for (uint32_t i = 0; i < 3u * mesh->vertex_count; i++)
-            out[i] = in[i];
+        __builtin_memcpy(out, in, 3u * mesh->vertex_count);
         in = out;
     }
     for (uint32_t k = 0; k < d->target_count; k++) {

@@ -2,7 +2,7 @@
 /* model.c - blobs: what they are checked for, and how they become a smear_model without being copied. */
 #include "smear_model.h"
 
-#include "base/base.h"
+#include "base/compiled.h"
 #include "model/blob.h"
 #include "base/crc32.h"
 
@@ -68,12 +68,6 @@ static bool is_modest(const int32_t *value, int count)
 
 /* ------------------------------------------------------------------ what smear_submit takes */
 
-static bool are_levels(const struct smear_blob_texture *t)
-{
-    return t->levels == 0 || ((t->width & (t->width - 1)) == 0 && (t->height & (t->height - 1)) == 0 && t->levels <= 12
-                              && (t->width | t->height) >> t->levels != 0);
-}
-
 /* Of all levels: at most 2^25. */
 static uint32_t texels_of(const struct smear_blob_texture *t)
 {
@@ -88,7 +82,8 @@ static bool are_textures(struct blob *b)
     const struct smear_blob_texture *t = blob_table(b, BLOB_TEXTURE);
     for (uint32_t i = 0; i < blob_count(b, BLOB_TEXTURE); i++, t++) {
         if (t->width < 1 || t->width > 4096 || t->height < 1 || t->height > 4096
-            || t->format > SMEAR_TEXEL_PALETTE8 || t->wrap_u > SMEAR_MIRROR || t->wrap_v > SMEAR_MIRROR || !are_levels(t))
+            || t->format > SMEAR_TEXEL_PALETTE8 || t->wrap_u > SMEAR_MIRROR || t->wrap_v > SMEAR_MIRROR
+            || !texture_has_levels(t->width, t->height, t->levels))
             return false;
         uint32_t count = texels_of(t);
         uint32_t size = t->format == SMEAR_TEXEL_8888 ? 4 : t->format == SMEAR_TEXEL_565 ? 2 : 1;
