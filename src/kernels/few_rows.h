@@ -53,8 +53,8 @@ static inline bool few_outside(uint64_t edges)
 {
     if (SMEAR_ON_64)
         return (edges & (1ull << 20 | 1ull << 41 | 1ull << 63)) != 0;
-    const uint32_t high = (uint32_t)(edges >> 32);
-    return (int32_t)(high | (uint32_t)edges << 11 | high << 22) < 0;
+    const uint32_t high = (uint32_t)(edges >> 32), both = high | (uint32_t)edges << 11;
+    return SMEAR_SMALL_FILE ? (int32_t)(both | high << 22) < 0 : (both & (1u << 31 | 1u << 9)) != 0;
 }
 
 #endif
