@@ -95,7 +95,7 @@ typedef struct smear_mesh {
 typedef enum smear_texel_format {
     SMEAR_TEXEL_8888,           /* uint32_t 0xAARRGGBB, sRGB-encoded, straight alpha */
     SMEAR_TEXEL_565,            /* uint16_t, red on top; opaque. Fastest for sharp frames of 16-bit displays */
-    SMEAR_TEXEL_PALETTE8, SMEAR_TEXEL_OWN      /* uint8_t into palette[256] of 0xAARRGGBB; likewise, the library's own */
+    SMEAR_TEXEL_PALETTE8        /* uint8_t into palette[256] of 0xAARRGGBB */
 } smear_texel_format;
 
 typedef enum smear_wrap { SMEAR_REPEAT, SMEAR_CLAMP, SMEAR_MIRROR } smear_wrap;

@@ -13,7 +13,7 @@ SMEAR_INLINE uint32_t texel_fetch(const void *texels, const uint32_t *palette, u
 {
     if (format == SMEAR_TEXEL_8888)
         return ((const uint32_t *)texels)[at];
-    if (format >= SMEAR_TEXEL_PALETTE8)
+    if (format == SMEAR_TEXEL_PALETTE8)
         return palette[((const uint8_t *)texels)[at]];
     uint32_t c = ((const uint16_t *)texels)[at];
     uint32_t r = c >> 11, g = c >> 5 & 63u, b = c & 31u;

@@ -266,9 +266,7 @@ static void cover_small(const struct setup *s, const struct pixel_box *box, smea
 
 void smear_cover_choose(struct setup *s, bool small)
 {
-    s->rows = !SMEAR_SPAN_ROWS || s->flat || (small && !segment_textured(s->segment)) ? NULL
-            : segment_textured(s->segment) && s->draw->sampler.format == SMEAR_TEXEL_OWN
-            ? ((const struct smear_own_texels *)(const void *)s->draw->sampler.palette)->choose(s) : smear_rows_choose(s);
+    s->rows = !SMEAR_SPAN_ROWS || s->flat || (small && !segment_textured(s->segment)) ? NULL : smear_rows_choose(s);
 }
 
 void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)

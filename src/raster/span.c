@@ -251,10 +251,16 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
+    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw)) {
+        for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
+            if (z >> 16 > *depth)
+                *color = blended_pixel(*color, *in, true, frame_transfer(s->frame));
+        return;
+    }
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = blended_pixel(*color, *in, draw_is_shadow(s->draw), frame_transfer(s->frame));
+                *color = blended_pixel(*color, *in, SMEAR_SMALL_CODE && draw_is_shadow(s->draw), frame_transfer(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {

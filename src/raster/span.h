@@ -89,12 +89,6 @@ smear_rows_fn smear_rows_shade;
 /* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
 smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
 
-/* What a texture of the library's own (SMEAR_TEXEL_OWN) has in place of a palette. */
-struct smear_own_texels {
-    uint32_t palette[32];
-    smear_rows_fn *(*choose)(const struct setup *s);        /* in place of smear_rows_choose */
-};
-
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {

@@ -211,7 +211,7 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
         sample_run(out, s, run, first, n, false, 0);
     else if (sampler.format == SMEAR_TEXEL_8888)
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_8888);
-    else if (sampler.format >= SMEAR_TEXEL_PALETTE8)
+    else if (sampler.format == SMEAR_TEXEL_PALETTE8)
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
     else
         sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);

@@ -212,8 +212,7 @@ static void test_the_text_of_a_bad_draw_names_the_field_and_the_rest_is_drawn(vo
         DRAW(motion, SMEAR_MOTION_NONE + 1), DRAW(billboard, SMEAR_BILLBOARD_UPRIGHT + 1),
         MESH(shift, 63), MESH(shift, -33), MESH(uv_shift, 16), MESH(scale, -1), MESH(offset[0], (1 << 20) + 1),
         MESH(offset[1], (1 << 20) + 1), MESH(offset[2], -(1 << 20) - 1), TEXTURE(width, 0), TEXTURE(height, 0), TEXTURE(width, 4097),
-        TEXTURE(height, 65535), TEXTURE(format, SMEAR_TEXEL_OWN + 1), TEXTURE(format, SMEAR_TEXEL_OWN),
-        TEXTURE(format, SMEAR_TEXEL_PALETTE8) /* no palette */,
+        TEXTURE(height, 65535), TEXTURE(format, SMEAR_TEXEL_PALETTE8 + 1), TEXTURE(format, SMEAR_TEXEL_PALETTE8) /* no palette */,
         TEXTURE(wrap_u, SMEAR_MIRROR + 1), TEXTURE(wrap_v, 200)
     };
     smear_desc desc = small_desc(32, 32);

@@ -222,13 +222,13 @@ static int texture(struct tape_writer *w, const smear_texture *t)
                       : t->format == SMEAR_TEXEL_565 ? UINT16
                                                       : UINT8;
     int texels = array(w, kind, t->texels, count);
-    int palette = t->format >= SMEAR_TEXEL_PALETTE8 ? array(w, UINT32, t->palette, 256) : NO_OBJECT;
+    int palette = t->format == SMEAR_TEXEL_PALETTE8 ? array(w, UINT32, t->palette, 256) : NO_OBJECT;
     buffer_print(&text, "{ ");
     add_reference(&text, w, "texels", texels);
     add_reference(&text, w, "palette", palette);
     add_field(&text, "width", t->width);
     add_field(&text, "height", t->height);
-    add_field(&text, "format", t->format > SMEAR_TEXEL_PALETTE8 ? SMEAR_TEXEL_PALETTE8 : t->format);
+    add_field(&text, "format", t->format);
     add_field(&text, "wrap_u", t->wrap_u);
     add_field(&text, "wrap_v", t->wrap_v);
     buffer_print(&text, "}");
