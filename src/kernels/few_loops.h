@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* few_loops.h - loops for rows of textured triangles of few pixels, with all planes in registers that compilers do not have. The loop that defines their results is few_rows of raster/few_draw.c. */
+/* few_loops.h - loops for rows of textured triangles of few pixels, with all planes in registers that compilers do not have. The loop that
+ * defines their results is few_rows of raster/few_draw.c. */
 #ifndef SMEAR_KERNELS_FEW_LOOPS_H
 #define SMEAR_KERNELS_FEW_LOOPS_H
 
