@@ -337,9 +337,12 @@ static void test_matcaps_have_the_same_bits(void)
         int16_t uv[2] = { 0, 0 };
         const smear_mesh mesh = { .normal = normal, .vertex_count = 1 };
         smear_camera camera = smear_perspective(SMEAR_DEGREES(60), 1, 0);
-        camera.pose = smear_from_euler(random_u32(), random_u32(), random_u32());
+        uint32_t angle[6];              /* in an order that compilers do not choose */
+        for (int k = 0; k < 6; k++)
+            angle[k] = random_u32();
+        camera.pose = smear_from_euler(angle[0], angle[1], angle[2]);
         camera.half_height = i % 5 == 4 ? 65536 : 0;
-        smear_transform place = smear_from_euler(random_u32(), random_u32(), random_u32());
+        smear_transform place = smear_from_euler(angle[3], angle[4], angle[5]);
         for (int k = 0; k < 3; k++) {
             normal[k] = (int8_t)(random_u32() % 147 - 73);
             place.origin[k] = (int32_t)random_u32() >> 8;
@@ -350,7 +353,7 @@ static void test_matcaps_have_the_same_bits(void)
         hash = (hash ^ (uint16_t)uv[0]) * 16777619u;
         hash = (hash ^ (uint16_t)uv[1]) * 16777619u;
     }
-    CHECK_EQ(hash, 4211184789u);
+    CHECK_EQ(hash, 1027009600u);
 }
 
 #include "build/suites/math.h"
