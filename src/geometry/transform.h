@@ -48,7 +48,12 @@ struct smear_viewport {
  * summed one by one: the lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3], int up)
 {
-    const int32_t x = shl_wrap(v[0], up), y = shl_wrap(v[1], up), z = shl_wrap(v[2], up);
+    int32_t x = v[0], y = v[1], z = v[2];
+    if (__builtin_expect(up != 0, false)) {
+        x = shl_wrap(x, up);
+        y = shl_wrap(y, up);
+        z = shl_wrap(z, up);
+    }
     if (SMEAR_HAS_MUL64)
         return (int32_t)(((int64_t)x * m[0] + (int64_t)y * m[1] + (int64_t)z * m[2]) >> 16) + m[3];
     uint32_t high = (uint32_t)(x * (m[0] >> 16)) + (uint32_t)(y * (m[1] >> 16)) + (uint32_t)(z * (m[2] >> 16));
