@@ -128,6 +128,25 @@ uint32_t smear_image_pixel(const smear_image *m, const uint8_t *row, int32_t i, 
     return (row[i >> 3] & 0x80 >> (i & 7)) != 0 ? argb : 0;
 }
 
+/* Most letters are opaque bits, 1:1. */
+static inline bool is_plain(const smear_image *m, int32_t scale, uint32_t argb)
+{
+    return m->format == SMEAR_IMAGE_MASK1 && scale == 1 && argb >= 0xff000000u;
+}
+
+/* Draws a row of n bits that lies in the part. What the last byte has beyond them may be anything. */
+static inline void draw_bits(uint32_t *out, const uint8_t *row, int32_t n, uint32_t color)
+{
+    for (; n > 0; n -= 8, out += 8) {
+        uint32_t bits = (uint32_t)*row++ << 24;
+        if (n < 8)
+            bits &= 0xffffffffu << (32 - n);
+        for (uint32_t i = 0; bits != 0; bits <<= 1, i++)
+            if ((bits >> 31) != 0)
+                out[i] = color;
+    }
+}
+
 /* Draws a row of an image from column x on. */
 static void draw_row(const struct part *p, const smear_image *m, const uint8_t *row, int32_t x, int32_t scale, uint32_t argb)
 {
@@ -149,12 +168,17 @@ static void draw_text(const struct part *p, const smear_overlay_item *item, int3
     const uint32_t cells = m->cells != 0 ? m->cells : 1u, pitch = row_bytes(m), size = pitch * m->height;
     const uint8_t *row = m->pixels + (uint32_t)line * pitch;
     const int32_t step = smear_overlay_advance(item), width = m->width * scale;
+    const bool plain = is_plain(m, scale, argb);
     int32_t x = item->x;
     for (const char *c = item->text; *c != '\0' && x < p->x1; c++, x += step) {
         const uint32_t cell = (uint32_t)(uint8_t)*c - font->first;
         if (x + width <= p->x0 || cell >= cells)
             continue;
-        draw_row(p, m, row + cell * size, x, scale, argb);
+        const uint8_t *letter = row + cell * size;
+        if (plain && x >= p->x0 && x + width <= p->x1)
+            draw_bits(p->out + (x - p->x0), letter, width, argb & 0xffffffu);
+        else
+            draw_row(p, m, letter, x, scale, argb);
     }
 }
 
