@@ -757,6 +757,25 @@ static void mend_checksums(struct buffer *file)
     }
 }
 
+static void test_png_survives_damage_under_right_checksums(void)
+{
+    int pictures = 0, errors = 0;
+    random_seed(8);
+    for (int round = 0; round < 6000; round++) {
+        struct buffer file OWNED(buffer_free) = small_png(round % 15, round % 2 == 0);
+        struct image got OWNED(image_free);
+        struct failure f = {""};
+        for (unsigned n = 1 + random_below(3); n > 0; n--)
+            file.data[random_below((unsigned)file.size)] = (uint8_t)random_bits();
+        mend_checksums(&file);
+        bool ok = png_decode(file.data, file.size, &got, &f);
+        pictures += ok;
+        errors += !ok;
+        CHECK(ok == (got.rgba != NULL) && ok == (f.text[0] == '\0'));
+    }
+    CHECK(pictures > 10 && errors > 1000);
+}
+
 static void test_png_knows_no_other_colour_types_and_depths(void)
 {
     for (int type = 0; type < 9; type++)

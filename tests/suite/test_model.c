@@ -1320,6 +1320,91 @@ static void test_one_mesh_in_very_many_nodes_is_refused(void)
     free(text);
 }
 
+/* A file with something of everything. */
+static uint8_t *rich_glb(size_t *size)
+{
+    struct source s = triangle();
+    ADD(&s, U8, "VEC4", 3, "", 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0);         /* 1 joints */
+    ADD(&s, F32, "VEC4", 3, "", 0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);    /* 2 weights */
+    ADD(&s, U16, "SCALAR", 3, "", 2, 1, 0);                                 /* 3 indices */
+    ADD(&s, F32, "SCALAR", 2, "", 0, 1);                                    /* 4 times */
+    ADD(&s, F32, "VEC4", 2, "", 0, 0, 0, 1, 0, 0, 1, 0);                    /* 5 rotations */
+    ADD(&s, F32, "SCALAR", 2, "", 0, 1);                                    /* 6 weights */
+    ADD(&s, F32, "VEC2", 3, "", 0, 0, 1, 0, 0, 1);                          /* 7 uv */
+    add_view(&s, U8, "", (const double[]){ 1 }, 1);
+    add_accessor(&s, F32, "VEC3", 3, ",'sparse':{'count':1,'indices':{'bufferView':8,"
+                 "'componentType':5121},'values':{'bufferView':0}}");       /* 8 morph */
+    return make_glb(&s, PICTURE "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
+                    "{'index':0,'extensions':{'KHR_texture_transform':{'offset':[1,2]}}}}}],"
+                    "'nodes':[{'mesh':0,'skin':0,'children':[1,2]},{'name':'a'},{'scale':[1,2,1]},"
+                    "{'camera':0}],'skins':[{'joints':[1,2]}],'scenes':[{'nodes':[0,3]}],"
+                    "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':1}}],"
+                    "'meshes':[{'primitives':[{'material':0,'indices':3,'targets':[{'POSITION':8}],"
+                    "'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2,'TEXCOORD_0':7}}]}],"
+                    "'animations':[{'samplers':[{'input':4,'output':5},{'input':4,'output':6}],"
+                    "'channels':[{'sampler':0,'target':{'node':1,'path':'rotation'}},"
+                    "{'sampler':1,'target':{'node':0,'path':'weights'}}]}]", size);
+}
+
+static void test_a_glb_cut_off_anywhere_is_refused(void)
+{
+    size_t size;
+    uint8_t *glb = rich_glb(&size);
+    struct model m;
+    struct failure f = { 0 };
+    if (CHECK(model_parse(glb, size, NULL, &m, &f)))
+        model_free(&m);
+    for (size_t n = 0; n < size; n++) {
+        /* A block of exactly n bytes, so that a sanitizer sees any step beyond. */
+        uint8_t *cut = malloc(n == 0 ? 1 : n);
+        if (!CHECK(cut != NULL))
+            break;
+        memcpy(cut, glb, n);
+        f = (struct failure){ 0 };
+        CHECK(!model_parse(cut, n, NULL, &m, &f));
+        CHECK(f.text[0] != '\0');
+        /* The same with a header that agrees with the size. */
+        if (n >= 12) {
+            for (int i = 0; i < 4; i++)
+                cut[8 + i] = (uint8_t)(n >> 8 * i);
+            f = (struct failure){ 0 };
+            CHECK(!model_parse(cut, n, NULL, &m, &f));
+        }
+        free(cut);
+    }
+    free(glb);
+}
+
+static void test_a_glb_with_any_byte_changed_is_read_or_refused(void)
+{
+    size_t size;
+    uint8_t *glb = rich_glb(&size);
+    int loaded = 0;
+    for (size_t i = 0; i < size; i++) {
+        static const uint8_t changes[] = { 0x01, 0x10, 0x80, 0xff };
+        for (size_t k = 0; k < COUNT(changes); k++) {
+            struct model m;
+            struct model_pose pose = { 0 };
+            struct failure f = { 0 };
+            double min[3], max[3];
+            glb[i] ^= changes[k];
+            if (model_parse(glb, size, NULL, &m, &f)) {
+                loaded++;
+                if (model_pose(&m, MODEL_CLIP_ALL, 0.3, true, &pose, &f) &&
+                    model_pose_bounds(&pose, min, max))
+                    CHECK(min[0] <= max[0] && min[1] <= max[1] && min[2] <= max[2]);
+                model_pose_free(&pose);
+                model_free(&m);
+            } else {
+                CHECK(f.text[0] != '\0');
+            }
+            glb[i] ^= changes[k];
+        }
+    }
+    CHECK(loaded > 100);
+    free(glb);
+}
+
 /* --- OBJ --- */
 
 static void test_obj_faces_of_every_form_become_triangles(void)
