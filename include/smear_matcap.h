@@ -69,8 +69,8 @@ static inline void smear_matcap_axis_(int32_t axis[3], const int32_t turn[9], co
 }
 
 /* Writes u and v of every vertex of a mesh with normals, in 1/2^15 of the texture: a ball that reaches to .496 from the middle, which
- * leaves half a texel of 128 at its rim. They err by less than 1/400 of the texture. Where the basis scales alike it takes some 30
- * instructions a vertex on a Cortex-M0+, else some 400. `place` and `camera` are those of the frame to come; null: the identity. */
+ * leaves half a texel of 128 at its rim. They err by less than 1/300 of the texture. Where the basis scales alike it takes some 64
+ * instructions a vertex on a Cortex-M0+, else some 1,100. `place` and `camera` are those of the frame to come; null: the identity. */
 static inline void smear_matcap_uv(int16_t *uv, const smear_mesh *mesh, const smear_transform *place, const smear_camera *camera)
 {
     static const smear_transform identity = SMEAR_IDENTITY;

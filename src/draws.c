@@ -106,7 +106,6 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     struct smear_draw_poses poses;
     poses_of(&poses, c, i);
     a->mesh = draw->mesh;
-    a->uv_up = c->raster_draw[i].sampler.uv_up;
     a->first = 0;
     a->end = draw->mesh->triangle_count;
     a->material = draw->material != NULL ? draw->material : &white;

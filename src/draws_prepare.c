@@ -121,11 +121,9 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     const smear_texture *texture = SMEAR_TEXTURE_MOST && m != NULL ? m->texture : NULL;
     r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
     r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-    if (texture != NULL && d->mesh->uv != NULL) {      /* coarse coordinates grow: where triangles are cut, they are rounded */
-        const int shift = mesh_uv_shift(d->mesh), up = min_i32(smear_mesh_spare(d->mesh->uv, 2u * d->mesh->vertex_count), 15 - shift);
-        r->sampler.uv_up = (uint8_t)up;
-        smear_sampler_make(&r->sampler, texture, shift + up, m->bilinear, frame_transfer(&c->rows.raster));
-    }
+    if (texture != NULL)
+        smear_sampler_make(&r->sampler, texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
+                           frame_transfer(&c->rows.raster));
     c->rows.blends = c->rows.blends || draw_is_blended(r);
     /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
     c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);

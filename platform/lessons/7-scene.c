@@ -6,10 +6,10 @@
 #include <smear_matcap.h>
 #include <smear_scene.h>
 
-enum { RINGS = 10, SECTORS = 20, VERTICES = 11 * 21, BALL = 2 * RINGS * SECTORS, TRIANGLES = 3 * BALL + 4, CHROME = 64 };
+enum { RINGS = 10, SECTORS = 20, VERTICES = 11 * 21, BALL = 2 * RINGS * SECTORS, TRIANGLES = 3 * BALL + 4, CHROME = 64, F = 1 << 14 };
 
 static uint64_t memory[SMEAR_MEMORY(PANEL_WIDTH, PANEL_HEIGHT, TRIANGLES, 5)];
-static const int16_t floor_corner[] = { -8, 0, -8, -8, 0, 8, 8, 0, 8, 8, 0, -8 }, floor_uv[] = { 0, 0, 0, 8, 8, 8, 8, 0 };
+static const int16_t floor_corner[] = { -F, 0, -F, -F, 0, F, F, 0, F, F, 0, -F }, floor_uv[] = { 0, 0, 0, F, F, F, F, 0 };
 static const uint16_t floor_side[] = { 0, 1, 2, 0, 2, 3 }, check[4] = { 0xb596, 0x738e, 0x738e, 0xb596 };
 static const smear_texture checks = { check, NULL, 2, 2, SMEAR_TEXEL_565, SMEAR_REPEAT, SMEAR_REPEAT, 0 };
 static int16_t ball_corner[VERTICES * 3], ball_uv[VERTICES * 2];
@@ -17,7 +17,7 @@ static uint16_t ball_side[BALL * 3], reflected[CHROME * CHROME];
 static int8_t ball_normal[VERTICES * 3];
 static const smear_texture chrome = { reflected, NULL, CHROME, CHROME, SMEAR_TEXEL_565, SMEAR_CLAMP, SMEAR_CLAMP, 0 };
 static const smear_mesh ball = { ball_corner, ball_normal, ball_uv, NULL, NULL, ball_side, BALL, VERTICES, 14, 15, 1, { 0, 0, 0 }, { 0 } };
-static const smear_mesh ground = { floor_corner, NULL, floor_uv, NULL, NULL, floor_side, 2, 4, 0, 1, 1, { 0, 0, 0 }, { 0 } };
+static const smear_mesh ground = { floor_corner, NULL, floor_uv, NULL, NULL, floor_side, 2, 4, 11, 12, 1, { 0, 0, 0 }, { 0 } };
 static const smear_material polished = { &chrome, { 0 }, SMEAR_OPAQUE, 0, 1, 0, 0, 0, 0 };       /* unlit */
 static const smear_material tiled = { &checks, { 0 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 };
 static const smear_material red = { NULL, { 220, 0, 0, 255 }, SMEAR_OPAQUE, 0, 0, 0, 0, 0, 0 };

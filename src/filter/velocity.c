@@ -201,6 +201,24 @@ void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool 
         t->inspect[2 * at] = t->inspect[2 * at + 1] = 0;
 }
 
+void smear_velocity_tiny(struct tiny_look *l, const struct setup *s, const struct pixel_box *box, const struct tiny_depths *depths)
+{
+    const struct smear_raster_target *t = s->target;
+    const int32_t x0 = max_i32(box->left, t->x0), x1 = min_i32(box->right, t->x1);
+    uint16_t before[TINY_PIXELS];
+    for (int drawn = 0; drawn < 2; drawn++) {
+        uint16_t *depth = before;
+        if (drawn == 1)
+            smear_tiny_box(l, t, s->v, s->color, box, depths, s);
+        for (int32_t y = box->top; y < box->bottom; y++)
+            for (int32_t at = target_row(&t->window_rows, t, y) + x0, end = at + x1 - x0; at < end; at++, depth++)
+                if (drawn == 0)
+                    *depth = t->depth[at];
+                else if (*depth != t->depth[at])
+                    smear_velocity_still(t, at, s->velocity_unknown);
+    }
+}
+
 static inline bool is_drawn(const struct span *p, int32_t i, uint32_t z, const uint16_t *depth)
 {
     return p->mask != NULL ? p->mask[i >> 5] >> (i & 31) & 1u : z >> 16 > depth[i];

@@ -35,13 +35,14 @@ static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, c
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
+    const smear_mesh *mesh = d->mesh;
     struct smear_bins *g = b->a->bins;
     uint32_t word = g->vertex_words;
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_place(record, screen);
     if (segment_textured(s))
-        store_mesh_uv(record + s->uv, d, index);
+        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
     if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
         const uint8_t *c = b->vertex_color + 4 * index;
         record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;

@@ -241,7 +241,7 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     else
         store_path(record, s, v->screen);
     if (segment_textured(s))
-        store_mesh_uv(record + s->uv, d, index);
+        store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
     if (segment_colored(s))
         smear_vertex_store_color(record + s->color, d, index, triangle, back);
     if (shares)

@@ -8,18 +8,6 @@
 #include "base/fixmath.h"
 #include "geometry/transform.h"
 
-int smear_mesh_spare(const int16_t *number, uint32_t count)
-{
-    uint32_t all = 1;
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t n = number[i];
-        all |= (uint32_t)(n < 0 ? ~n : n);
-        if (all >> 12 != 0)
-            return 0;
-    }
-    return count_leading_zeros(all) - 17;
-}
-
 /* Returns how many bits |a| has; 0 for 0. */
 static int bit_length(int64_t a)
 {
@@ -101,7 +89,6 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
             scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
     const int scaled_exponent = normalize_block(view->basis, scaled);
     view->basis_exp = scaled_exponent + exponent - mesh->shift;
-    view->up = 0;
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;
         for (int j = 0; j < 3; j++)
@@ -177,7 +164,6 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     const struct factor one = { 1 << 29, -29 };
     p->depths.orthographic = camera->half_height > 0;
     p->depths.coarse = (uint8_t)coarse;
-    p->up = view->up;
 
     /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
     struct factor pixels;
@@ -249,7 +235,6 @@ void smear_projection_weigh(struct smear_projection *const out[], const struct s
     const bool orthographic = is_orthographic(in[0]);
     for (int i = count - 1; i >= 0; i--) {
         out[i]->depths = in[0]->depths;
-        out[i]->up = in[0]->up;
         out[i]->scale = (int16_t)(scale - room);
         out[i]->distance_scale = (int16_t)(distance_scale - room);
         /* Orthographic: W is one in every pose, and so is its mean; rounded sums might not be. */

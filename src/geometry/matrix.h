@@ -35,7 +35,6 @@ static inline bool depths_are_even(const struct smear_depths *d)
  * constant and distance in row 3, in steps of its own. */
 struct smear_projection {
     int32_t m[4][4];
-    uint8_t up;                 /* v_j is 2^up times what the mesh has */
     struct smear_depths depths;
     int16_t scale;              /* log2 of X, Y, W per pixel or unit; negative for huge scenes */
     int16_t distance_scale;     /* log2 of `distance` per unit */
@@ -48,12 +47,7 @@ struct smear_view {
     int32_t basis[3][3];        /* one mesh step is basis 2^basis_exp along the camera's x, y, z */
     int64_t origin[3];          /* q32 world units */
     int basis_exp;
-    uint8_t up;                 /* a mesh step is 2^up of those steps */
 };
-
-/* Returns by how many bits numbers of a mesh can grow to fill 16. Meshes of few coarse steps would leave most bits of a projection, and of
- * cut edges' texture coordinates, to numbers that they do not have. 0, at once, where one of them needs 13. */
-int smear_mesh_spare(const int16_t *number, uint32_t count);
 
 /* Returns the units of X / W with which X, Y and W have about as many bits: a frame's height is one or two of them. Where
  * triangles are cut, near the eye, distances must be more exact than vertices are that have W in units of a pixel's X. */

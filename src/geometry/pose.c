@@ -191,8 +191,6 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
         p->projected[i] = false;
     }
     p->coarse = 0;
-    p->up = d->open_position != NULL || d->close_position != NULL
-              ? 0 : (uint8_t)smear_mesh_spare(d->mesh->position, 3u * d->mesh->vertex_count);
     p->deform = 256;
     if (SMEAR_BLURS && moves) {
         p->camera[1] = &camera[1];
@@ -214,8 +212,6 @@ static const struct smear_projection *project_pose(struct smear_draw_poses *p, c
     if (!p->projected[i]) {
         struct smear_view view;
         smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-        view.basis_exp -= p->up;
-        view.up = p->up;
         smear_projection_make(&p->projection[i], &view, p->camera[i], shot->height, p->coarse);
         p->projected[i] = true;
     }

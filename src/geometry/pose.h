@@ -65,7 +65,6 @@ struct smear_draw_poses {
     const int16_t *position[3];
     int32_t deform;                 /* of the displacement between their vertices, q8 */
     int32_t coarse;                 /* as smear_projection_make has it */
-    uint8_t up;                     /* as struct smear_projection has it */
     bool projected[3];              /* `projection` holds */
     struct smear_projection projection[3];
     /* poses that are not the application's */

@@ -44,32 +44,26 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* Returns a row of struct smear_projection for a vertex in 2^up of its steps. Without a wide multiply, the two halves of the factors are
+/* Returns a row of struct smear_projection for a vertex. Without a wide multiply, the two halves of the factors are
  * summed one by one: the lower ones have 14 bits, so three products fit. */
-static inline int32_t transform_row(const int32_t m[4], const int16_t v[3], int up)
+static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
 {
-    int32_t x = v[0], y = v[1], z = v[2];
-    if (__builtin_expect(up != 0, false)) {
-        x = shl_wrap(x, up);
-        y = shl_wrap(y, up);
-        z = shl_wrap(z, up);
-    }
     if (SMEAR_HAS_MUL64)
-        return (int32_t)(((int64_t)x * m[0] + (int64_t)y * m[1] + (int64_t)z * m[2]) >> 16) + m[3];
-    uint32_t high = (uint32_t)(x * (m[0] >> 16)) + (uint32_t)(y * (m[1] >> 16)) + (uint32_t)(z * (m[2] >> 16));
-    int32_t low = x * (int32_t)((uint32_t)m[0] << 16 >> 18) + y * (int32_t)((uint32_t)m[1] << 16 >> 18)
-                + z * (int32_t)((uint32_t)m[2] << 16 >> 18);
+        return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
+    uint32_t high = (uint32_t)(v[0] * (m[0] >> 16)) + (uint32_t)(v[1] * (m[1] >> 16))
+                  + (uint32_t)(v[2] * (m[2] >> 16));
+    int32_t low = v[0] * (int32_t)((uint32_t)m[0] << 16 >> 18) + v[1] * (int32_t)((uint32_t)m[1] << 16 >> 18)
+                + v[2] * (int32_t)((uint32_t)m[2] << 16 >> 18);
     return (int32_t)(high + (uint32_t)(low >> 14)) + m[3];
 }
 
 static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p,
                                     const int16_t v[3])
 {
-    const int up = p->up;
-    out->x = transform_row(p->m[0], v, up);
-    out->y = transform_row(p->m[1], v, up);
-    out->w = transform_row(p->m[2], v, up);
-    out->distance = is_orthographic(p) ? transform_row(p->m[3], v, up) : out->w;
+    out->x = transform_row(p->m[0], v);
+    out->y = transform_row(p->m[1], v);
+    out->w = transform_row(p->m[2], v);
+    out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
 }
 
 /* Does what transform_inline does, as a call. */

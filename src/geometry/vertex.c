@@ -87,12 +87,12 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
 #if SMEAR_WITH_DAMAGE
 /* What the corners of the mesh's bounds have of a row of the projection: the least one's, and how much more others have along x, y
  * and z. What is lost by rounding these apart is far below a pixel. */
-static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6], int up)
+static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6])
 {
-    part[0] = transform_row(m, b, up);
+    part[0] = transform_row(m, b);
     for (int i = 0; i < 3; i++) {
         const int16_t other[3] = { b[i == 0 ? 3 : 0], b[i == 1 ? 4 : 1], b[i == 2 ? 5 : 2] };
-        part[1 + i] = transform_row(m, other, up) - part[0];
+        part[1 + i] = transform_row(m, other) - part[0];
     }
 }
 
@@ -108,7 +108,7 @@ static bool find_box(struct smear_screen *least, struct smear_screen *most, cons
     const bool even = is_orthographic(p);
     int32_t row[4][4];
     for (int k = 0; k < (even ? 4 : 3); k++)
-        row_of_bounds(row[k], p->m[k], b, p->up);
+        row_of_bounds(row[k], p->m[k], b);
     *least = (struct smear_screen){ .x = INT32_MAX, .y = INT32_MAX };
     *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
     for (int i = 0; i < 8; i++) {
@@ -226,8 +226,8 @@ void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_a
 {
     __builtin_memset(v->uv, 0, sizeof v->uv + sizeof v->color);
     if (segment_textured(s)) {
-        v->uv[0] = shl_wrap(d->mesh->uv[2 * index], d->uv_up);
-        v->uv[1] = shl_wrap(d->mesh->uv[2 * index + 1], d->uv_up);
+        v->uv[0] = d->mesh->uv[2 * index];
+        v->uv[1] = d->mesh->uv[2 * index + 1];
     }
     if (segment_colored(s)) {
         struct smear_color color;

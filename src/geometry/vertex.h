@@ -141,7 +141,6 @@ struct smear_assembly {
     bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */
     bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
-    uint8_t uv_up;                      /* records have 2^uv_up times the mesh's texture coordinates */
     struct smear_placement at;          /* the instant that is drawn */
     /* Finds the placement at open (0) or close (1) or the instant that is drawn (2) in units of 2^coarse pixels, for what is cut. */
     void (*place_fine)(struct smear_placement *place, const struct smear_assembly *d, int key, int coarse);
@@ -267,15 +266,6 @@ static inline void store_color(uint32_t *record, const uint16_t channel[4])
 static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
 {
     *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
-}
-
-static inline int mesh_uv_shift(const smear_mesh *mesh) { return mesh->uv_shift != 0 ? mesh->uv_shift : 15; }
-
-/* Stores a vertex's texture coordinates. */
-static inline void store_mesh_uv(uint32_t *record, const struct smear_assembly *d, uint32_t index)
-{
-    const int16_t *uv = d->mesh->uv + 2 * index;
-    store_uv(record, shl_wrap(uv[0], d->uv_up), shl_wrap(uv[1], d->uv_up));
 }
 
 /* Whether all three vertices of every triangle have one colour and, where the draw is lit, one normal: so flat faces

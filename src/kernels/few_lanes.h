@@ -30,8 +30,8 @@ static inline smear_v8i v8i_turned(smear_v8i a) { return (smear_v8i)v4i_turned((
 SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *sides)
 {
     k->v0 = v4i_load(k->v[0]);
-    k->to1 = v4i_load(k->v[1]) - k->v0;
-    k->to2 = v4i_load(k->v[2]) - k->v0;
+    k->to1 = (smear_v4i)((smear_v4u)v4i_load(k->v[1]) - (smear_v4u)k->v0);          /* texture coordinates wrap */
+    k->to2 = (smear_v4i)((smear_v4u)v4i_load(k->v[2]) - (smear_v4u)k->v0);
     const smear_v8i zero = v8i_all(0), to = v4i_narrow(k->to1, k->to2), low = v8i_min(to, zero), high = v8i_max(to, zero);
     const smear_v4i at = k->v0 + 127, sides4 = v4i_load(sides);
     const smear_v4i first = (at + (v4i_twice_low(v8i_min(low, v8i_turned(low))) >> 16)) >> 8;
@@ -56,7 +56,8 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
 
 SMEAR_INLINE void few_lanes_edges(struct few_lanes *k)
 {
-    const smear_v4i back = v4i_low(k->v0 - v4i_load(k->v[1]), (smear_v4i){ 0, -1, 0, 0 }), ahead = v4i_low(k->to2, k->to1 - k->to2);
+    const smear_v4i back = v4i_low((smear_v4i)(0u - (smear_v4u)k->to1), (smear_v4i){ 0, -1, 0, 0 }),
+                    ahead = v4i_low(k->to2, (smear_v4i)((smear_v4u)k->to1 - (smear_v4u)k->to2));
     const smear_v4i right = v4i_high_pairs(ahead, back), down = v4i_all(0) - v4i_low_pairs(ahead, back);
     const smear_v4i outer = v4i_even(right, k->x) + v4i_even(down, k->y), parts = v4i_even(down, v4i_turned(right));
     const smear_v4i middle = v4i_turned(parts - outer) - (parts + outer), columns = { 256 * (k->columns + 1), 0, 0, 0 };

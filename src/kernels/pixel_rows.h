@@ -211,7 +211,7 @@ void smear_row_l4_blocks(uint8_t *row, const uint32_t *in, int32_t n, int32_t x,
 static inline void row_l4_from_eights(uint8_t *row, const uint32_t *in, int32_t n, int32_t x, const uint8_t *threshold, int32_t mask)
 {
 #ifndef __OPTIMIZE_SIZE__
-    if (mask == 7) {
+    if (mask == 7 && (x & 7) == 0) {    /* tiles of four columns begin between blocks */
         smear_row_l4_blocks(row, in, n, x, threshold);
         return;
     }

@@ -8,6 +8,9 @@
 #include "raster/span.h"
 #include "raster/tiny_draw.h"
 
+/* Does what smear_tiny_box does, and pixels that it draws have the velocity of what has no motion of its own. Velocities are there. */
+void smear_velocity_tiny(struct tiny_look *l, const struct setup *s, const struct pixel_box *box, const struct tiny_depths *depths);
+
 /* Chooses what draws a triangle's rows at once; `small`: it has at most SMALL_PX columns and rows, or FEW_PX where it is textured. */
 void smear_cover_choose(struct setup *s, bool small);
 

@@ -163,9 +163,12 @@ static inline bool draw_few(struct smear_raster_pass *p, const struct setup *s, 
     if (pixels > TINY_PIXELS || !p->boxed)
         return false;
     const struct tiny_depths depths = tiny_depths_of(s->v);
-    if (fog_varies(s) || setup_writes_velocity(s) || !tiny_suits(&p->box, &depths))
+    if (fog_varies(s) || !tiny_suits(&p->box, &depths))
         return false;
-    smear_tiny_box(&p->box, s->target, s->v, s->color, box, &depths, s);
+    if (setup_writes_velocity(s))
+        smear_velocity_tiny(&p->box, s, box, &depths);
+    else
+        smear_tiny_box(&p->box, s->target, s->v, s->color, box, &depths, s);
     return true;
 }
 

@@ -214,8 +214,10 @@ static int halvings(const struct pen *p, int32_t codes)
     return log;
 }
 
+/* Returns the colour of a sine, which may lie beyond the pole. */
 static uint32_t color_of(const struct half *h, int32_t sine)
 {
+    sine = min_i32(sine, 256);
     return ((h->pair + (uint32_t)sine * h->pair_step) >> 8 & 0xff00ffu) | ((h->green + (uint32_t)sine * h->green_step) & 0xff00u);
 }
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_coarse.c - meshes written by hand have few coarse steps: a floor from -8 to 8, texture coordinates of 0 and 1. They are where
- * the same mesh in fine steps is, and so are their textures: near the eye, where triangles are cut, at rest and blurred. Textures of few
- * large texels have them where the same ones enlarged have theirs. */
+/* test_texels.c - textures of few large texels have them where the same ones enlarged have theirs, up to the eye, at rest and blurred. */
 #include "tests/random.h"
 #include <smear_math.h>
 
@@ -37,26 +35,6 @@ static void make(struct made *m, bool box, int steps, int repeats)
                             .triangle_count = box ? 12 : 2, .uv_shift = 1 };
 }
 
-/* The same mesh in steps of which the longest side has 15 bits. */
-static void make_fine(struct made *fine, const struct made *m, int steps, int repeats)
-{
-    int up = 0, uv_up = 0;
-    *fine = *m;
-    while (steps << (up + 1) <= INT16_MAX)
-        up++;
-    while (repeats << (uv_up + 1) <= INT16_MAX && uv_up < 13)
-        uv_up++;
-    for (int i = 0; i < 3 * CORNERS; i++)
-        fine->position[i] = (int16_t)(m->position[i] * (1 << up));
-    for (int i = 0; i < 2 * CORNERS; i++)
-        fine->uv[i] = (int16_t)(m->uv[i] * (1 << uv_up));
-    fine->mesh.position = fine->position;
-    fine->mesh.uv = fine->uv;
-    fine->mesh.index = fine->index;
-    fine->mesh.shift = (int8_t)(m->mesh.shift + up);
-    fine->mesh.uv_shift = (uint8_t)(m->mesh.uv_shift + uv_up);
-}
-
 struct view {
     smear_camera camera, open;
     smear_transform place;
@@ -85,38 +63,6 @@ static void random_view(struct view *v, int i, double size)
     v->draw = (smear_draw){ .material = &v->material, .now = &v->place };
 }
 
-static void test_coarse_meshes_are_where_fine_ones_are(void)
-{
-    double worst = 0, sum = 0;
-    make_checker();
-    smear_desc desc = { .width = SIDE, .height = SIDE, .flush = place_band, .methods = SMEAR_SET(SMEAR_AUTO) };
-    RIG(coarse, &desc, false);
-    RIG(fine, &desc, false);
-    for (int i = 0; i < CASES; i++) {
-        const int steps = 1 + random_below(i % 5 == 0 ? 300u : 12u), repeats = 1 + random_below(8), shift = random_below(6);
-        struct made m, same;
-        struct view v;
-        make(&m, i % 4 == 0, steps, repeats);
-        m.mesh.shift = (int8_t)shift;
-        make_fine(&same, &m, steps, repeats);
-        random_view(&v, i, ldexp(steps, -shift));
-        v.draw.mesh = &m.mesh;
-        CHECK_EQ(rig_frame(&coarse, &v.frame, &v.draw, 1), SMEAR_OK);
-        v.draw.mesh = &same.mesh;
-        CHECK_EQ(rig_frame(&fine, &v.frame, &v.draw, 1), SMEAR_OK);
-        double squares = 0;
-        for (int p = 0; p < SIDE * SIDE * 4; p++)
-            squares += pow(coarse.picture[p] - fine.picture[p], 2);
-        const double error = sqrt(squares / (SIDE * SIDE * 3));
-        worst = fmax(worst, error);
-        sum += error / CASES;
-        if (error > 8 && getenv("SMEAR_SHOW") != NULL)
-            printf("coarse: case %d, %d steps, shift %d: %.1f codes\n", i, steps, shift, error);
-    }
-    if (!CHECK(worst < 3 && sum < 0.1) || getenv("SMEAR_SHOW") != NULL)
-        printf("coarse: %.2f codes off, %.3f in the mean\n", worst, sum);
-}
-
 /* Of two by two texels. */
 static void test_large_texels_have_straight_edges(void)
 {
@@ -127,8 +73,8 @@ static void test_large_texels_have_straight_edges(void)
     for (int i = 0; i < 256 * 256; i++)
         many[i] = few[i / 256 / 128 * 2 + i % 256 / 128];
     smear_desc desc = { .width = SIDE, .height = SIDE, .flush = place_band, .methods = SMEAR_SET(SMEAR_AUTO) };
-    RIG(coarse, &desc, false);
-    RIG(fine, &desc, false);
+    RIG(few_texels, &desc, false);
+    RIG(many_texels, &desc, false);
     for (int i = 0; i < CASES; i++) {
         struct made m;
         struct view v;
@@ -141,19 +87,19 @@ static void test_large_texels_have_straight_edges(void)
         v.camera.near_plane = 1000;
         v.draw.mesh = &m.mesh;
         v.material.texture = &small;
-        CHECK_EQ(rig_frame(&coarse, &v.frame, &v.draw, 1), SMEAR_OK);
+        CHECK_EQ(rig_frame(&few_texels, &v.frame, &v.draw, 1), SMEAR_OK);
         v.material.texture = &large;
-        CHECK_EQ(rig_frame(&fine, &v.frame, &v.draw, 1), SMEAR_OK);
+        CHECK_EQ(rig_frame(&many_texels, &v.frame, &v.draw, 1), SMEAR_OK);
         int off = 0;
         for (int p = 0; p < SIDE * SIDE; p++)
-            off += abs(coarse.picture[4 * p] - fine.picture[4 * p]) > 16;
+            off += abs(few_texels.picture[4 * p] - many_texels.picture[4 * p]) > 16;
         worst = fmax(worst, off);
         sum += (double)off / CASES;
         if (getenv("SMEAR_SHOW") != NULL && off > 50)
             printf("case %d: %d pixels\n", i, off);
     }
     if (!CHECK(worst < 100 && sum < 2) || getenv("SMEAR_SHOW") != NULL)
-        printf("coarse: %.0f pixels, %.3f in the mean\n", worst, sum);
+        printf("texels: %.0f pixels, %.3f in the mean\n", worst, sum);
 }
 
-#include "build/suites/coarse.h"
+#include "build/suites/texels.h"
