@@ -125,7 +125,7 @@ static const struct turn turns[] = {
     { 0, 0, 0, 0, 1.05, false },           { 0.2, 0, 0, 0, 1.05, false },          { -0.1, 0.5, 0, 0, 0.8, false },
     { 1.3, 0.2, 0, 0, 2.0, false },        { 0.3, 1.5, 0, 0, 1.5, false },         { 0.4, 0.3, 0, 0, 1.0, true },
     { 0.05, 0, 0.03, 0, 1.05, false },     { 0.1, 0.4, 0.05, 0.05, 1.05, false },  { -0.3, -1.2, 0.02, 0.12, 0.9, false },
-    { 0.0, 0.1, 0.002, 0.001, 1.05, false }
+    { 0.0, 0.1, 0.002, 0.001, 1.05, false },  { 1.5707963, 0, 0, 0, 1.05, true },       { -1.5707963, 0.3, 0, 0, 1.05, true }
 };
 
 static void check_turn(const struct turn *t, int method, bool linear, int k, uint16_t target)
