@@ -128,6 +128,23 @@ static void test_white_and_black_are_exact_under_every_dither(void)
                 }
 }
 
+/* Tiles of a filter may have four columns. */
+static void test_four_columns_are_dithered_as_in_their_row(void)
+{
+    static uint8_t whole[sizeof band];
+    for (int dither = SMEAR_DITHER_ORDERED; dither <= SMEAR_DITHER_BLUE; dither++)
+        for (int format = SMEAR_XRGB8888; format <= SMEAR_L1; format++)
+            for (int y = 0; y < 8; y++) {
+                const uint32_t stride = smear_format_stride(MOST, (smear_format)format);
+                random_pixels();
+                smear_format_row(whole, stride, pixels, MOST, 0, y, y, (smear_format)format, (smear_dither)dither);
+                for (int x = 0; x < MOST; x += 4)
+                    smear_format_row(band, stride, pixels + x, 4, x, y, y, (smear_format)format, (smear_dither)dither);
+                for (uint32_t i = 0; i < stride; i++)
+                    REQUIRE_EQ(band[i], whole[i]);
+            }
+}
+
 /* ------------------------------------------------------------------ CRC */
 
 static void test_the_crc_is_that_of_zlib(void)
