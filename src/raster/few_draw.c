@@ -362,9 +362,9 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
     const uint32_t depth = (uint32_t)(uintptr_t)t->depth, middle = l->height / 2 * l->width + l->width / 2;
     const bool narrow = l->kind == FEW_NARROW || l->kind == FEW_NARROW_LIT;
     void *const pixels = narrow ? (void *)t->direct : (void *)t->color;
-    l->rows = (struct few_texels){ .width = l->width, .height = l->height, .texels = l->texels, .depth = t->depth, .pixels = pixels,
-                                   .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u), .up = l->up,
-                                   .uv_shift = l->draw->sampler.uv_shift,
+    l->rows = (struct few_texels){ .width = l->width, .height = l->height,
+                                   .middle = (uint32_t)(uintptr_t)l->texels + middle * (narrow ? 2u : 4u), .texels = l->texels,
+                                   .depth = t->depth, .pixels = pixels, .up = l->up, .uv_shift = l->draw->sampler.uv_shift,
                                    .color = segment_gouraud(l->segment) ? l->segment->color : (uint8_t)0,
                                    .lit = l->segment->shade != SHADE_NONE, .linear = frame_is_linear(l->frame),
                                    .flat_depth = segment_flat_depth(l->segment) };
