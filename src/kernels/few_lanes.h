@@ -26,21 +26,27 @@ struct few_lanes {
 
 static inline smear_v8i v8i_turned(smear_v8i a) { return (smear_v8i)v4i_turned((smear_v4i)a); }
 
+/* Sums and differences that wrap: elements that are not used hold texture coordinates, and anything. */
+static inline smear_v4i v4i_plus(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a + (smear_v4u)b); }
+static inline smear_v4i v4i_less(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a - (smear_v4u)b); }
+static inline smear_v8i v8i_less(smear_v8i a, smear_v8i b) { return (smear_v8i)((smear_v8u)a - (smear_v8u)b); }
+
 /* Finds the pixels between `sides`: left, top, right and bottom. */
 SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *sides)
 {
     k->v0 = v4i_load(k->v[0]);
-    k->to1 = (smear_v4i)((smear_v4u)v4i_load(k->v[1]) - (smear_v4u)k->v0);          /* texture coordinates wrap */
-    k->to2 = (smear_v4i)((smear_v4u)v4i_load(k->v[2]) - (smear_v4u)k->v0);
+    k->to1 = v4i_less(v4i_load(k->v[1]), k->v0);
+    k->to2 = v4i_less(v4i_load(k->v[2]), k->v0);
     const smear_v8i zero = v8i_all(0), to = v4i_narrow(k->to1, k->to2), low = v8i_min(to, zero), high = v8i_max(to, zero);
-    const smear_v4i at = k->v0 + 127, sides4 = v4i_load(sides);
-    const smear_v4i first = (at + (v4i_twice_low(v8i_min(low, v8i_turned(low))) >> 16)) >> 8;
-    const smear_v4i end = (at + (v4i_twice_low(v8i_max(high, v8i_turned(high))) >> 16)) >> 8, size = end - first;
+    const smear_v4i at = v4i_plus(k->v0, v4i_all(127)), sides4 = v4i_load(sides);
+    const smear_v4i first = v4i_plus(at, v4i_twice_low(v8i_min(low, v8i_turned(low))) >> 16) >> 8;
+    const smear_v4i end = v4i_plus(at, v4i_twice_low(v8i_max(high, v8i_turned(high))) >> 16) >> 8, size = end - first;
     k->across = max_i32(size[0], size[1]);
     if (k->across > FEW_PX)
         return FEW_OTHER;
     const smear_v8i limit = v4i_narrow(sides4, sides4), whole = v4i_narrow(v4i_low_pairs(first, end), first);
-    const smear_v8i box = v8i_max(whole, limit), less = (smear_v8i)((smear_v2u)v8i_min(whole, limit) >> 32) - box - 1;
+    const smear_v8i box = v8i_max(whole, limit);
+    const smear_v8i less = v8i_less(v8i_less((smear_v8i)((smear_v2u)v8i_min(whole, limit) >> 32), box), v8i_all(1));
     const uint32_t corner = ((smear_v4u)box)[0], size_less = ((smear_v4u)less)[0];
     if ((size_less & 0x80008000u) != 0)
         return FEW_DONE;
@@ -48,7 +54,7 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
     k->top = (int32_t)(corner >> 16);
     k->columns = (int32_t)(size_less & 0xffffu);
     k->rows = (int32_t)(size_less >> 16);
-    const smear_v4i centre = (v4i_twice_low(box) >> 16 << 8) + 128 - k->v0;
+    const smear_v4i centre = v4i_less((smear_v4i)(((smear_v4u)(v4i_twice_low(box) >> 16) << 8) + 128u), k->v0);
     k->x = v4i_spread(centre, 0);
     k->y = v4i_spread(centre, 1);
     return FEW_LEFT;
@@ -56,14 +62,15 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
 
 SMEAR_INLINE void few_lanes_edges(struct few_lanes *k)
 {
-    const smear_v4i back = v4i_low((smear_v4i)(0u - (smear_v4u)k->to1), (smear_v4i){ 0, -1, 0, 0 }),
-                    ahead = v4i_low(k->to2, (smear_v4i)((smear_v4u)k->to1 - (smear_v4u)k->to2));
-    const smear_v4i right = v4i_high_pairs(ahead, back), down = v4i_all(0) - v4i_low_pairs(ahead, back);
-    const smear_v4i outer = v4i_even(right, k->x) + v4i_even(down, k->y), parts = v4i_even(down, v4i_turned(right));
-    const smear_v4i middle = v4i_turned(parts - outer) - (parts + outer), columns = { 256 * (k->columns + 1), 0, 0, 0 };
+    const smear_v4i back = v4i_low(v4i_less(v4i_all(0), k->to1), (smear_v4i){ 0, -1, 0, 0 });
+    const smear_v4i ahead = v4i_low(k->to2, v4i_less(k->to1, k->to2));
+    const smear_v4i right = v4i_high_pairs(ahead, back), down = v4i_less(v4i_all(0), v4i_low_pairs(ahead, back));
+    const smear_v4i outer = v4i_plus(v4i_even(right, k->x), v4i_even(down, k->y)), parts = v4i_even(down, v4i_turned(right));
+    const smear_v4i middle = v4i_less(v4i_turned(v4i_less(parts, outer)), v4i_plus(parts, outer));
+    const smear_v4i columns = { 256 * (k->columns + 1), 0, 0, 0 };
     const smear_v4i all = v4i_low_pairs(v4i_low(outer, middle), v4i_low(v4i_turned(outer), columns));
     k->area = parts[2] - parts[0];
-    k->edges = (all + (smear_v4i)((right << 16) + down < 1)) >> 8;
+    k->edges = v4i_plus(all, (smear_v4i)(v4i_plus((smear_v4i)((smear_v4u)right << 16), down) < 1)) >> 8;
     k->edges_right = right;
     k->edges_down = down;
 }
@@ -73,7 +80,7 @@ SMEAR_INLINE bool few_lanes_weights(struct few_lanes *k)
 {
     const int32_t area = k->area;
     if (area < (FEW_PX + 1) * 256 * 64) {
-        const smear_v8i to = v4i_narrow(k->to1, k->to2), steep = v8i_max(to, -to) > v8i_all((int16_t)(area >> 6));
+        const smear_v8i to = v4i_narrow(k->to1, k->to2), steep = v8i_max(to, v8i_less(v8i_all(0), to)) > v8i_all((int16_t)(area >> 6));
         if (area < 256 || v4u_any((smear_v4u)steep & (smear_v4u){ ~0u, 0, ~0u, 0 }))
             return false;
     }
@@ -81,7 +88,7 @@ SMEAR_INLINE bool few_lanes_weights(struct few_lanes *k)
     const smear_v4i recip = v4i_all((int32_t)(recip_norm((uint32_t)area << up) >> 14));
     k->weights_right = v4i_even(k->edges_right, recip) >> down;
     k->weights_down = v4i_even(k->edges_down, recip) >> down;
-    k->weights = (v4i_even(k->weights_right, k->x) + v4i_even(k->weights_down, k->y)) >> 8;
+    k->weights = v4i_plus(v4i_even(k->weights_right, k->x), v4i_even(k->weights_down, k->y)) >> 8;
     return true;
 }
 
@@ -93,7 +100,8 @@ struct few_changes {
 SMEAR_INLINE smear_v4u few_lanes_plane(const struct few_changes *d, smear_v4i weights, int up)
 {
     const smear_v4i w1 = v4i_spread(weights, 0), w2 = v4i_spread(weights, 2);
-    return (smear_v4u)v4i_evens((v4i_even(d->uv1, w1) + v4i_even(d->uv2, w2)) << up, v4i_even(d->look1, w1) + v4i_even(d->look2, w2));
+    const smear_v4u uv = (smear_v4u)v4i_plus(v4i_even(d->uv1, w1), v4i_even(d->uv2, w2)) << up;
+    return (smear_v4u)v4i_evens((smear_v4i)uv, v4i_plus(v4i_even(d->look1, w1), v4i_even(d->look2, w2)));
 }
 
 /* u and v of a vertex. */
@@ -140,8 +148,8 @@ SMEAR_INLINE enum few_answer few_lanes_planes(struct few_lanes *k, const struct 
     const int32_t q0 = k->v[0][2], q1 = k->v[1][2], q2 = k->v[2][2];
     const int32_t low = min_i32(min_i32(q0, q1), q2), high = max_i32(max_i32(q0, q1), q2);
     const bool far = high < SLOPE_BREAK - 65536;
-    const smear_v4i uv = few_lanes_uv(k->v0), look1 = far ? (k->to1 + 512) >> 10 : (k->to1 + 8192) >> 14;
-    const smear_v4i look2 = far ? (k->to2 + 512) >> 10 : (k->to2 + 8192) >> 14;
+    const smear_v4i uv = few_lanes_uv(k->v0), half = v4i_all(far ? 512 : 8192);
+    const smear_v4i look1 = v4i_plus(k->to1, half) >> (far ? 10 : 14), look2 = v4i_plus(k->to2, half) >> (far ? 10 : 14);
     struct few_changes d = { few_lanes_uv(v4i_load(k->v[1])) - uv, few_lanes_uv(v4i_load(k->v[2])) - uv, v4i_turned(look1),
                              v4i_turned(look2) };
     int32_t light = 0;
@@ -153,7 +161,8 @@ SMEAR_INLINE enum few_answer few_lanes_planes(struct few_lanes *k, const struct 
     const int32_t code = (int32_t)code_from_units(q0, far ? SLOPE_FAR : SLOPE_NEAR);
     k->plane_right = few_lanes_plane(&d, k->weights_right, t->up);
     k->plane_down = few_lanes_plane(&d, k->weights_down, t->up);
-    k->plane = few_lanes_plane(&d, k->weights, t->up) + (smear_v4u)v4i_evens(uv << (15 + t->up), (smear_v4i){ code, 0, light << 15, 0 });
+    const smear_v4i first = v4i_evens((smear_v4i)((smear_v4u)uv << (15 + t->up)), (smear_v4i){ code, 0, light << 15, 0 });
+    k->plane = few_lanes_plane(&d, k->weights, t->up) + (smear_v4u)first;
     return FEW_DONE;
 }
 

@@ -134,14 +134,12 @@ static void test_statistics_say_how_full_each_list_was(void)
         CHECK(all.fill.geometry.room == few.fill.geometry.room);
     }
     desc.max_triangles = 8;
-    if (rig_begin(&r, &desc, false)) {
-        smear_stats stats;
-        CHECK_EQ(render_scene(&r, 0.2, SMEAR_NONE), SMEAR_OK);
-        smear_get_stats(r.ctx, &stats);
-        CHECK(stats.parts_added > 0 && is_within(&stats.fill.geometry));
-        CHECK(stats.fill.geometry.used > stats.fill.geometry.room / 2);
-    }
-    rig_end(&r);
+    RIG(small, &desc, false);
+    smear_stats stats;
+    CHECK_EQ(render_scene(&small, 0.2, SMEAR_NONE), SMEAR_OK);
+    smear_get_stats(small.ctx, &stats);
+    CHECK(stats.parts_added > 0 && is_within(&stats.fill.geometry));
+    CHECK(stats.fill.geometry.used > stats.fill.geometry.room / 2);
 }
 
 static void test_draws_beyond_the_limit_are_refused_and_not_drawn(void)
