@@ -54,13 +54,6 @@ static inline uint32_t pixel_make(uint32_t a, uint32_t r, uint32_t g, uint32_t b
     return a << 24 | r << 16 | g << 8 | b;
 }
 
-/* Returns the square by which two colours differ. */
-static inline uint32_t pixel_square_between(uint32_t a, uint32_t b)
-{
-    const uint32_t red = pixel_red(a) - pixel_red(b), green = pixel_green(a) - pixel_green(b), blue = pixel_blue(a) - pixel_blue(b);
-    return red * red + green * green + blue * blue;
-}
-
 /* Makes a pixel of bytes r g b a. */
 static inline uint32_t pixel_of_bytes(const uint8_t *c) { return pixel_make(c[3], c[0], c[1], c[2]); }
 

@@ -72,7 +72,7 @@ static bool fill_tiles(struct smear_tile_run *t, int kinds, bool next)
     struct smear_rows *rows = f->row.rows;
     struct smear_row_moving *moving = &f->self->moving;
     if (next ? !smear_row_fill_next(rows)
-             : !smear_row_fill_columns(rows, f->row.row, kinds, tile_left(rows, t->column), tile_right(rows, t->last_column)))
+             : !smear_row_fill_columns(rows, f->row.row, kinds, t->fill_x0, t->fill_x1))
         return false;
     smear_list_moving(moving, &rows->bins, &rows->window, rows->moving);
     t->moving_count = moving->count;
@@ -87,6 +87,8 @@ static void refill_tiles(struct smear_tile_run *t, const struct smear_finish *f)
     if (rows->refill == NULL)
         return;
     t->fill_of = f;
+    t->fill_x0 = tile_left(rows, t->column);
+    t->fill_x1 = tile_right(rows, t->last_column);
     fill_tiles(t, FILL_MOVING | FILL_BLENDED, false);
     t->fill = rows->refill->more ? fill_tiles : NULL;
 }

@@ -35,9 +35,13 @@ struct gap {
 
 /* ------------------------------------------------------------------ gap */
 
-/* times part / over to nearest. */
+/* times part / over to nearest; no division where that is plain. */
 static int32_t nearest_pixel(int32_t part, int32_t over, int32_t times)
 {
+    if (part == 0 || part == over)
+        return part == 0 ? 0 : times;
+    if (part == -over)
+        return -times;
     const int32_t numerator = part * times;
     return (2 * numerator + (numerator < 0 ? -over : over)) / (2 * over);
 }

@@ -60,6 +60,7 @@ struct subframes {
     int32_t shift[2];           /* smooth edges: how far what moves is shifted along x and y at this instant, q8 px */
 
     /* What may be seen in the tile. */
+    int32_t fills;              /* of the store that it took to find out */
     uint32_t moving_seen;       /* moving triangles */
     bool closes;                /* gaps, for which it counts what is in front */
     uint32_t lowest, highest;   /* depth codes of the background; 0 where none are closed */

@@ -217,6 +217,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f, bool wanted, struct subfram
                 note_blended(f, i, &moves);
         if (wanted)
             draw_filled(f, time, middle);
+        f->fills++;
     } while (f->refilled != NULL && fill(f, FILL_MOVING | FILL_BLENDED, true));
     end_list(f, &whole);
     if (wanted && f->blends)
@@ -294,6 +295,45 @@ static uint32_t draw_others(struct subframes *f, int32_t drawn, uint32_t samples
     return samples;
 }
 
+/* Does so for tiles whose triangles come in several fills, and are not blended: by columns of pixels of which the store has all at
+ * once, so that it is not filled again for each instant. Where it has not all of the narrowest it is, for ever more of what is left
+ * of the tiles. */
+static SMEAR_RARE uint32_t draw_others_apart(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
+{
+    enum { COLUMN = 8 };        /* what rounds of vectors take */
+    struct smear_tile_run *const run = f->refilled;
+    const int32_t x0 = f->work.x0, x1 = f->work.x1, fill_x0 = run->fill_x0, fill_x1 = run->fill_x1;
+    int32_t width = (x1 - x0) / f->fills & -COLUMN, refilled = width < COLUMN ? x1 - x0 : COLUMN;
+    for (run->fill_x1 = x0; run->fill_x1 < x1;) {
+        bool at_once = false;
+        run->fill_x0 = run->fill_x1;
+        for (; !at_once && width >= COLUMN; width = at_once ? width : width / 2 & -COLUMN) {
+            run->fill_x1 = min_i32(run->fill_x0 + width, x1);
+            at_once = fill(f, FILL_MOVING, false) && !fill(f, FILL_MOVING, true);
+        }
+        if (!at_once) {
+            run->fill_x1 = min_i32(run->fill_x0 + refilled, x1);
+            refilled *= 2;
+            width = COLUMN;
+        }
+        f->work.x0 = run->fill_x0;
+        f->work.x1 = run->fill_x1;
+        f->refilled = at_once ? NULL : run;
+        samples = draw_others(f, drawn, samples, all);
+        f->refilled = run;
+        f->work.x0 = x0;
+        f->work.x1 = x1;
+    }
+    run->fill_x0 = fill_x0;
+    run->fill_x1 = fill_x1;
+    return samples;
+}
+
+static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, struct subframe_box *all)
+{
+    return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
+}
+
 /* Draws and sums as many instants as the plan says, of which the middle one has been drawn. Where something passes the eye they show
  * what the middle does not: what changes from one to the next is planned for, too. Up to half as many more are done without. */
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
@@ -311,7 +351,7 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
     f->space->seen = 0;
-    const uint32_t samples = draw_others(f, first, add_instant(f, middle, first / 2, 0, all), all);
+    const uint32_t samples = draw_rest(f, first, add_instant(f, middle, first / 2, 0, all), all);
     if (f->changes == NULL)
         return samples;
     f->changes = NULL;
@@ -324,7 +364,7 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
         return samples;
     const bool adds = wanted == 3 * first && !sums_light(f) && !has_shifts(f) && wanted <= PACKED_INSTANTS_MAX;
     f->instants = (uint32_t)wanted;
-    return adds ? draw_others(f, 3, samples, all) : draw_others(f, 0, 0, all);
+    return adds ? draw_rest(f, 3, samples, all) : draw_rest(f, 0, 0, all);
 }
 
 static inline void make(struct subframes *f, struct smear_space *space, const struct smear_tile_run *t, int32_t instants)
@@ -373,7 +413,7 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
             all = draw_instant(&f, SHUTTER_CLOSE / 2);
             return (uint32_t)pixels_in(&all);
         }
-        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_others(&f, 0, 0, &all);
+        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);

@@ -30,9 +30,11 @@ struct smear_tile_run {
     int32_t pitch;
     int32_t tile;                               /* edge, pixels */
     /* Where the row's triangles do not find room at once (display/row.h), else null: `moving` and `blend` are only some of
-     * them, the first ones or, with `next`, those after; false when there are none left. `kinds`: FILL_MOVING ... */
+     * them, the first ones or, with `next`, those after; false when there are none left. `kinds`: FILL_MOVING ... Of what
+     * moves, those that are seen in columns [fill_x0, fill_x1) */
     bool (*fill)(struct smear_tile_run *t, int kinds, bool next);
     const void *fill_of;
+    int32_t fill_x0, fill_x1;
     void *work;                                 /* memory of the worker's own */
 };
 

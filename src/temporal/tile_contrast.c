@@ -15,10 +15,17 @@ struct difference_rows {
                                          * depth, and in behind and deep */
 };
 
+static inline uint32_t difference_squared(uint32_t a, uint32_t b)
+{
+    const int32_t r = (int32_t)pixel_red(a) - (int32_t)pixel_red(b), g = (int32_t)pixel_green(a) - (int32_t)pixel_green(b),
+                  u = (int32_t)pixel_blue(a) - (int32_t)pixel_blue(b);
+    return (uint32_t)(r * r + g * g + u * u);
+}
+
 /* Returns the squared differences of n >= 1 pixels, and adds to *moving how many of them are not as what is static. An edge
  * between two pixels counts where it moves: what is static must lie behind, else it hides the edge. Upper eight bits of
  * pixels may be anything: they tell pixels apart, but are no difference. */
-static inline uint32_t differences(const struct difference_rows *r, int32_t n, uint32_t *moving)
+static inline uint32_t differences_reference(const struct difference_rows *r, int32_t n, uint32_t *moving)
 {
     const uint32_t *color_there = r->color + r->there, *behind_there = r->behind + r->there_behind;
     const uint16_t *depth_there = r->depth + r->there, *deep_there = r->deep + r->there_behind;
@@ -35,9 +42,30 @@ static inline uint32_t differences(const struct difference_rows *r, int32_t n, u
         } else if (!moves) {
             continue;
         }
-        sum += pixel_square_between(here, next);
+        sum += difference_squared(here, next);
     }
     *moving += count;
+    return sum;
+}
+
+/* Some rows of n pixels; so far from one to the next are color and depth, and behind and deep. */
+struct difference_block {
+    struct difference_rows first;
+    int32_t pitch, pitch_behind, rows, n;
+};
+
+/* For up to 8 pixels in a row. */
+static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
+{
+    struct difference_rows r = b->first;
+    uint32_t sum = 0;
+    for (int32_t i = 0; i < b->rows; i++) {
+        sum += differences_reference(&r, b->n, moving);
+        r.color += b->pitch;
+        r.depth += b->pitch;
+        r.behind += b->pitch_behind;
+        r.deep += b->pitch_behind;
+    }
     return sum;
 }
 
@@ -65,21 +93,25 @@ static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int
 }
 
 /* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
- * the tiles. */
+ * the tiles. All rows left are looked at together whose pixels lie in the same direction, unless those of what is static go round. */
 static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
 {
     const struct smear_raster_target *s = &f->t->background;
     const struct smear_plane_rows *c = &s->color_rows;
+    const int32_t pitch = f->t->pitch, last = l->first + ((l->y1 - 1 - l->first) & ~1);
+    const bool round = c->ring_row + (s->y1 - s->y0) > c->ring;
     uint32_t sum = 0;
-    for (int32_t y = l->first; y < l->y1; y += 2) {
+    for (int32_t y = l->first, end; y < l->y1; y = end) {
         const int32_t way = way_to(s, y, dy), x = way * dx, down = way * dy;
+        end = !round && way_to(s, last, dy) == way ? last + 2 : y + 2;
         const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
         if (way == 0 || n <= 0)
             continue;
-        const int32_t at = (y - s->y0) * f->t->pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
-        const struct difference_rows rows = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
-                                              down * f->t->pitch + x, target_row(c, s, y + down) - row + x };
-        sum += differences(&rows, n, moving);
+        const int32_t at = (y - s->y0) * pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
+        const struct difference_block block = { { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
+                                                  down * pitch + x, target_row(c, s, y + down) - row + x },
+                                                2 * pitch, 2 * c->stride, (end - y) >> 1, n };
+        sum += difference_block(&block, moving);
     }
     return sum;
 }
@@ -320,7 +352,7 @@ void smear_note_changes(const struct subframes *f, bool is_first)
             continue;
         const uint32_t here = f->work.color[row * t->pitch + column - s->x0];
         if (!is_first)
-            c->sum = add_saturated(c->sum, pixel_square_between(here, c->shown[i]));
+            c->sum = add_saturated(c->sum, difference_squared(here, c->shown[i]));
         c->shown[i] = here;
     }
 }
