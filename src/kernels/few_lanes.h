@@ -28,15 +28,15 @@ static inline smear_v8i v8i_turned(smear_v8i a) { return (smear_v8i)v4i_turned((
 
 /* Sums and differences that wrap: elements that are not used hold texture coordinates, and anything. */
 static inline smear_v4i v4i_plus(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a + (smear_v4u)b); }
-static inline smear_v4i v4i_less(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a - (smear_v4u)b); }
-static inline smear_v8i v8i_less(smear_v8i a, smear_v8i b) { return (smear_v8i)((smear_v8u)a - (smear_v8u)b); }
+static inline smear_v4i v4i_minus(smear_v4i a, smear_v4i b) { return (smear_v4i)((smear_v4u)a - (smear_v4u)b); }
+static inline smear_v8i v8i_minus(smear_v8i a, smear_v8i b) { return (smear_v8i)((smear_v8u)a - (smear_v8u)b); }
 
 /* Finds the pixels between `sides`: left, top, right and bottom. */
 SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *sides)
 {
     k->v0 = v4i_load(k->v[0]);
-    k->to1 = v4i_less(v4i_load(k->v[1]), k->v0);
-    k->to2 = v4i_less(v4i_load(k->v[2]), k->v0);
+    k->to1 = v4i_minus(v4i_load(k->v[1]), k->v0);
+    k->to2 = v4i_minus(v4i_load(k->v[2]), k->v0);
     const smear_v8i zero = v8i_all(0), to = v4i_narrow(k->to1, k->to2), low = v8i_min(to, zero), high = v8i_max(to, zero);
     const smear_v4i at = v4i_plus(k->v0, v4i_all(127)), sides4 = v4i_load(sides);
     const smear_v4i first = v4i_plus(at, v4i_twice_low(v8i_min(low, v8i_turned(low))) >> 16) >> 8;
@@ -46,7 +46,7 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
         return FEW_OTHER;
     const smear_v8i limit = v4i_narrow(sides4, sides4), whole = v4i_narrow(v4i_low_pairs(first, end), first);
     const smear_v8i box = v8i_max(whole, limit);
-    const smear_v8i less = v8i_less(v8i_less((smear_v8i)((smear_v2u)v8i_min(whole, limit) >> 32), box), v8i_all(1));
+    const smear_v8i less = v8i_minus(v8i_minus((smear_v8i)((smear_v2u)v8i_min(whole, limit) >> 32), box), v8i_all(1));
     const uint32_t corner = ((smear_v4u)box)[0], size_less = ((smear_v4u)less)[0];
     if ((size_less & 0x80008000u) != 0)
         return FEW_DONE;
@@ -54,7 +54,7 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
     k->top = (int32_t)(corner >> 16);
     k->columns = (int32_t)(size_less & 0xffffu);
     k->rows = (int32_t)(size_less >> 16);
-    const smear_v4i centre = v4i_less((smear_v4i)(((smear_v4u)(v4i_twice_low(box) >> 16) << 8) + 128u), k->v0);
+    const smear_v4i centre = v4i_minus((smear_v4i)(((smear_v4u)(v4i_twice_low(box) >> 16) << 8) + 128u), k->v0);
     k->x = v4i_spread(centre, 0);
     k->y = v4i_spread(centre, 1);
     return FEW_LEFT;
@@ -62,11 +62,11 @@ SMEAR_INLINE enum few_answer few_lanes_box(struct few_lanes *k, const int32_t *s
 
 SMEAR_INLINE void few_lanes_edges(struct few_lanes *k)
 {
-    const smear_v4i back = v4i_low(v4i_less(v4i_all(0), k->to1), (smear_v4i){ 0, -1, 0, 0 });
-    const smear_v4i ahead = v4i_low(k->to2, v4i_less(k->to1, k->to2));
-    const smear_v4i right = v4i_high_pairs(ahead, back), down = v4i_less(v4i_all(0), v4i_low_pairs(ahead, back));
+    const smear_v4i back = v4i_low(v4i_minus(v4i_all(0), k->to1), (smear_v4i){ 0, -1, 0, 0 });
+    const smear_v4i ahead = v4i_low(k->to2, v4i_minus(k->to1, k->to2));
+    const smear_v4i right = v4i_high_pairs(ahead, back), down = v4i_minus(v4i_all(0), v4i_low_pairs(ahead, back));
     const smear_v4i outer = v4i_plus(v4i_even(right, k->x), v4i_even(down, k->y)), parts = v4i_even(down, v4i_turned(right));
-    const smear_v4i middle = v4i_less(v4i_turned(v4i_less(parts, outer)), v4i_plus(parts, outer));
+    const smear_v4i middle = v4i_minus(v4i_turned(v4i_minus(parts, outer)), v4i_plus(parts, outer));
     const smear_v4i columns = { 256 * (k->columns + 1), 0, 0, 0 };
     const smear_v4i all = v4i_low_pairs(v4i_low(outer, middle), v4i_low(v4i_turned(outer), columns));
     k->area = parts[2] - parts[0];
@@ -80,7 +80,7 @@ SMEAR_INLINE bool few_lanes_weights(struct few_lanes *k)
 {
     const int32_t area = k->area;
     if (area < (FEW_PX + 1) * 256 * 64) {
-        const smear_v8i to = v4i_narrow(k->to1, k->to2), steep = v8i_max(to, v8i_less(v8i_all(0), to)) > v8i_all((int16_t)(area >> 6));
+        const smear_v8i to = v4i_narrow(k->to1, k->to2), steep = v8i_max(to, v8i_minus(v8i_all(0), to)) > v8i_all((int16_t)(area >> 6));
         if (area < 256 || v4u_any((smear_v4u)steep & (smear_v4u){ ~0u, 0, ~0u, 0 }))
             return false;
     }
