@@ -414,7 +414,7 @@ static void setup_divided(struct setup *s, const struct corners *k)
     /* Within a block of n pixels: n |du/dx| texels and n |dq/dx| / q. |du/dx| = |U' - u q'| / q,
      * linear in u, so a vertex bounds its upper part. */
     uint32_t seen_q = (uint32_t)seen.low_q << up;
-    uint32_t worst = 64 / TEXEL_MOST;           /* texels per pixel, q6 */
+    uint32_t worst = 0;             /* texels per pixel, q6 */
     for (int i = 0; i < 2; i++) {
         int32_t over_w[3];
         for (int j = 0; j < 3; j++)
@@ -456,12 +456,10 @@ static SMEAR_NOINLINE void setup_texture(struct setup *s)
         k.middle[i] = (low + high) >> 1;
         k.width[i] = high - low;
     }
-    const uint32_t across = (uint32_t)max_i32(s->bounds.x1 - s->bounds.x0, s->bounds.y1 - s->bounds.y0) >> 8;
-    travel = max_u32(travel, across * (64 / TEXEL_MOST));
     const bool flat = segment_flat_depth(s->segment)
                    || (uint64_t)(uint32_t)(k.high_q - k.low_q) * travel
                           <= (uint32_t)k.low_q * (4u * TEXTURE_OFF);
-    if (!setup_curved(s, &k, max_u32(travel, across * (64 / TEXEL_CURVED)), flat)) {
+    if (!setup_curved(s, &k, travel, flat)) {
         if (flat)
             setup_affine(s, &k);
         else

@@ -60,10 +60,8 @@ enum {
     TEXTURE_OFF = 2,            /* 1/64 texel: what a coordinate may be off between
                                  * the ends of a block, or affine */
     PARABOLA_OFF = 4,           /* likewise between the ends of a block that follows a parabola */
-    CURVED_OFF = 17,            /* E^2 texels / 4 where it is a polynomial: off by
+    CURVED_OFF = 17             /* E^2 texels / 4 where it is a polynomial: off by
                                  * 0.46 texel in the farthest corner */
-    TEXEL_MOST = 8,             /* px: texels are taken for no larger, so that their borders are not seen to bend; */
-    TEXEL_CURVED = 2            /* by polynomials for no larger than these */
 };
 
 struct setup;
