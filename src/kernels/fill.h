@@ -8,6 +8,18 @@
 
 /* Sets n >= 0 times eight words; returns where the next lies. */
 #if SMEAR_GNU && !defined(__clang__) && defined(__arm__) && defined(__OPTIMIZE__)
+/* So many stores a round, of four registers each. */
+#define FILL_ROUNDS(STORES, rounds)                                  \
+    if ((rounds) > 0)                                                \
+        __asm__ volatile(".syntax unified\n"                         \
+                         "1:\n\t.rept " #STORES "\n\t"               \
+                         "stmia %[p]!, {r3, r4, r5, r6}\n\t.endr\n\t" \
+                         "subs %[n], %[n], #1\n\t"                   \
+                         "bne 1b"                                    \
+                         : [p] "+l"(p), [n] "+l"(rounds)             \
+                         : "r"(a), "r"(b), "r"(c), "r"(d)            \
+                     : "cc", "memory")
+
 /* Four registers a store: half the cycles of single words, and a fifth of the instructions. */
 static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 {
@@ -18,24 +30,9 @@ static inline pixel_word *fill_eights(pixel_word *p, uint32_t value, int32_t n)
 #ifndef __OPTIMIZE_SIZE__
     int32_t rounds = n >> 2;
     n &= 3;
-    if (rounds > 0)
-        __asm__ volatile(".syntax unified\n"
-                         "1:\n\t.rept 8\n\tstmia %[p]!, {r3, r4, r5, r6}\n\t.endr\n\t"
-                         "subs %[n], %[n], #1\n\t"
-                         "bne 1b"
-                         : [p] "+l"(p), [n] "+l"(rounds)
-                         : "r"(a), "r"(b), "r"(c), "r"(d)
-                         : "cc", "memory");
+    FILL_ROUNDS(8, rounds);
 #endif
-    if (n > 0)
-        __asm__ volatile(".syntax unified\n"
-                         "1: stmia %[p]!, {r3, r4, r5, r6}\n\t"
-                         "stmia %[p]!, {r3, r4, r5, r6}\n\t"
-                         "subs %[n], %[n], #1\n\t"
-                         "bne 1b"
-                         : [p] "+l"(p), [n] "+l"(n)
-                         : "r"(a), "r"(b), "r"(c), "r"(d)
-                         : "cc", "memory");
+    FILL_ROUNDS(2, n);
     return p;
 }
 #else
