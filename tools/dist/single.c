@@ -3,7 +3,7 @@
  *
  *     single HEADER OUT.h FILE...     headers one after the other, each where another includes it first
  *     single SOURCE OUT.c FILE...     headers and sources one after the other, bottom layer first
- *     single BARE OUT.c FILE.c        a file without its comments and empty lines
+ *     single BARE OUT.c FILE.c        a file without its comments, empty lines and columns
  *
  * Names that are local to a source and occur elsewhere, too (in a header, or local to another source), get
  * the source's name behind them. Literals (struct x){ ... } become SMEAR_LITERAL(x){ ... }, which is
@@ -344,7 +344,7 @@ static void write_file(FILE *out, int file, bool renames)
     }
 }
 
-/* The first two comments stay: the licence, and what the file is. */
+/* The first two comments stay: the licence, and what the file is. Columns inside of lines go, indentation stays. */
 static void write_bare(FILE *out, const char *p)
 {
     int kept = 2;
@@ -355,7 +355,7 @@ static void write_bare(FILE *out, const char *p)
             for (size_t i = 0; i < t.length; i++)
                 end = t.at[i] == '\n' ? t.at + i : end;
             line |= end != NULL;
-            blanks = end != NULL ? (size_t)(t.at + t.length - end) - 1 : blanks + t.length;
+            blanks = end != NULL ? (size_t)(t.at + t.length - end) - 1 : line ? blanks + t.length : 1;
         } else if (is_comment(t) && kept-- <= 0) {
             blanks += blanks == 0;
         } else {
