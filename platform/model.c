@@ -3,7 +3,8 @@
  *
  *     model show [SCREEN [FRAME]]    the clip at 30 frames per second; with FRAME, that frame, for ever
  *     model check [SCREEN]           the CRC of 60 frames
- *     model cost [SCREEN [none]]     what they cost, in the units of platform.h's clock; none: sharp
+ *     model cost [SCREEN [BLUR]]     what they cost, in the units of platform.h's clock; none: sharp; auto-sketch, auto-draft,
+ *                                    auto-balanced, auto-fine
  *
  * Keys: up and down nearer or farther; A sharp or blurred.
  *
@@ -66,6 +67,7 @@ static smear_context *ctx;
 static const struct model_view *view;
 static int32_t zoom;                    /* as in the view, at first */
 static bool is_sharp;
+static uint16_t target;                 /* as in smear_frame; 0: the library's own */
 static uint8_t path;
 
 static int failed(const char *what, int result)
@@ -110,7 +112,7 @@ static int frame(uint32_t index, bool draw)
     const smear_play play = { .rest = model_model.clip_count == 0, .loop = 1,
                               .time = (int32_t)(index * 65536u / FPS) };
     const smear_frame how = { .camera = &camera, .light_space = SMEAR_LIGHT_ENCODED,
-                              .method = is_sharp ? SMEAR_NONE : SMEAR_AUTO, .shutter.path = path };
+                              .method = is_sharp ? SMEAR_NONE : SMEAR_AUTO, .target = target, .shutter.path = path };
     int result = smear_actor_advance(actor, &play);
     if (result == SMEAR_OK)
         result = smear_begin(ctx, &how);
@@ -202,13 +204,33 @@ static int check(const struct model_screen *screen)
     return 0;
 }
 
-static int cost(const struct model_screen *screen, bool sharp)
+/* Says how frames are blurred from now on, and what a context needs for it. */
+static bool take_blur(const char *name, smear_desc *desc)
+{
+    static const struct {
+        const char *name;
+        uint16_t target;
+    } blurs[] = { { "auto", 0 }, { "auto-sketch", SMEAR_SKETCH }, { "auto-draft", SMEAR_DRAFT }, { "auto-balanced", SMEAR_BALANCED },
+                  { "auto-fine", SMEAR_FINE } };
+    is_sharp = is_word(name, "none");
+    bool known = is_sharp;
+    for (size_t i = 0; i < sizeof blurs / sizeof *blurs && !known; i++) {
+        known = is_word(name, blurs[i].name);
+        target = blurs[i].target;
+    }
+    desc->methods = is_sharp ? SMEAR_SET(SMEAR_NONE)
+                             : (uint16_t)(SMEAR_SET(SMEAR_AUTO) | (target >= SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u));
+    return known;
+}
+
+static int cost(const struct model_screen *screen, const char *blur)
 {
     smear_desc desc;
     smear_stats stats;
     uint32_t total = 0, posing = 0, drawn = 0, split = 0, moving = 0, tiles = 0;
     int result = start(screen, &desc);
-    is_sharp = sharp;
+    if (!take_blur(blur, &desc))
+        return failed("no blur of this name", 0);
     desc.flush = swallow;
     if (result == SMEAR_OK)
         result = open_context(&desc);
@@ -266,7 +288,7 @@ int main(int argc, char **argv)
     const char *command = argc > 1 ? argv[1] : "show", *name = argc > 2 ? argv[2] : DEMO_SCREEN;
     for (size_t i = 0; i < sizeof screens / sizeof *screens; i++)
         if (is_word(screens[i].name, name))
-            return is_word(command, "cost")    ? cost(&screens[i], argc > 3 && is_word(argv[3], "none"))
+            return is_word(command, "cost")    ? cost(&screens[i], argc > 3 ? argv[3] : "auto")
                  : is_word(command, "check") ? check(&screens[i])
                                              : show(&screens[i], argc > 3 ? argv[3] : NULL);
     return failed("no screen of this name", 0);
