@@ -64,7 +64,7 @@ uint32_t smear_places_open(struct places *r, const struct batch *b, uint32_t fir
         all = more;
         last = next;
     }
-    if (last == first)
+    if (!SMEAR_PLACES || last == first)
         return first;
     r->first = all.least;
     r->end = all.most + 1;

@@ -11,7 +11,7 @@ shift 2
 status=0
 
 helpers='__aeabi_(u?idiv(mod)?|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|set|clr)[48]?)|__gnu_thumb1_case_[a-z]+'
-helpers="$helpers|__u?(div|mod)si3|__umulsidi3|__(ashl|ashr|lshr|mul)di3|__clz[sd]i2|__sync_synchronize${HOOKS:+|$HOOKS}"
+helpers="$helpers|__u?(div|mod)si3|__umulsidi3|__(ashl|ashr|lshr|mul)di3|__c[lt]z[sd]i2|__sync_synchronize${HOOKS:+|$HOOKS}"
 [ "$archive" = - ] || "$nm" "$archive" 2>/dev/null | awk -v allowed="^($helpers|memcpy|memset)\$" '
     NF == 3 && $2 ~ /[TtDdRrBbVvWw]/ { defined[$3] = 1 }
     $1 == "U" { wanted[$2] = 1 }
