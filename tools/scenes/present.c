@@ -797,6 +797,7 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
 
 void present_tiles(smear_desc *desc)
 {
+    enum { STRIP = 256 };
     const bool has_reach = (desc->methods & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH)) != 0;
     const bool is_temporal = (desc->methods & SMEAR_SET_TEMPORAL) != 0;
     const int share = desc->height * 5 / 100, usual = share < 1 ? 1 : share > 64 ? 64 : share;
@@ -804,8 +805,9 @@ void present_tiles(smear_desc *desc)
     const int least = is_temporal && !has_reach ? (tenth < 32 ? tenth : 32) : reach;
     if (desc->tile == 0)
         desc->tile = least <= 8 ? 8 : least <= 16 ? 16 : least <= 32 ? 32 : 64;
-    if (desc->strip == 0 && is_temporal)
-        desc->strip = 128;
+    const int strips = (desc->width + STRIP - 1) / STRIP;
+    if (desc->strip == 0 && is_temporal && strips > 0)
+        desc->strip = (int16_t)((desc->width + strips * desc->tile - 1) / (strips * desc->tile) * desc->tile);
 }
 
 double presented_depth(const struct presented *presented, uint16_t code)

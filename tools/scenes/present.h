@@ -134,8 +134,9 @@ int presented_submit(const struct presented *presented, smear_context *ctx);
 /* A desc that has room for this frame at this size (max_draws, max_triangles; its method, passes); the rest is zero. */
 smear_desc presented_desc(const struct presented *presented, int width, int height);
 
-/* Gives a desc whose tile or strip is 0 the one that pictures of the command line and of the golden frames are drawn
- * with, whatever the library's own defaults are: pictures depend on them a little. */
+/* Gives a desc whose tile or strip is 0 the one that pictures of the command line are drawn with, whatever the library's own defaults
+ * are: pictures depend on them a little. A row is cut into as few strips as there are of 256 px, all of one width: what lies across
+ * their border is made ready in both. */
 void present_tiles(smear_desc *desc);
 
 /* Distance along the view in scene units of a depth code; infinity for the background. */

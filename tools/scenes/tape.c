@@ -384,6 +384,8 @@ static int desc_object(struct tape_writer *w, const smear_desc *given)
 {
     struct buffer text = { 0 };
     smear_desc d = *given;
+    if (d.strip == 0 && (d.methods & SMEAR_SET_TEMPORAL) != 0)
+        d.strip = 128;      /* golden frames are drawn by boards, too */
     present_tiles(&d);
     buffer_print(&text, "{ ");
     add_field(&text, "width", d.width);
