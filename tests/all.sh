@@ -101,7 +101,7 @@ frames() {
 # That nothing is called that a small core lacks shows at any level of optimization.
 symbols() {
     if needs arm-none-eabi-gcc "gcc-arm-none-eabi"; then
-        suite symbols-cortex-m0plus $make -s TARGET=cortex-m0plus OPT=-O0 BUILD=build/cortex-m0plus-O0 symbols-test
+        suite symbols-unoptimized $make -s TARGET=cortex-m0plus OPT=-O0 BUILD=build/cortex-m0plus-O0 symbols-test
     fi
 }
 
@@ -373,7 +373,7 @@ check) groups="sanitized_briefly documents symbols format golden frames $suites"
 test) groups="portable $tests" ;;
 all)
     groups="one_file coverage boards pico2 generated switches web files linux_arm cortex_m3 linux raspi0 cortex_m7 cortex_m4 cortex_m33"
-    groups="$groups $tests rv32imc lx106 screens all_objects proofs"
+    groups="$groups $tests rv32imc lx106 screens all_objects proofs symbols"
     ;;
 esac
 [ $# -gt 0 ] || eval "set -- $groups"
