@@ -550,9 +550,6 @@ static bool rows_are_many(const struct span_rows *r)
 #define ANY_WIDTH  s->draw->sampler.log2_width
 #define ANY_HEIGHT s->draw->sampler.log2_height
 
-/* Loops of their own for pictures of 32 bits a texel whose places are quotients; not for cores whose flash has no room for such. */
-enum { WIDE_SIZES = !SMEAR_ON_ARMV6M };
-
 ROWS(wide_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_WIDE)
 LIT_ROWS(lit, TEXELS_LIT)
 ROWS(narrow_any, ANY_WIDTH, ANY_HEIGHT, TEXELS_NARROW)
@@ -602,7 +599,5 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     }
     if (SMEAR_DIRECT && narrow)
         return is_curved ? CHOOSE(curves_narrow, t) : CHOOSE(rows_narrow, t);
-    if (!WIDE_SIZES && !is_curved)
-        return rows_wide_any;
     return is_curved ? CHOOSE(curves_wide, t) : CHOOSE(rows_wide, t);
 }
