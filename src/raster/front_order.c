@@ -133,16 +133,15 @@ static bool is_worth_it(const struct smear_raster_frame *frame, const struct sme
     const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS);
     struct smear_list all = list;
     uint32_t count = 0;
-    for (uint32_t i; count <= most && (i = list_first(&all)) != SMEAR_NO_TRIANGLE; count++)
-        list_next(&all, bins_triangle(frame->bins, i));
-    const bool small = are_small(frame, target, count);
-    if (small && memory->rest != 0) {
+    if (memory->rest != 0) {
         memory->rest--;
         return false;
     }
+    for (uint32_t i; count <= most && (i = list_first(&all)) != SMEAR_NO_TRIANGLE; count++)
+        list_next(&all, bins_triangle(frame->bins, i));
     if (count < ORDER_LEAST || count > most || is_covered(frame->bins, list, pixels))
         return count >= ORDER_LEAST && count <= most;
-    if (small)
+    if (are_small(frame, target, count))
         memory->rest = SMALL_REST;
     return false;
 }
