@@ -11,11 +11,11 @@
 /* Red, green and blue of two pixels of the colour of r8, r9 and r10, with the step of column pair AT; and what becomes of them. r5 and r6
  * are masks. */
 #define ARMV6M_OF_COLOR(AT, GREEN_STEP) \
-        "ldr r4, [sp, #" AT "]\n\t" \
-        GREEN_STEP(r3, r4) \
-        "movs r2, r4\n\tadd r2, r8\n\tadd r3, r9\n\tadd r4, r10\n"
+        "ldr r2, [sp, #" AT "]\n\t" \
+        GREEN_STEP(r4, r2) \
+        "movs r3, r2\n\tadd r3, r8\n\tadd r4, r9\n\tadd r2, r10\n"
 #define ARMV6M_JOINED(SHIFT_AND_JOIN, STORE) \
-        "ands r2, r5\n\tands r3, r6\n\tands r4, r5\n\t" \
+        "ands r3, r5\n\tands r4, r6\n\tands r2, r5\n\t" \
         SHIFT_AND_JOIN STORE "\n\t"
 
 /* Two pixels. Those that are alike come to SAME: r8, r9 and r10 are red, green and blue of two pixels of the colour in r11. Others come to
@@ -25,28 +25,23 @@
         ARMV6M_UNLESS("r2", "r3", OTHER) \
         "cmp r2, r11\n\tbeq " SAME "f\n\tbl 80f\n" \
         SAME ": " ARMV6M_OF_COLOR(AT, GREEN_STEP) \
-        JOIN ": " ARMV6M_JOINED(SHIFT_AND_JOIN, "stm r1!, {r2}")
+        JOIN ": " ARMV6M_JOINED(SHIFT_AND_JOIN, "stm r1!, {r3}")
 
 #define ARMV6M_DITHERED_OTHER(AT, OTHER, JOIN, GREEN_FACTOR, GREEN_STEP) \
-        OTHER ": uxth r4, r2\n\t" \
-        "lsls r7, r3, #16\n\torrs r4, r7\n\t" \
-        "lsrs r2, r2, #16\n\tlsrs r3, r3, #16\n\t" \
-        "lsls r3, r3, #16\n\torrs r2, r3\n\t" \
-        "ldr r7, =0x00ff00ff\n\tands r2, r7\n\t" \
-        "lsrs r3, r4, #8\n\tands r3, r7\n\t" \
-        "ands r4, r7\n\tmovs r7, #249\n\t" \
-        "muls r2, r7\n\tmuls r4, r7\n\t" \
-        "movs r7, #" GREEN_FACTOR "\n\t" \
-        "muls r3, r7\n\t" \
-        "ldr r7, [sp, #" AT "]\n\t" \
-        "adds r2, r7\n\tadds r4, r7\n\t" \
+        OTHER ": lsrs r4, r2, #16\n\teors r4, r3\n\tuxth r4, r4\n\t" \
+        "eors r3, r4\n\tlsls r4, r4, #16\n\teors r2, r4\n\t" \
+        "ldr r7, =0x00ff00ff\n\tands r3, r7\n\t" \
+        "lsrs r4, r2, #8\n\tands r4, r7\n\tands r2, r7\n\t" \
+        "movs r7, #249\n\tmuls r3, r7\n\tmuls r2, r7\n\t" \
+        "movs r7, #" GREEN_FACTOR "\n\tmuls r4, r7\n\t" \
+        "ldr r7, [sp, #" AT "]\n\tadds r3, r7\n\tadds r2, r7\n\t" \
         GREEN_STEP(r7, r7) \
-        "adds r3, r7\n\t" \
+        "adds r4, r7\n\t" \
         "b " JOIN "b\n"
 
 /* Two of that colour, which are kept. */
 #define ARMV6M_RUN_PAIR(AT, KEPT, GREEN_STEP, SHIFT_AND_JOIN) \
-        ARMV6M_OF_COLOR(AT, GREEN_STEP) ARMV6M_JOINED(SHIFT_AND_JOIN, "str r2, [sp, #" KEPT "]")
+        ARMV6M_OF_COLOR(AT, GREEN_STEP) ARMV6M_JOINED(SHIFT_AND_JOIN, "str r3, [sp, #" KEPT "]")
 
 #define ARMV6M_UNLESS(FIRST, SECOND, ELSE) \
         "cmp " FIRST ", " SECOND "\n\t" \
@@ -150,12 +145,12 @@
 #define ARMV6M_STEP_63(TO, FROM) "lsrs " #TO ", " #FROM ", #1\n\t"
 #define ARMV6M_STEP_31(TO, FROM) "movs " #TO ", " #FROM "\n\t"
 #define ARMV6M_JOIN_565 \
-        "lsrs r3, r3, #5\n\tlsrs r4, r4, #11\n\torrs r2, r3\n\torrs r2, r4\n\t"
+        "lsrs r4, r4, #5\n\tlsrs r2, r2, #11\n\torrs r3, r4\n\torrs r3, r2\n\t"
 #define ARMV6M_JOIN_SWAPPED \
         ARMV6M_JOIN_565 \
-        "rev16 r2, r2\n\t"
+        "rev16 r3, r3\n\t"
 #define ARMV6M_JOIN_555 \
-        "lsrs r3, r3, #6\n\tlsrs r2, r2, #11\n\tlsrs r4, r4, #1\n\torrs r2, r3\n\torrs r2, r4\n\t"
+        "lsrs r4, r4, #6\n\tlsrs r3, r3, #11\n\tlsrs r2, r2, #1\n\torrs r3, r4\n\torrs r3, r2\n\t"
 
 /* As dithered_blocks: 3 instructions a pixel in blocks of the last colour, 16 where one goes over to another, 18 in others. */
 SMEAR_INLINE void dithered_blocks_armv6m(uint16_t *out, const uint32_t *in, int32_t blocks, const uint32_t *step, bool is_555,
