@@ -18,8 +18,8 @@
 
 /* Pixels from r5 to before r6, where r7 points to columns, what changes from row to row, z, depth, and what pixels take; then goes on at
  * 1 with the next of so many rows as r9 says. In a row: z r0, depth r1, pixels r2, dz r3, how many r6, the colour r7. DOUBLE is an
- * instruction where pixels are wide; of them SINGLE, TWICE, THRICE and FOUR are bytes. */
-#define FLAT_ROW_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
+ * instruction where pixels are wide; of them SINGLE, TWICE, THRICE and FOUR are bytes. AGAIN goes on at 1 unless there are none. */
+#define FLAT_ROW_ARMV6M(AGAIN, PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
     "ldm r7!, {r0, r1, r2, r3}\n\t" \
     "cmp r5, r0\n\t" \
     "bge 4f\n\t" \
@@ -57,8 +57,7 @@
     "9: mov r4, r9\n\t" \
     "subs r4, #1\n\t" \
     "mov r9, r4\n\t" \
-    "beq 2f\n\t" \
-    "b 1b\n"
+    AGAIN "\n"
 
 #if SMEAR_ASM_ARMV6M
 
@@ -75,7 +74,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, x) == 16 && offsetof(struct flat
     "lsrs r4, r4, #16\n\t" FLAT_ROW_PUT(STORE, AT, PLACE, LABEL)
 
 /* struct flat_lines from x on in r8, rows in r9, steps of sides on the stack; the rest is of flat_row_armv6m.h. */
-#define FLAT_LINES_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                            \
+#define FLAT_LINES_ARMV6M(AGAIN, PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR)                                            \
     __asm__ volatile(".syntax unified\n\t"                                                                              \
                      "mov r9, r1\n\t"                                                                                   \
                      "ldm r0!, {r4, r5, r6, r7}\n\t"                                                                    \
@@ -100,7 +99,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, x) == 16 && offsetof(struct flat
                      "adcs r3, r4\n\t"                                                                                  \
                      "subs r7, #16\n\t"                                                                                 \
                      "stm r7!, {r0, r1, r2, r3}\n\t"                                                                    \
-                     FLAT_ROW_ARMV6M(PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
+                     FLAT_ROW_ARMV6M(AGAIN, PIXEL, STORE, DOUBLE, SINGLE, TWICE, THRICE, FOUR) \
                      "2: add sp, #16"                                                                                   \
                      : "+r"(r0), "+r"(r1)                                                                               \
                      :                                                                                                  \
@@ -236,13 +235,13 @@ static inline void flat_lines_armv6m(struct flat_lines *l, int32_t n)
     register int32_t r1 __asm__("r1") = n;
     if (l->breaks) {
         if (l->narrow)
-            FLAT_LINES_ARMV6M(FLAT_LINES_ACROSS, "strh", "", "2", "4", "6", "8");
+            FLAT_LINES_ARMV6M("beq 2f\n\tb 1b", FLAT_LINES_ACROSS, "strh", "", "2", "4", "6", "8");
         else
-            FLAT_LINES_ARMV6M(FLAT_LINES_ACROSS, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
+            FLAT_LINES_ARMV6M("beq 2f\n\tb 1b", FLAT_LINES_ACROSS, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
     } else if (l->narrow) {
-        FLAT_LINES_ARMV6M(FLAT_ROW_PIXEL, "strh", "", "2", "4", "6", "8");
+        FLAT_LINES_ARMV6M("bne 1b", FLAT_ROW_PIXEL, "strh", "", "2", "4", "6", "8");
     } else {
-        FLAT_LINES_ARMV6M(FLAT_ROW_PIXEL, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
+        FLAT_LINES_ARMV6M("bne 1b", FLAT_ROW_PIXEL, "str", "adds r2, r2, r1\n\t", "4", "8", "12", "16");
     }
 }
 
