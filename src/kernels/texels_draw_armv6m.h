@@ -76,22 +76,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "beq 33f\n\t" \
         "b 32f\n"
 
-/* Likewise in a round of eight, where each pixel's code has as many bytes as BYTES says: goes on by so many pixels as there are. */
-#define ARMV6M_ENTER_EIGHT(SIZE, BYTES) \
-        "movs r7, #7\n\t" \
-        "ands r7, r6\n\t" \
-        "beq 31f\n\t" \
-        "subs r7, #8\n\t" \
-        "lsls r6, r7, #" SIZE "\n\t" \
-        "adds r0, r6\n\t" \
-        "lsls r6, r7, #1\n\t" \
-        "adds r1, r6\n\t" \
-        "negs r7, r7\n\t" \
-        "movs r6, #" BYTES "\n\t" \
-        "muls r7, r6\n\t" \
-        "add pc, r7\n\t" \
-        "nop\n"
-
 /* Colours, depth and z of the next pixel go into the run. */
 #define ARMV6M_STORE_RUN \
         "pop {r7}\n\t" \
@@ -106,45 +90,29 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "33: " ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST "+2", "4") ARMV6M_STEP BEND \
         "34: " ARMV6M_PIXEL(LOAD, STORE, SIZE, FIRST "+3", "5") ARMV6M_STEP BEND
 
-/* How many pixels a round has, how it begins, and how it goes on: eights are too long for a conditional branch. */
-#if SMEAR_SMALL_CODE
-#define ARMV6M_ROUND "4"
-#define ARMV6M_AGAIN "bne 31b\n\t"
-#define ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
-        ARMV6M_ENTER(SIZE) \
-        "31:\n\t" \
-        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", BEND)
-#else
-#define ARMV6M_ROUND "8"
-#define ARMV6M_AGAIN "beq 9f\n\tb 31b\n9:\n\t"
-#define ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
-        ARMV6M_ENTER_EIGHT(SIZE, BYTES) \
-        "31:\n\t" \
-        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", BEND) \
-        ARMV6M_FOUR(LOAD, STORE, SIZE, "4", BEND)
-#endif
-
 /* LOAD and STORE are instructions for a texel and a pixel, which have 2^SIZE bytes; BEND is ARMV6M_BEND
- * or nothing, and BYTES the size of a pixel's code. */
-#define ARMV6M_COPY(LOAD, STORE, SIZE, BYTES, BEND) \
+ * or nothing. */
+#define ARMV6M_COPY(LOAD, STORE, SIZE, BEND) \
     __asm__ volatile( \
         ARMV6M_LOAD_STEPS \
         "ldm r0, {r0, r1, r2, r3, r4, r5}\n\t" \
         "lsls r7, r6, #1\n\t" \
         "add r7, r1\n\t" \
         "mov lr, r7\n\t" \
-        ARMV6M_PIXELS(LOAD, STORE, SIZE, BYTES, BEND) \
-        "adds r0, #" ARMV6M_ROUND "<<" SIZE "\n\t" \
-        "adds r1, #2*" ARMV6M_ROUND "\n\t" \
+        ARMV6M_ENTER(SIZE) \
+        "31:\n\t" \
+        ARMV6M_FOUR(LOAD, STORE, SIZE, "0", BEND) \
+        "adds r0, #4<<" SIZE "\n\t" \
+        "adds r1, #8\n\t" \
         "cmp r1, lr\n\t" \
-        ARMV6M_AGAIN \
+        "bne 31b\n\t" \
         ARMV6M_STORE_RUN \
         : "+r"(r0) \
         : [from_v] "i"(32 - log2_height), [to_v] "i"(log2_width + (kind == TEXELS_NARROW ? 1 : 2)), \
           [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Copied texels: 15 1/2 instructions a pixel, 17 1/2 where the changes of coordinates change. The sizes are constants. */
+/* Copied texels: 16 instructions a pixel, 18 where the changes of coordinates change. The sizes are constants. */
 static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texel_run *p, int log2_width,
                                                                      int log2_height, enum texel_kind kind)
 {
@@ -152,14 +120,14 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
     register struct texel_run *r0 __asm__("r0") = p;
     if (kind == TEXELS_NARROW) {
         if (bends)
-            ARMV6M_COPY("ldrh", "strh", "1", "34", ARMV6M_BEND);
+            ARMV6M_COPY("ldrh", "strh", "1", ARMV6M_BEND);
         else
-            ARMV6M_COPY("ldrh", "strh", "1", "30", "");
+            ARMV6M_COPY("ldrh", "strh", "1", "");
     } else {
         if (bends)
-            ARMV6M_COPY("ldr", "str", "2", "34", ARMV6M_BEND);
+            ARMV6M_COPY("ldr", "str", "2", ARMV6M_BEND);
         else
-            ARMV6M_COPY("ldr", "str", "2", "30", "");
+            ARMV6M_COPY("ldr", "str", "2", "");
     }
 }
 
