@@ -152,8 +152,8 @@ void smear_rows_shade(const struct setup *s, const struct span_rows *r)
         if (p.a >= p.b)
             continue;
         if (whole) {
-            p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
-            p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+            p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
+            p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
             draw_run(s, &p, at, y, side);
             continue;
         }

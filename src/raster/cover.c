@@ -197,8 +197,25 @@ static inline void gather_start(struct gather *g, const struct setup *s, int32_t
     g->rows.count = 0;
 }
 
+/* In which slope a pixel's depth lies. */
+static inline enum depth_slope slope_at(const struct setup *s, int32_t x, int32_t y)
+{
+    return plane_at(&s->depth, x, y) < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+}
+
+/* In which slope rows lie whose sides are straight but where they meet the frame's border: the box of them tells. */
+static SMEAR_NOINLINE enum depth_slope slope_of_rows(const struct setup *s, const struct span_rows *r)
+{
+    const struct span_side *const top = r->side, *const bottom = top + r->count - 1;
+    const int32_t x0 = min_i32(top->left, bottom->left), x1 = max_i32(top->right, bottom->right), end = r->y + r->count - 1;
+    const enum depth_slope slope = slope_at(s, x0, r->y);
+    const bool same = slope == slope_at(s, x1, r->y) && slope == slope_at(s, x0, end) && slope == slope_at(s, x1, end);
+    return same && magnitude_i32(s->depth.dx) < 1u << 18 ? slope : SLOPE_BOTH;      /* planes do not wrap in a frame */
+}
+
 static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
 {
+    g->rows.slope = s->slope == SLOPE_BOTH ? slope_of_rows(s, &g->rows) : s->slope;
     g->rows.at = (g->ring_row - g->rows.count) * s->target->window_rows.stride - s->target->window_rows.x0;
     draw(s, &g->rows);
     g->rows.y += g->rows.count;

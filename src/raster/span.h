@@ -77,6 +77,7 @@ struct span_rows {
                                  * where there is more of the frame */
     int32_t at;                 /* index of column 0 of the first row in the
                                  * planes: colour and depth lie alike */
+    enum depth_slope slope;     /* in which these rows lie */
     struct span_side side[SPAN_ROWS];
 };
 
@@ -92,7 +93,7 @@ smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {
-    return s->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
+    return r->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
 /* Pixels [a, b) of a row, and depth codes 16.16 from pixel 0 on. */

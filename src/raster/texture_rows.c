@@ -128,7 +128,7 @@ SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s,
                                        int32_t row, int32_t a)
 {
     int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
-    enum depth_slope slope = s->slope;
+    enum depth_slope slope = r->slope;
     p->a = max_i32(a, s->target->x0);
     p->b = min_i32(r->side[row].right, s->target->x1);
     if (p->a >= p->b)
@@ -220,12 +220,12 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     const int up = t->up, log2_width = m->log2_width, log2_height = m->log2_height;
     const void *const texels = m->texels;
     struct row_run p;
-    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
     for (int32_t i = 0; i < list->count; i++) {
         const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
         p.a = r->side[row].left;
         p.b = r->side[row].right;
-        p.z = code_from_units(plane_at(&s->depth, 0, y), s->slope);
+        p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
         if (!whole && !smear_row_run_next(&p, s, r, row, p.a))
             continue;
         if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
@@ -387,7 +387,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
     k.run.light = light;
     texel_run_start(&k.run, log2_width, log2_height);
     track_prepare(&k, t);
-    p.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
     const int32_t rows = r->count;
     for (int32_t row = 0; row < rows; row++) {
         const int32_t left = r->side[row].left, right = r->side[row].right;
@@ -399,7 +399,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         if (whole) {
             p.a = left;
             p.b = right;
-            p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), s->slope);
+            p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
         } else if (!smear_row_run_next(&p, s, r, row, left)) {
             continue;
         }
@@ -421,10 +421,10 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = &s->texture;
     struct texel_curve_rows rows = {
-        .side = r->side, .count = r->count, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope),
-        .depth = target->depth + r->at, .x0 = t->x0, .dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope),
+        .side = r->side, .count = r->count, .y = r->y - t->y0, .z = code_from_units(plane_at(&s->depth, 0, r->y), r->slope),
+        .depth = target->depth + r->at, .x0 = t->x0, .dz_down = (uint32_t)step_from_units(s->depth.dy, r->slope),
         .stride = 2 * target->window_rows.stride, .u = t->curve[0], .v = t->curve[1],
-        .dz = (uint32_t)step_from_units(s->depth.dx, s->slope),
+        .dz = (uint32_t)step_from_units(s->depth.dx, r->slope),
         .to_pixels = kind == TEXELS_NARROW ? (intptr_t)((uintptr_t)target->direct - (uintptr_t)target->depth)
                                            : (intptr_t)((uintptr_t)target->color - 2 * (uintptr_t)target->depth),
         .texels = s->draw->sampler.texels
@@ -466,17 +466,17 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
     const bool whole = rows_are_whole(s, r);
-    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, s->slope);
+    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, r->slope);
     const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                                       : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
     const int32_t x0 = t->x0, y = r->y - t->y0, stride = target->window_rows.stride;
-    uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), s->slope);
+    uint32_t z = code_from_units(plane_at(&s->depth, 0, r->y), r->slope);
     uint16_t *depth = target->depth + r->at;
     struct curves curves;
     struct texel_run run;
     run.texels = s->draw->sampler.texels;
     run.light = light;
-    run.dz = (uint32_t)step_from_units(s->depth.dx, s->slope);
+    run.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
     texel_run_start(&run, log2_width, log2_height);
     curves_start(&curves, &t->curve[0], &t->curve[1], &run);
     const int32_t rows = r->count;
