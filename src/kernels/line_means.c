@@ -350,21 +350,6 @@ SMEAR_INLINE void code_means_of(const struct line_block *b, int32_t log)
     }
 }
 
-/* Two taps. */
-static void code_means2(const struct line_block *b)
-{
-    for (int32_t y = 0; y < b->rows; y++) {
-        const uint32_t *in = b->in + y * b->in_stride, *one = in + b->offset[0], *other = in + b->offset[1];
-        uint32_t *out = b->out + y * b->out_stride, *const end = out + b->columns;
-#if SMEAR_VECTORS
-        for (; end - out >= 4; out += 4, one += 4, other += 4)
-            v4u_store(out, v4u_mean8(v4u_load(one), v4u_load(other)));
-#endif
-        while (out != end)
-            *out++ = line_between(*one++, *other++);
-    }
-}
-
 /* Of one tap. */
 static void copy_rows(const struct line_block *b)
 {
@@ -387,7 +372,7 @@ void smear_line_means(const struct line_block *b, bool linear)
     else if (b->log == 2)
         code_means_of(b, 2);
     else
-        code_means2(b);
+        smear_line_means_reference(b, false);       /* of two taps, which lines do not have */
 }
 
 /* ------------------------------------------------------------------ means of pictures */

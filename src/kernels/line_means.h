@@ -13,7 +13,7 @@ struct line_block {
     uint32_t *out;              /* rows `out_stride` apart */
     int32_t in_stride, out_stride;
     int32_t columns, rows;
-    int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX: */
+    int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX, fast but for 1: */
     int32_t offset[LINE_TAPS_MAX];      /* from a pixel to each */
     bool sparse;                /* of most taps; rows have a multiple of LINE_SPARSE columns, and their ends have taps: means are taken of
                                  * every fourth pixel, and what lies between two is theirs */

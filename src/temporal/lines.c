@@ -252,9 +252,7 @@ static void place_taps(struct taps *t, int32_t x, int32_t y, int pictures)
     enum { LONG = 8 * 256,              /* so that four pixels beside each other on it are nearly alike; half of it for one picture */
            LEVEL_LOG2 = 1 };            /* and two lie between them across */
     const int32_t length = max_i32(abs_i32(x), abs_i32(y));
-    int32_t log = 0;
-    while (log < LINE_TAPS_LOG_MAX && length * 4 > 3 * 256 << log)
-        log++;
+    const int32_t log = length * 2 <= 3 * 256 ? 0 : length <= 3 * 256 ? 2 : 3;       /* two would lie on the pixel itself */
     const int32_t n = 1 << log, down = log + 1 + 8, half = n << 8;
     for (int32_t k = 0; k < n; k++) {
         t->x[k] = (x * (2 * k + 1 - n) + half) >> down;
@@ -355,6 +353,8 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
     for (int32_t y = y0; y < y1; y += BLOCK)
         for (int32_t x = x0; x < x1; x += BLOCK) {
             struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            if ((seen->depth | seen->contrast) == 0)        /* bare: it has no way of its own */
+                continue;
             const uint32_t times = (uint32_t)displace_block(lines, w, seen, x, y, seen->depth);
             if (times > 1)      /* what is left of a way that is cut off stays sharp */
                 seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
