@@ -127,11 +127,11 @@ static struct smear_line_seen *seen_at(const struct smear_lines *lines, const st
 static uint32_t contrast_of(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
 {
     uint32_t sum = 0;
-    for (int32_t y = y0; y < y1; y += BLOCK)
-        for (int32_t x = 0; x < w->width; x += BLOCK) {
-            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        const struct smear_line_seen *seen = seen_at(lines, w, 0, y);
+        for (int32_t x = 0; x < w->width; x += BLOCK, seen++)
             sum += (seen->x | seen->y) != 0 ? seen->contrast : 0u;
-        }
+    }
     return sum;
 }
 
@@ -350,15 +350,16 @@ static int32_t displace_block(const struct smear_lines *lines, const struct smea
 
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    for (int32_t y = y0; y < y1; y += BLOCK)
-        for (int32_t x = x0; x < x1; x += BLOCK) {
-            struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        struct smear_line_seen *seen = seen_at(lines, w, x0, y);
+        for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
             if ((seen->depth | seen->contrast) == 0)        /* bare: it has no way of its own */
                 continue;
             const uint32_t times = (uint32_t)displace_block(lines, w, seen, x, y, seen->depth);
             if (times > 1)      /* what is left of a way that is cut off stays sharp */
                 seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
         }
+    }
 }
 
 /* Gives a bare block the way of what passes it, whose depth is kept in place of a contrast: of that no use is made any more. */
@@ -389,19 +390,20 @@ static void pass_bare(const struct smear_lines *lines, const struct smear_window
 static void settle_bare(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     bool any = false;
-    for (int32_t y = y0; y < y1; y += BLOCK)
-        for (int32_t x = x0; x < x1; x += BLOCK) {
-            struct smear_line_seen *const seen = seen_at(lines, w, x, y);
-            any |= seen->depth == 0;
-            if (seen->depth == 0)
+    for (int32_t y = y0; y < y1; y += BLOCK) {
+        struct smear_line_seen *seen = seen_at(lines, w, x0, y);
+        for (int32_t x = x0; x < x1; x += BLOCK, seen++)
+            if (seen->depth == 0) {
+                any = true;
                 give_way(seen, 0, 0, 0);
-        }
-    for (int32_t y = any ? max_i32((y0 & -w->tile) - w->tile, 0) : lines->drawn; y < lines->drawn; y += BLOCK)
-        for (int32_t x = 0; x < w->width; x += BLOCK) {
-            const struct smear_line_seen *const seen = seen_at(lines, w, x, y);
+            }
+    }
+    for (int32_t y = any ? max_i32((y0 & -w->tile) - w->tile, 0) : lines->drawn; y < lines->drawn; y += BLOCK) {
+        const struct smear_line_seen *seen = seen_at(lines, w, 0, y);
+        for (int32_t x = 0; x < w->width; x += BLOCK, seen++)
             if (seen->depth != 0 && (seen->x | seen->y) != 0)
                 pass_bare(lines, w, seen, x, y, x0, x1, y0, y1);
-        }
+    }
 }
 
 void smear_lines_blur(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
