@@ -126,7 +126,7 @@ struct pen {
     int32_t rise, sweep;                /* q22, of the row in the frame's middle column */
     int32_t square;                     /* of the ray's way forward and up, q16 */
     int32_t pixel;                      /* rise from a pixel to the next */
-    int32_t at[ROWS_MOST];              /* where the rows lie that are filled at once, so many: */
+    int32_t at, stride;                 /* where the rows lie that are filled at once, so many: */
     int rows, span_log2;                /* log2 of columns between points */
     int even[2];                        /* log2 of sines that look alike */
     int32_t from;                       /* where the run begins that is not filled yet, of this colour: of a sine, shifted */
@@ -178,31 +178,32 @@ static void find_point(struct point *out, const struct pen *p, int32_t u)
     out->sine = sine_of(out->rise, out->inverse);
 }
 
-/* Fills n pixels of each row from a column on, or of all rows at once where they lie one behind the other. */
-static SMEAR_NOINLINE void fill_rows(const struct pen *p, int32_t x, int32_t n)
-{
-    const struct smear_raster_target *t = p->target;
-    const bool whole = p->at[p->rows - 1] - p->at[0] == (p->rows - 1) * n;
-    const int rows = whole ? 1 : p->rows;
-    n = whole ? n * p->rows : n;
-    for (int k = 0; k < rows; k++)
-        if (target_is_direct(t))
-            pixels_fill_narrow(t->direct + p->at[k] + x, rgb565_nearest(p->color), n);
-        else
-            pixels_fill(t->color + p->at[k] + x, p->color, n);
-}
-
-/* Goes on with another colour from a column on: fills what was before it, as far as it is the target's. */
+/* Goes on with another colour from a column on: fills what was before it in each row, as far as it is the target's, or in all rows at
+ * once where they lie one behind the other. */
 static SMEAR_NOINLINE void begin_run(struct pen *p, int32_t x, uint32_t color)
 {
+    const uint32_t value = p->color;
     p->level = -1;
-    if (color == p->color)
+    if (color == value)
         return;
-    const int32_t x0 = max_i32(p->from, p->target->x0), x1 = min_i32(x, p->target->x1);
-    if (x0 < x1)
-        fill_rows(p, x0, x1 - x0);
+    const struct smear_raster_target *t = p->target;
+    const int32_t x0 = max_i32(p->from, t->x0), x1 = min_i32(x, t->x1), stride = p->stride, at = p->at + x0;
+    int32_t n = x1 - x0;
+    int rows = p->rows;
     p->from = x;
     p->color = color;
+    if (n <= 0)
+        return;
+    if (n == stride) {
+        n *= rows;
+        rows = 1;
+    }
+    if (target_is_direct(t))
+        for (uint16_t *to = t->direct + at; rows > 0; rows--, to += stride)
+            pixels_fill_narrow(to, rgb565_nearest(value), n);
+    else
+        for (uint32_t *to = t->color + at; rows > 0; rows--, to += stride)
+            pixels_fill(to, value, n);
 }
 
 /* Returns how many times a span is halved so that what changes by so many codes along it does so by two in each part. */
@@ -262,7 +263,7 @@ static uint32_t mixed_color(const struct pen *p, const struct point *a)
 static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y, int k)
 {
     struct pen row = *of, *const p = &row;
-    row.at[0] = of->at[k];
+    row.at += k * of->stride;
     row.rows = 1;
     row.from = x;
     begin_row(p, p->sky->own[HEIGHT] - 2 * y - 1);
@@ -281,10 +282,11 @@ static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y
     begin_run(p, x + span, (uint32_t)NO_COLOR);
 }
 
-/* Whether the horizon is seen in none of the rows. */
-static bool is_beside(const struct point *a, const struct point *b, int32_t margin)
+/* Returns on which side of the horizon a point of some rows is seen in all of them: 1 or -1; or 0. */
+static int32_t side_of(const struct point *a, int32_t margin)
 {
-    return (a->rise ^ b->rise) >= 0 && abs_i32(a->rise) >= (a->width >> 1) + margin && abs_i32(b->rise) >= (b->width >> 1) + margin;
+    const int32_t least = (a->width >> 1) + margin;
+    return a->rise >= least ? 1 : a->rise <= -least ? -1 : 0;
 }
 
 /* Returns the log2 of columns from point to point in the pen's rows, which rise by less than `most`, q22: the less, the less err sines
@@ -322,18 +324,18 @@ static void fill(const smear_sky *sky, const struct smear_raster_target *t)
 {
     const int32_t *own = sky->own, width = own[WIDTH], height = own[HEIGHT];
     const int32_t across = abs_i32(own[RISE_X]), along = abs_i32(own[RISE_Y]);
-    /* Twice the length, within 7 %. */
-    struct pen p = { .sky = sky, .target = t, .pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2) };
+    const struct smear_plane_rows *const lie = target_is_direct(t) ? &t->window_rows : &t->color_rows;
+    struct pen p = { .sky = sky, .target = t, .stride = lie->stride };
+    p.pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2);      /* twice the length, within 7 % */
     __builtin_memcpy(p.half, &own[HALVES], sizeof p.half);
     for (int i = 0; i < 2; i++)
         p.even[i] = alike(&p.half[i]);
     for (int32_t y = t->y0, end; y < t->y1; y = end) {
-        const int32_t rows = rows_of(&p, y), first = y & -rows;
-        end = min_i32(first + rows, t->y1);
+        const int32_t rows = rows_of(&p, y), first = y & -rows, left = lie->ring - lie->ring_row - (y - t->y0);
         struct point a, b;
-        p.rows = end - y;
-        for (int32_t k = 0; k < p.rows; k++)
-            p.at[k] = target_row(target_is_direct(t) ? &t->window_rows : &t->color_rows, t, y + k);
+        p.at = target_row(lie, t, y);
+        p.rows = min_i32(min_i32(first + rows, t->y1) - y, left > 0 ? left : left + lie->ring);
+        end = y + p.rows;
         begin_row(&p, height - 2 * first - rows);
         p.span_log2 = span_of(&p, (uint32_t)abs_i32(p.rise) + (uint32_t)(across * width));
         p.color = (uint32_t)NO_COLOR;
@@ -342,9 +344,12 @@ static void fill(const smear_sky *sky, const struct smear_raster_target *t)
         int32_t x = t->x0 & -span;
         p.from = x;
         find_point(&a, &p, 2 * x - width);
+        int32_t side = side_of(&a, rows * along);
         for (; x < t->x1; x += span, a = b) {
+            const int32_t before = side;
             find_point(&b, &p, 2 * (x + span) - width);
-            if (is_beside(&a, &b, rows * along)) {
+            side = side_of(&b, rows * along);
+            if (side == before && side != 0) {
                 fill_span(&p, &a, &b, x);
                 continue;
             }
