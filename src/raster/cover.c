@@ -299,7 +299,8 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
         write = smear_span_level;
-    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !segment_textured(s->segment) && !setup_is_shaded(s))
+    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !setup_is_shaded(s)
+        && (s->segment->uv == 0 || (s->texture.mode == TEXTURE_CURVED && s->texture.turns && s->segment->shade == SHADE_NONE)))
         write = smear_span_shadow;
     if (small && !SMEAR_SMALL_CODE)
         cover_small(s, box, write);

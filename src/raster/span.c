@@ -28,11 +28,36 @@ void smear_span_level(const struct setup *s, const struct span *p)
 }
 #endif
 
+/* Darkens n pixels by texels, where they are nearer. Codes that have no shadow yet become darker by two products. */
+static SMEAR_NOINLINE void darken(const uint32_t *in, uint32_t *color, const uint16_t *depth, uint32_t z, uint32_t dz, int32_t n,
+                                  smear_transfer transfer)
+{
+    const uint32_t *const end = in + n, black_most = transfer_is_linear(transfer) ? 0 : 255u << 24;
+    for (; in != end; in++, color++, depth++, z += dz) {
+        const uint32_t over = *in, pixel = *color, rest = 256u - (over >> 24) - (over >> 31);
+        if (over >> 24 <= pixel >> 24 || z >> 16 <= *depth)
+            continue;
+        if (over << 8 != 0 || over > black_most || pixel >> 24 != 0)
+            *color = blended_pixel(pixel, over, true, transfer);
+        else
+            *color = over | (((pixel & 0xff00ffu) * rest + 0x800080u) >> 8 & 0xff00ffu)
+                   | (((pixel & 0xff00u) * rest + 0x8000u) >> 8 & 0xff00u);
+    }
+}
+
 void smear_span_shadow(const struct setup *s, const struct span *p)
 {
     const uint16_t *depth = p->depth, *const end = depth + (p->b - p->a);
     uint32_t *color = (uint32_t *)p->color, z = p->z, dz = (uint32_t)p->dz, last = 0xff000000u, dark = last;     /* as dark as can be */
-    for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz)
+    for (int32_t n; !SMEAR_SMALL_CODE && segment_textured(s->segment) && depth != end; depth += n, color += n, z += dz * (uint32_t)n) {
+        uint32_t block[BLOCK_LONGEST];
+        const int32_t x = p->b - (int32_t)(end - depth);
+        const struct smear_texture_run run = texcoord_packed(texcoord_curved(&s->texture, &s->draw->sampler, x, p->y));
+        n = min_i32(p->b - x, BLOCK_LONGEST);
+        smear_sample(block, &s->draw->sampler, &run, 0, n);
+        darken(block, color, depth, z, dz, n, frame_transfer(s->frame));
+    }
+    for (; !SMEAR_SMALL_CODE && !segment_textured(s->segment) && depth != end; depth++, color++, z += dz)
         if (z >> 16 > *depth) {
             if (*color != last)
                 last = *color, dark = blended_pixel(last, s->color, true, frame_transfer(s->frame));
@@ -251,16 +276,10 @@ static void write_block(const uint32_t *in, void *pixels, uint16_t *depth, uint3
         }
         return;
     }
-    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw)) {
-        for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
-            if (z >> 16 > *depth)
-                *color = blended_pixel(*color, *in, true, frame_transfer(s->frame));
-        return;
-    }
     if (draw_is_blended(s->draw)) {
         for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz)
             if (z >> 16 > *depth)
-                *color = blended_pixel(*color, *in, SMEAR_SMALL_CODE && draw_is_shadow(s->draw), frame_transfer(s->frame));
+                *color = blended_pixel(*color, *in, draw_is_shadow(s->draw), frame_transfer(s->frame));
         return;
     }
     for (; n > 0; n--, in++, color++, depth++, z += (uint32_t)dz) {

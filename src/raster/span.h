@@ -26,7 +26,7 @@ typedef void smear_span_fn(const struct setup *s, const struct span *p);
 /* One colour, opaque; and everything. */
 smear_span_fn smear_span_flat, smear_span_general;
 
-/* One colour, of a shadow. */
+/* A shadow of one colour, or of texels by a polynomial. */
 smear_span_fn smear_span_shadow;
 
 /* One colour, opaque, in one part of fog for each row. */

@@ -36,16 +36,6 @@ void smear_sampler_shrink(struct smear_sampler *s, int level);
 /* u (axis 0) or v / 2^15 in q29 (mesh units over 2^15) to texels. Wraps: textures repeat. */
 int32_t smear_sampler_texel(const struct smear_sampler *s, int axis, int32_t ratio);
 
-static inline int32_t smear_sampler_texel_u(const struct smear_sampler *s, int32_t ratio)
-{
-    return smear_sampler_texel(s, 0, ratio);
-}
-
-static inline int32_t smear_sampler_texel_v(const struct smear_sampler *s, int32_t ratio)
-{
-    return smear_sampler_texel(s, 1, ratio);
-}
-
 /* Coordinates of a block of pixels: v above u, each in turns or in texels q16. One addition steps both (two
  * where words have 32 bits); what u carries into v is the last bit. Steps change by the curvature from pixel to pixel. */
 struct smear_texture_run {

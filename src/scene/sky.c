@@ -60,10 +60,10 @@ static void find_plane(int32_t plane[3], const struct smear_shot *shot, const in
 /* Returns the most that a channel changes by. */
 static int32_t contrast_of(uint32_t a, uint32_t b)
 {
-    const int32_t red = abs_i32((int32_t)pixel_red(a) - (int32_t)pixel_red(b)),
-                  green = abs_i32((int32_t)pixel_green(a) - (int32_t)pixel_green(b)),
-                  blue = abs_i32((int32_t)pixel_blue(a) - (int32_t)pixel_blue(b));
-    return max_i32(red, max_i32(green, blue));
+    int32_t most = 0;
+    for (int i = 0; i < 24; i += 8)
+        most = max_i32(most, abs_i32((int32_t)(a >> i & 255u) - (int32_t)(b >> i & 255u)));
+    return most;
 }
 
 /* A half of the sky: the colour at the horizon and what leads to the pole, as two words of channels. */
@@ -128,7 +128,7 @@ struct pen {
     int32_t pixel;                      /* rise from a pixel to the next */
     int32_t at, stride;                 /* where the rows lie that are filled at once, so many: */
     int rows, span_log2;                /* log2 of columns between points */
-    int even[2];                        /* log2 of sines that look alike */
+    int even[2];                        /* log2 of sines that look alike: less than two codes apart */
     int32_t from;                       /* where the run begins that is not filled yet, of this colour: of a sine, shifted */
     uint32_t color;
     int32_t level;                      /* or -1 */
@@ -311,15 +311,6 @@ static int32_t rows_of(const struct pen *p, int32_t y)
          ? 2 * rows : rows;
 }
 
-/* Returns the log2 of sines whose colours differ by less than two codes. */
-static int alike(const struct half *h)
-{
-    int log = 0;
-    while (log < 8 && h->contrast << log <= 256)
-        log++;
-    return log;
-}
-
 static void fill(const smear_sky *sky, const struct smear_raster_target *t)
 {
     const int32_t *own = sky->own, width = own[WIDTH], height = own[HEIGHT];
@@ -329,7 +320,8 @@ static void fill(const smear_sky *sky, const struct smear_raster_target *t)
     p.pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2);      /* twice the length, within 7 % */
     __builtin_memcpy(p.half, &own[HALVES], sizeof p.half);
     for (int i = 0; i < 2; i++)
-        p.even[i] = alike(&p.half[i]);
+        while (p.even[i] < 8 && p.half[i].contrast << p.even[i] <= 256)
+            p.even[i]++;
     for (int32_t y = t->y0, end; y < t->y1; y = end) {
         const int32_t rows = rows_of(&p, y), first = y & -rows, left = lie->ring - lie->ring_row - (y - t->y0);
         struct point a, b;

@@ -301,8 +301,8 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
         u[i] = (int16_t)(record[i][s->segment->uv] & 0xffff);
         v[i] = record[i][s->segment->uv] >> 16;
     }
-    uint32_t range = max_u32(magnitude_i32(smear_sampler_texel_u(m, (int32_t)spread(u) * 16384) >> 10),
-                             magnitude_i32(smear_sampler_texel_v(m, (int32_t)spread(v) * 16384) >> 10));
+    uint32_t range = max_u32(magnitude_i32(smear_sampler_texel(m, 0, (int32_t)spread(u) * 16384) >> 10),
+                             magnitude_i32(smear_sampler_texel(m, 1, (int32_t)spread(v) * 16384) >> 10));
     s->over_w = !s->segment->flat_depth && needs_w(pose, range, TEXEL_OFF);
     if (s->over_w)
         over_w_make(s, &w, c, pose);
@@ -312,8 +312,8 @@ static void shade_texture(struct timemask_shade *s, const struct course *c,
     }
     s->turns_shift = (int8_t)(!m->turns ? 0 : (s->over_w ? 20 : 18) - m->uv_shift);
     for (int i = 0; i < 3 && !s->over_w; i++) {
-        u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel_u(m, u[i] * 16384);
-        v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel_v(m, v[i] * 16384);
+        u[i] = m->turns ? u[i] * 16384 : smear_sampler_texel(m, 0, u[i] * 16384);
+        v[i] = m->turns ? v[i] * 16384 : smear_sampler_texel(m, 1, v[i] * 16384);
     }
     attribute_make(&s->u, c, s->over_w ? &w : NULL, u);
     attribute_make(&s->v, c, s->over_w ? &w : NULL, v);
@@ -413,8 +413,8 @@ static void texel_at(const struct timemask_shade *s, int32_t x, int32_t y, int32
         *u = quotient_of(&w, *u);
         *v = quotient_of(&w, *v);
         if (!m->turns) {
-            *u = smear_sampler_texel_u(m, shl_wrap(*u, 2));
-            *v = smear_sampler_texel_v(m, shl_wrap(*v, 2));
+            *u = smear_sampler_texel(m, 0, shl_wrap(*u, 2));
+            *v = smear_sampler_texel(m, 1, shl_wrap(*v, 2));
         }
     }
     *u = shl_wrap(*u, s->turns_shift);
