@@ -1021,6 +1021,127 @@ static void test_what_cannot_be_converted_is_refused_with_a_reason(void)
     }
 }
 
+/* ------------------------------------------------------------------ lights */
+
+#define LIT(LIGHTS, NODES) \
+    "{'asset':{'version':'2.0'},'extensionsRequired':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights':" LIGHTS "}}," \
+    "'buffers':[{'byteLength':36,'uri':'data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]," \
+    "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':3}]," \
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}," NODES "],'scenes':[{'nodes':[0,1,2,3,4,5,6]}]}"
+#define SHINES(N) "'extensions':{'KHR_lights_punctual':{'light':" #N "}}"
+#define TURNED "'rotation':[-0.6,0,0,0.8],"                 /* from -z to (0, -0.96, -0.28) */
+#define SIX(FIRST) FIRST ",{},{},{},{},{}"
+
+static bool parse_lit(const char *json, struct model *m, struct failure *f)
+{
+    char text[3000];
+    size_t size = 0;
+    for (; json[size] != '\0' && size < sizeof text; size++)
+        text[size] = json[size] == '\'' ? '"' : json[size];
+    *f = (struct failure){ { 0 } };
+    return model_parse((const uint8_t *)text, size, NULL, m, f);
+}
+
+/* Of a file of six lights: two suns, a spot; a third sun, a point and what nobody knows are left out by name. */
+static void test_lights_of_a_file_are_those_of_its_header(void)
+{
+    static const char six[] = LIT("[{'type':'directional','color':[0.5,0.25,1],'intensity':4},{'type':'directional','name':'rim'},"
+                                  "{'type':'spot','name':'torch','color':[0,0.5,0.25],'intensity':0.5,'spot':{}},"
+                                  "{'type':'area','name':'panel'},{'type':'point','name':'bulb'},{'type':'directional','name':'moon'}]",
+                                  "{" TURNED SHINES(0) "},{" SHINES(1) "},{'translation':[1,2,3]," SHINES(2) "},{" SHINES(3) "},{"
+                                  SHINES(4) "},{" SHINES(5) "}");
+    static const char *const told[] = { "drawn as a point: torch spot", "unknown kinds: panel area",
+                                        "beyond two directional ones and a point: bulb point, moon directional" };
+    static const char *const written[] = { "model_sun = { { 0, 62915, 18350 }, { 9830, 4915, 19661 }, { 22937, 11469, 45875 } };",
+                                           "&smear_lights_shader, { 0, 0, 65536 }, { 16384, 16384, 16384 },",
+                                           "{ 0, 65535, 32768 }, { 131072, 262144, 393216 }, 131072", "#include \"smear_scene.h\"" };
+    struct convert_options o = plain_options();
+    struct converted_file file = { .result = { .pile = NULL } };
+    struct failure f;
+    uint8_t *header;
+    size_t size;
+    o.scale = 2;
+    REQUIRE(parse_lit(six, &file.model, &f));
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!CHECK(strstr(file.model.warning, told[i]) != NULL))
+            say("    %s\n", file.model.warning);
+    REQUIRE(convert_loaded_file(&file, &o, "six lights"));
+    REQUIRE(convert_to_header(&file.result, "model", "six.gltf", &header, &size, &f));
+    char *text = calloc(size + 1, 1);
+    REQUIRE(text != NULL);
+    memcpy(text, header, size);
+    for (size_t i = 0; i < sizeof written / sizeof *written; i++)
+        if (!CHECK(strstr(text, written[i]) != NULL))
+            say("    lacks %s\n%s\n", written[i], strstr(text, "model_sun"));
+    free(text);
+    free(header);
+    check_header(&file.result, "six.gltf");
+    close_file(&file);
+}
+
+/* Light that is too bright for a picture is dimmed as a whole, a point by what it is in the middle of the model; a range ends it. */
+static void test_lights_are_as_bright_as_a_picture_can_show(void)
+{
+    static const struct { const char *file; double sun, reach; } cases[] = {
+        { LIT("[{'type':'directional','intensity':0.5}]", SIX("{" SHINES(0) "}")), 0.5, 0 },
+        { LIT("[{'type':'directional','intensity':500}]", SIX("{" SHINES(0) "}")), 1, 0 },
+        { LIT("[{'type':'point','intensity':0.25}]", SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 2 },
+        { LIT("[{'type':'point','intensity':5000}]", SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 36 },
+        { LIT("[{'type':'point','intensity':5000,'range':10}]", SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 10 },
+        { LIT("[{'type':'point','intensity':0}]", SIX("{" SHINES(0) "}")), 0, 0 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct model m;
+        struct model_lights lights;
+        struct failure f;
+        if (!CHECK(parse_lit(cases[i].file, &m, &f))) {
+            say("    %s\n", f.text);
+            continue;
+        }
+        CHECK(m.warning[0] == '\0');
+        CHECK(model_find_lights(&m, &lights, &f));
+        CHECK_CLOSE(lights.color[MODEL_SUN][0], cases[i].sun, 1e-9);
+        CHECK_CLOSE(lights.reach, cases[i].reach, 1e-9);
+        CHECK_EQ(lights.has[MODEL_SUN] + lights.has[MODEL_LAMP], cases[i].sun + cases[i].reach > 0);
+        model_free(&m);
+    }
+}
+
+static void test_lights_that_mean_nothing_are_refused_where_they_stand(void)
+{
+    static const struct { const char *file, *reason; } cases[] = {
+        { LIT("[{'type':'point'}]", SIX("{" SHINES(1) "}")), "(nodes[1].extensions.KHR_lights_punctual.light)" },
+        { LIT("[{'type':'point'}]", SIX("{" SHINES(-1) "}")), "(nodes[1].extensions.KHR_lights_punctual.light)" },
+        { LIT("[{'type':'point'}]", SIX("{" SHINES('a') "}")), "(nodes[1].extensions.KHR_lights_punctual.light)" },
+        { LIT("[]", SIX("{'extensions':{'KHR_lights_punctual':{}}}")), "(nodes[1].extensions.KHR_lights_punctual.light)" },
+        { LIT("[]", SIX("{'extensions':{'KHR_lights_punctual':[]}}")), "(nodes[1].extensions.KHR_lights_punctual)" },
+        { LIT("{}", SIX("{}")), "(extensions.KHR_lights_punctual.lights)" },
+        { LIT("[1]", SIX("{}")), "(extensions.KHR_lights_punctual.lights[0])" },
+        { LIT("[{}]", SIX("{}")), "a light has a type (extensions.KHR_lights_punctual.lights[0].type)" },
+        { LIT("[{'type':1}]", SIX("{}")), "(extensions.KHR_lights_punctual.lights[0].type)" },
+        { LIT("[{'type':'point','color':[1,1]}]", SIX("{}")), "(extensions.KHR_lights_punctual.lights[0].color)" },
+        { LIT("[{'type':'point','color':[1,-1,0]}]", SIX("{}")), "-1 is no part of a colour" },
+        { LIT("[{'type':'point','intensity':-2}]", SIX("{}")), "-2 is no intensity" },
+        { LIT("[{'type':'point','intensity':'x'}]", SIX("{}")), "(extensions.KHR_lights_punctual.lights[0].intensity)" },
+        { LIT("[{'type':'point','range':0}]", SIX("{}")), "0 is no distance" },
+        { LIT("[{'type':'spot'}]", SIX("{}")), "(extensions.KHR_lights_punctual.lights[0].spot)" },
+        { LIT("[{'type':'spot','spot':{'innerConeAngle':1}}]", SIX("{}")), "angles from 1 to 0.785398 are no cone" },
+    };
+    struct model m;
+    struct model_lights lights;
+    struct failure f;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        CHECK(!parse_lit(cases[i].file, &m, &f));
+        CHECK_EQ(m.node_count, 0);
+        if (!CHECK(strstr(f.text, cases[i].reason) != NULL))
+            say("    %zu: %s\n", i, f.text);
+    }
+    REQUIRE(parse_lit(LIT("[{'type':'directional'}]", SIX("{'scale':[1,1,0]," SHINES(0) "}")), &m, &f));
+    CHECK(!model_find_lights(&m, &lights, &f));
+    CHECK(strstr(f.text, "no direction (scale of zero, nodes[1])") != NULL);
+    model_free(&m);
+}
+
 /* ------------------------------------------------------------------ order */
 
 static void test_triangles_are_ordered_for_the_vertex_cache(void)

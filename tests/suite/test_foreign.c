@@ -99,7 +99,7 @@ static const struct { const char *name; enum fate fate; } known[] = {
     { "KHR_materials_transmission", LOOK }, { "KHR_materials_volume", LOOK }, { "KHR_materials_dispersion", LOOK },
     { "KHR_materials_diffuse_transmission", LOOK }, { "KHR_materials_anisotropy", LOOK }, { "KHR_materials_iridescence", LOOK },
     { "KHR_materials_ior", LOOK }, { "KHR_materials_specular", LOOK }, { "KHR_materials_sheen", LOOK },
-    { "KHR_materials_clearcoat", LOOK }, { "KHR_materials_emissive_strength", LOOK }, { "KHR_lights_punctual", LOOK },
+    { "KHR_materials_clearcoat", LOOK }, { "KHR_materials_emissive_strength", LOOK }, { "KHR_lights_punctual", READ },
     { "VRM", LOOK }, { "VRMC_vrm", LOOK }, { "VRMC_materials_mtoon", LOOK }, { "CESIUM_primitive_outline", LOOK },
     { "EXT_lights_image_based", LOOK }, { "KHR_animation_pointer", LOOK },
     { "EXT_structural_metadata", NOTE }, { "EXT_mesh_features", NOTE }, { "EXT_instance_features", NOTE },

@@ -235,6 +235,10 @@ static void print_result(FILE *to, const struct conversion *c, const struct conv
         fprintf(to, "vertices transformed per triangle: %.2f, in the file's order %.2f\n",
                 (double)c->transformed / c->triangles, (double)c->transformed_in_file / c->triangles_in_file);
     print_textures(to, c);
+    const bool has_second = (c->lights.diffuse[0] | c->lights.diffuse[1] | c->lights.diffuse[2]) != 0;
+    if (c->has_sun || c->has_lights || c->lamp_is_beyond)
+        fprintf(to, "lights:%s%s%s%s\n", c->has_sun ? " sun" : "", has_second ? " second" : "", c->lights.reach > 0 ? " lamp" : "",
+                c->lamp_is_beyond ? " (a lamp beyond 32767 units is left out)" : "");
     fprintf(to, "clips: %u\n", m->clip_count);
     for (int i = 0; i < m->clip_count; i++) {
         jumps += c->clip_report[i].jumps;
@@ -358,6 +362,8 @@ static int write_result(const struct convert_command *command, const char *path,
     bool ok = make_result(command, path, c, &sketch, &bytes, &size, &f);
     if (!ok)
         return say_bad_input(path, &f);
+    if ((c->has_sun || c->has_lights) && (ends_with(command->output, ".smr") || ends_with(command->output, ".zip")))
+        say_warning_when_done(path, "its lights are left out: headers have them, .smr and sketches do not");
     outputs_hold();
     ok = write_bytes(command->output, bytes, size, &f);
     free(bytes);

@@ -63,6 +63,7 @@ static const char *const render_help[] = {
     "                        light from that direction, 3/10 of the sun's from everywhere; another one\n"
     "  --lamp RRGGBB,X,Y,Z,REACH\n"
     "                        a lamp at that place, in units of the scene\n"
+    "                        without any of these: the file's lights [the library's sun]\n"
     "  --gloss               highlights of what the file says is not rough\n"
     "  --fog RRGGBB,NEAR,FAR fog between two distances from the camera, in units of the scene; the\n"
     "                        background has its colour, and nothing is drawn beyond it [none]\n"

@@ -138,6 +138,47 @@ static bool choose_world(struct converter *c)
     return true;
 }
 
+/* Returns a channel of light, linear, 65535 is one. */
+static uint16_t channel_of(double value, double part)
+{
+    return (uint16_t)(65535 * part * value + 0.5);
+}
+
+/* The file's lights in the result's world. As everywhere, 3/10 of the sun come from everywhere. */
+static bool find_lights(struct converter *c)
+{
+    struct conversion *out = c->out;
+    struct model_lights lights;
+    double turned[3][3] = { { 0 } };
+    const double scale = fabs(c->root[0]);
+    if (!model_find_lights(c->model, &lights, c->f))
+        return false;
+    const double *const from[3] = { lights.direction[MODEL_SUN], lights.direction[MODEL_SECOND], lights.place };
+    for (int i = 0; i < MODEL_LIGHTS; i++)
+        for (int row = 0; row < 3; row++)
+            for (int k = 0; k < 3; k++)
+                turned[i][row] += c->root[4 * k + row] * from[i][k];
+    for (int k = 0; k < 3; k++)
+        out->lamp_is_beyond |= lights.has[MODEL_LAMP] && !(fabs(turned[MODEL_LAMP][k]) < 32767);
+    out->has_sun = lights.has[MODEL_SUN];
+    lights.has[MODEL_LAMP] &= !out->lamp_is_beyond;
+    out->has_lights = lights.has[MODEL_SECOND] || lights.has[MODEL_LAMP];
+    for (int k = 0; k < 3; k++) {
+        out->sun.direction[k] = (int32_t)floor(turned[MODEL_SUN][k] / scale * 65536 + 0.5);
+        out->sun.ambient[k] = channel_of(lights.color[MODEL_SUN][k], 0.3);
+        out->sun.diffuse[k] = channel_of(lights.color[MODEL_SUN][k], 0.7);
+        out->lights.direction[k] = (int32_t)floor(turned[MODEL_SECOND][k] / scale * 65536 + 0.5);
+        out->lights.diffuse[k] = channel_of(lights.color[MODEL_SECOND][k], 1);
+        if (lights.has[MODEL_LAMP]) {
+            out->lights.lamp_diffuse[k] = channel_of(lights.color[MODEL_LAMP][k], 1);
+            out->lights.lamp[k] = (int32_t)floor(turned[MODEL_LAMP][k] * 65536 + 0.5);
+        }
+    }
+    if (lights.has[MODEL_LAMP])
+        out->lights.reach = (int32_t)(fmin(lights.reach * scale, 32767) * 65536);
+    return true;
+}
+
 /* ------------------------------------------------------------------ the result */
 
 static bool keep_lists(struct converter *c)
@@ -243,8 +284,8 @@ bool convert_model(const struct model *model, const struct convert_options *opti
     if (out->pile == NULL)
         return out_of_memory(f);
     c.pile = out->pile;
-    bool ok = check_work(&c) && start(&c) && choose_world(&c) && find_draws(&c) && find_moving_nodes(&c) && find_carriers(&c)
-           && find_shapes(&c) && find_bounds(&c) && write_nodes(&c) && write_meshes(&c) && write_skins(&c)
+    bool ok = check_work(&c) && start(&c) && choose_world(&c) && find_lights(&c) && find_draws(&c) && find_moving_nodes(&c)
+           && find_carriers(&c) && find_shapes(&c) && find_bounds(&c) && write_nodes(&c) && write_meshes(&c) && write_skins(&c)
            && write_clips(&c) && finish_textures(&c) && keep_lists(&c);
     if (ok) {
         count_file(&c);

@@ -22,6 +22,7 @@
 #include "tools/model/model.h"
 
 #include <smear_model.h>
+#include <smear_scene.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -94,6 +95,10 @@ struct conversion {
     struct convert_origin **origin;
 
     double root[16];            /* from the file's world to the result's */
+    bool has_sun, has_lights;   /* the file's, at rest, in the result's world; headers have them */
+    bool lamp_is_beyond;        /* of Q16.16: left out */
+    smear_light sun;
+    smear_lights lights;        /* the second one and the lamp; their shader is null */
     int triangles, vertices, triangles_in_file, vertices_in_file;
     int invisible;              /* draws left out because their material lets nothing through */
     int transformed, transformed_in_file;       /* vertices, with a vertex cache of 64 */

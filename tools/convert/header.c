@@ -277,6 +277,40 @@ static void put_model(struct header_writer *w)
     buffer_print(&w->b, " }, %" PRId32 "\n};\n\n", m->radius);
 }
 
+static void put_channels(struct header_writer *w, const char *before, const uint16_t value[3])
+{
+    buffer_print(&w->b, "%s{ %u, %u, %u }", before, value[0], value[1], value[2]);
+}
+
+static void put_vector(struct header_writer *w, const char *before, const int32_t value[3])
+{
+    buffer_print(&w->b, "%s{ ", before);
+    put_words(w, value, 3);
+    buffer_print(&w->b, " }");
+}
+
+/* The file's lights: NAME_sun for smear_frame.light, NAME_lights for smear_scene.lights. */
+static void put_lights(struct header_writer *w)
+{
+    const smear_light *sun = &w->c->sun;
+    const smear_lights *l = &w->c->lights;
+    if (w->c->has_sun) {
+        buffer_print(&w->b, "static const smear_light %s_sun = { ", w->name);
+        put_vector(w, "", sun->direction);
+        put_channels(w, ", ", sun->ambient);
+        put_channels(w, ", ", sun->diffuse);
+        buffer_print(&w->b, " };\n\n");
+    }
+    if (!w->c->has_lights)
+        return;
+    buffer_print(&w->b, "static const smear_lights %s_lights = {\n    &smear_lights_shader", w->name);
+    put_vector(w, ", ", l->direction);
+    put_channels(w, ", ", l->diffuse);
+    put_channels(w, ",\n    ", l->lamp_diffuse);
+    put_vector(w, ", ", l->lamp);
+    buffer_print(&w->b, ", %" PRId32 "\n};\n\n", l->reach);
+}
+
 /* ------------------------------------------------------------------ names */
 
 /* Letters, digits and underscores, in capitals. */
@@ -347,10 +381,10 @@ static void put_top(struct header_writer *w, const char *from)
            " * Include it in one source file. */\n", w->c->triangles, w->c->vertices, m->draw_count,
                  w->c->texture_count, m->node_count, m->clip_count,
                  w->c->bytes.meshes + w->c->bytes.textures + w->c->bytes.animation);
-    buffer_print(&w->b, "#ifndef %s_H\n#define %s_H\n\n#include \"smear_model.h\"\n\n"
+    buffer_print(&w->b, "#ifndef %s_H\n#define %s_H\n\n#include \"smear_model.h\"\n%s\n"
            "#if SMEAR_MODEL_FORMAT != %d\n"
            "#error \"made for another version of smear: run smear convert again\"\n#endif\n\n",
-                 w->upper, w->upper, SMEAR_MODEL_FORMAT);
+                 w->upper, w->upper, w->c->has_lights ? "#include \"smear_scene.h\"\n" : "", SMEAR_MODEL_FORMAT);
     buffer_print(&w->b, "#define %s_TRIANGLES %d\n#define %s_DRAWS %u\n", w->upper, w->c->triangles, w->upper,
                  m->draw_count);
     buffer_print(&w->b,
@@ -378,6 +412,7 @@ bool convert_to_header(const struct conversion *c, const char *name, const char 
     put_meshes(&w);
     put_tables(&w);
     put_model(&w);
+    put_lights(&w);
     buffer_print(&w.b, "#endif\n");
     if (w.b.failed || !ok) {
         buffer_free(&w.b);

@@ -185,10 +185,12 @@ bool convert_to_sketch(const struct conversion *c, const struct sketch_options *
     struct zip z = { 0 };
     struct buffer settings = { 0 };
     const bool is_idf = displays[o->display].is_idf;
+    struct conversion dark = *c;        /* sketches have the library's light */
     uint8_t *header = NULL;
     size_t header_size;
     char path[128];
-    if (!fit(c, o, report, f) || !convert_to_header(c, "model", from, &header, &header_size, f))
+    dark.has_sun = dark.has_lights = false;
+    if (!fit(c, o, report, f) || !convert_to_header(&dark, "model", from, &header, &header_size, f))
         return false;
     bool ok = add_kit(&z, name, is_idf, kit, kit_size) || fail(f, "the kit is none of this program: make kit");
     put_settings(&settings, o, report);

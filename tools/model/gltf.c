@@ -120,7 +120,7 @@ static bool read_all(struct gltf *g)
     return check_asset(g) && gltf_read_extensions(g) && gltf_read_buffers(g) &&
            gltf_read_accessors(g) && gltf_read_materials(g) && gltf_read_meshes(g) &&
            gltf_read_nodes(g) && gltf_read_skins(g) && gltf_read_scene(g) &&
-           gltf_read_cameras(g) && gltf_read_animations(g) && gltf_read_instances(g) &&
+           gltf_read_cameras(g) && gltf_read_lights(g) && gltf_read_animations(g) && gltf_read_instances(g) &&
            gltf_read_pictures(g);
 }
 

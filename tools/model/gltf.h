@@ -11,6 +11,7 @@
  *   gltf_mesh.c       primitives to triangle lists
  *   gltf_scene.c      nodes, scenes, skins, cameras
  *   gltf_animation.c  clips
+ *   gltf_light.c      lights
  *   gltf_instance.c   a node for each instance of a mesh
  *
  * Every function that returns false has put its reason into g->f. */
@@ -149,6 +150,9 @@ bool gltf_read_scene(struct gltf *g);
 bool gltf_read_cameras(struct gltf *g);
 
 bool gltf_read_animations(struct gltf *g);
+
+/* KHR_lights_punctual; warns of lights that are left out. */
+bool gltf_read_lights(struct gltf *g);
 
 /* EXT_mesh_gpu_instancing: an instance is a node below the one that has its mesh in the file. */
 bool gltf_read_instances(struct gltf *g);

@@ -16,9 +16,9 @@ enum effect {
 
 /* The first that fits. A star stands for any ending. */
 static const struct { const char *name; enum effect effect; } extensions[] = {
-    { "EXT_mesh_gpu_instancing", EFFECT_READ }, { "KHR_materials_pbrSpecularGlossiness", EFFECT_READ },
-    { "KHR_materials_unlit", EFFECT_READ }, { "KHR_mesh_quantization", EFFECT_READ },
-    { "KHR_texture_transform", EFFECT_READ },
+    { "EXT_mesh_gpu_instancing", EFFECT_READ }, { "KHR_lights_punctual", EFFECT_READ },
+    { "KHR_materials_pbrSpecularGlossiness", EFFECT_READ }, { "KHR_materials_unlit", EFFECT_READ },
+    { "KHR_mesh_quantization", EFFECT_READ }, { "KHR_texture_transform", EFFECT_READ },
     { "AGI_*", EFFECT_NOTE }, { "EXT_feature_metadata", EFFECT_NOTE }, { "EXT_instance_features", EFFECT_NOTE },
     { "EXT_mesh_features", EFFECT_NOTE }, { "EXT_structural_metadata", EFFECT_NOTE }, { "GODOT_*", EFFECT_NOTE },
     { "KHR_audio*", EFFECT_NOTE }, { "KHR_interactivity", EFFECT_NOTE }, { "KHR_materials_variants", EFFECT_NOTE },

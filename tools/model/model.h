@@ -86,6 +86,16 @@ struct model_camera {
     double znear, zfar;             /* zfar 0: none given */
 };
 
+/* What a frame has room for. */
+enum { MODEL_SUN, MODEL_SECOND, MODEL_LAMP, MODEL_LIGHTS };
+
+struct model_light {
+    bool is_there;
+    int node;                       /* shines along its -z, or from its place */
+    double color[3];                /* linear, lux or candela */
+    double range;                   /* of a point; 0: none given */
+};
+
 enum model_path { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE, MODEL_WEIGHTS };
 enum model_interpolation { MODEL_STEP, MODEL_LINEAR, MODEL_CUBICSPLINE };
 
@@ -123,6 +133,7 @@ struct model {
     struct model_camera *camera;    /* one per camera NODE in the scene, file order of nodes */
     int clip_count;
     struct model_clip *clip;
+    struct model_light light[MODEL_LIGHTS];
     bool has_sides;                 /* the format says which faces are seen from both sides (glTF), or nothing of it (OBJ) */
     int skipped_primitives;         /* points, lines, curves and empty ones, counted and left out */
     char warning[1000];             /* what was left out or not found, one line; or empty */
@@ -195,6 +206,16 @@ void model_pose_free(struct model_pose *pose);
 
 /* World bounds of everything drawn in this pose; false when nothing is drawn. */
 bool model_pose_bounds(const struct model_pose *pose, double min[3], double max[3]);
+
+/* The file's lights at rest, in its world: colours linear, 1 is one; ways towards the first two, of length 1; where the lamp is, and where
+ * its light ends. */
+struct model_lights {
+    bool has[MODEL_LIGHTS];
+    double color[MODEL_LIGHTS][3], direction[2][3], place[3], reach;
+};
+
+/* Fails when a node of theirs is beyond +-1e30, or has no direction. */
+bool model_find_lights(const struct model *model, struct model_lights *out, struct failure *f);
 
 /* By exact name, else by decimal index; -1 when there is none. */
 int model_find_clip(const struct model *model, const char *name_or_index);

@@ -85,6 +85,11 @@ int setup_change(const struct render_options *o, const struct source *source, st
     out->present.shutter_degrees = shutter_degrees_at(o, out->present.fps);
     if (o->tile == 4 && (is_temporal_method(o) || is_layered_method(o) || o->scatter || o->method == SMEAR_HALF))
         return say_bad_usage("--tile", "4 is for none, accumulate, reconstruct, camera and pingpong");
+    if (!o->lights.has_sun && !o->lights.has_second && o->lights.reach == 0) {
+        const int status = source_lights(source, &out->present.lights);
+        if (status != STATUS_OK)
+            return status;
+    }
     return options_reach(o, out->height, &out->reach, &out->tile);
 }
 

@@ -115,6 +115,32 @@ void source_close(struct source *source)
         model_free(&source->model);
 }
 
+static unsigned encoded(const double color[3])
+{
+    return (unsigned)present_srgb_encode(color[0]) << 16 | (unsigned)present_srgb_encode(color[1]) << 8 | present_srgb_encode(color[2]);
+}
+
+int source_lights(const struct source *source, struct present_lights *lights)
+{
+    struct failure f = { "" };
+    struct model_lights of;
+    if (!source->is_file)
+        return STATUS_OK;
+    if (!model_find_lights(&source->model, &of, &f))
+        return say_bad_input(source->name, &f);
+    lights->are_of_file = true;
+    lights->has_sun = of.has[MODEL_SUN];
+    lights->has_second = of.has[MODEL_SECOND];
+    lights->sun = encoded(of.color[MODEL_SUN]);
+    lights->second = encoded(of.color[MODEL_SECOND]);
+    lights->lamp = encoded(of.color[MODEL_LAMP]);
+    lights->reach = of.reach;
+    memcpy(lights->sun_direction, of.direction[MODEL_SUN], sizeof lights->sun_direction);
+    memcpy(lights->direction, of.direction[MODEL_SECOND], sizeof lights->direction);
+    memcpy(lights->place, of.place, sizeof lights->place);
+    return STATUS_OK;
+}
+
 /* A node by its name, else by its index. */
 static int find_node(const struct model *model, const char *option, const char *text, size_t length,
                      int *node)

@@ -4,7 +4,7 @@
 #define SMEAR_TOOLS_CLI_SOURCE_H
 
 #include "tools/model/model.h"
-#include "tools/scenes/scene.h"
+#include "tools/scenes/present.h"
 
 #include <stdbool.h>
 
@@ -32,6 +32,9 @@ const char *source_builtin_name(const char *name);
  * source_close; returns a status. */
 int source_open(const char *name, const struct source_view *view, struct source *out);
 void source_close(struct source *source);
+
+/* The lights of a file, at rest; none where it has none, or is no file. A status. */
+int source_lights(const struct source *source, struct present_lights *lights);
 
 /* Frames after which it begins again: one clip or all, as `view` has chosen them, or a scene that repeats in a whole
  * number of frames. 0: it does not. */

@@ -298,21 +298,26 @@ static void fill_sun(struct presented *out, const struct present_lights *lights)
 /* Brings lights to the library's units. */
 static bool fill_lights(struct presented *out, const struct present_lights *lights, const double reference[3], struct failure *f)
 {
+    double place[3], farthest = lights->reach * out->world_scale;
     out->lights = (smear_lights){ .shader = &smear_lights_shader };
     for (int i = 0; i < 3; i++) {
-        const double place = (lights->place[i] - reference[i]) * out->world_scale;
-        if (fabs(place) > WORLD_LIMIT || lights->reach * out->world_scale > WORLD_LIMIT)
-            return fail(f, "the lamp is too far away for fixed point");
+        place[i] = (lights->place[i] - reference[i]) * out->world_scale;
+        farthest = fmax(farthest, fabs(place[i]));
+    }
+    const bool has_lamp = lights->reach > 0.0 && farthest <= WORLD_LIMIT;
+    if (lights->reach > 0.0 && !has_lamp && !lights->are_of_file)
+        return fail(f, "the lamp is too far away for fixed point");
+    for (int i = 0; i < 3; i++) {
         if (lights->has_second)
             out->lights.diffuse[i] = channel_of(lights->second, i, 1);
-        if (lights->reach > 0.0) {
-            out->lights.lamp[i] = fixed(place, 16);
+        if (has_lamp) {
+            out->lights.lamp[i] = fixed(place[i], 16);
             out->lights.lamp_diffuse[i] = channel_of(lights->lamp, i, 1);
         }
     }
     if (lights->has_second)
         fill_direction(out->lights.direction, lights->direction);
-    out->lights.reach = fixed(lights->reach * out->world_scale, 16);
+    out->lights.reach = has_lamp ? fixed(lights->reach * out->world_scale, 16) : 0;
     out->extras.lights = &out->lights;
     out->frame.scene = &out->extras;
     return true;

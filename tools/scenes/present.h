@@ -56,6 +56,7 @@ struct present_lights {
     double sun_direction[3];        /* 3/10 of the sun comes from everywhere */
     double direction[3];            /* towards the second light */
     double place[3], reach;         /* reach 0: no lamp */
+    bool are_of_file;               /* a lamp that is too far away for fixed point is none */
 };
 
 struct present_options {
