@@ -28,6 +28,9 @@ int32_t mulh_i32(int32_t a, int32_t b);
 uint32_t mulh_u32(uint32_t a, uint32_t b);
 int32_t scale_sat(int32_t a, int shift);
 int32_t narrow_sat(int64_t a);
+int64_t mul_wide(int32_t a, int32_t b);
+int64_t cross_wide(int32_t ax, int32_t ay, int32_t bx, int32_t by);
+int64_t dot_wide(const int32_t *a, int a_step, const int32_t *b, int b_step);
 #else
 /* Returns the high word of the signed product: floor(a b / 2^32). */
 SMEAR_SHARED int32_t mulh_i32(int32_t a, int32_t b)
@@ -56,6 +59,23 @@ SMEAR_SHARED int32_t scale_sat(int32_t a, int shift)
 SMEAR_SHARED int32_t narrow_sat(int64_t a)
 {
     return a > INT32_MAX ? INT32_MAX : a < -INT32_MAX ? -INT32_MAX : (int32_t)a;
+}
+
+/* Returns a b. */
+SMEAR_SHARED int64_t mul_wide(int32_t a, int32_t b)
+{
+    if (SMEAR_HAS_MUL64)
+        return (int64_t)a * b;
+    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
+}
+
+/* Returns the third component of the cross product of two vectors. */
+SMEAR_SHARED int64_t cross_wide(int32_t ax, int32_t ay, int32_t bx, int32_t by) { return mul_wide(ax, by) - mul_wide(ay, bx); }
+
+/* Returns the dot product of two vectors whose components lie some words apart, as those of columns of a matrix do. */
+SMEAR_SHARED int64_t dot_wide(const int32_t *a, int a_step, const int32_t *b, int b_step)
+{
+    return mul_wide(a[0], b[0]) + mul_wide(a[a_step], b[b_step]) + mul_wide(a[2 * a_step], b[2 * b_step]);
 }
 #endif
 

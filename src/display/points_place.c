@@ -79,7 +79,7 @@ static uint64_t make_sums(struct sums *sum, const struct smear_projection pose[]
         for (int j = 0; j < 3; j++) {
             int64_t offset = 0, way = 0;
             for (int k = 0; k < poses; k++) {
-                const int64_t term = r == 3 && !is_orthographic(&pose[0]) ? 0 : (int64_t)pose[k].m[r][j] * weight[k];
+                const int64_t term = r == 3 && !is_orthographic(&pose[0]) ? 0 : mul_wide(pose[k].m[r][j], weight[k]);
                 offset += term;
                 way += (term >> 16) * way_at(shot, k);
             }
@@ -102,7 +102,7 @@ static void make_end(struct lens_end *end, const struct sums *sum, const struct 
             end->way[r][j] = (int32_t)(sum->way[r][j] >> down) >> 14;
             for (int k = 1; k < poses && (r < 3 || is_orthographic(&pose[0])); k++) {
                 const int64_t apart = (int64_t)camera_of(shot, 0)->pose.origin[j] - camera_of(shot, k)->pose.origin[j];
-                const int64_t row = (int64_t)pose[k].m[r][j] * weight[k] >> down >> 4;
+                const int64_t row = mul_wide(pose[k].m[r][j], weight[k]) >> down >> 4;
                 end->eyes[r] += (row < -most ? -most : row > most ? most
                                                                   : row)
                                   * apart
@@ -146,12 +146,10 @@ static void make_lens(struct lens *l, const struct smear_rows *rows, const struc
         make_end(&l->end[e], &sum[e], pose, at[e]->weight, l->shot, poses, down);
     l->shift = down - 40;
     const int32_t *m = l->projection.m[0];
-    const uint64_t square = (uint64_t)((int64_t)m[0] * m[0]) + (uint64_t)((int64_t)m[1] * m[1])
-                          + (uint64_t)((int64_t)m[2] * m[2]);
-    l->unit = (int32_t)(sqrt_floor_64(square) >> 1);
+    l->unit = (int32_t)(sqrt_floor_64((uint64_t)dot_wide(m, 1, m, 1)) >> 1);
     l->depth_shift = l->projection.depths.depth_shift;
     /* Pixels per unit at distance 1 are focal height / 2. */
-    const uint32_t pixels = (uint32_t)max_i32(narrow_sat((int64_t)l->shot->camera[0].focal * l->viewport.height >> 17), 1);
+    const uint32_t pixels = (uint32_t)max_i32(narrow_sat(mul_wide(l->shot->camera[0].focal, l->viewport.height) >> 17), 1);
     l->pixel = is_orthographic(&l->projection) ? 0 : 65536u / pixels;
 }
 
@@ -193,7 +191,7 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
         offset[i] = difference(point->now[i], l->eye[i]);
         way[i] = l->shot->cut ? 0 : difference(point->now[i], point->before[i]);
         if (SMEAR_WITH_SCALES && l->shot->object_scale != 256)
-            way[i] = narrow_sat((int64_t)way[i] * (int32_t)l->shot->object_scale >> 8);
+            way[i] = narrow_sat(mul_wide(way[i], (int32_t)l->shot->object_scale) >> 8);
         any |= bits_of(offset[i]) | bits_of(way[i]);
     }
     const int exponent = 17 - count_leading_zeros(any); /* below 2^15 */

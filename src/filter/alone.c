@@ -27,14 +27,14 @@ static uint16_t depth_code(uint32_t distance, int32_t near_plane)
 static void pack_velocity(const struct smear_rows *rows, const int16_t in[2], int32_t out[2])
 {
     int32_t scale = rows->raster.velocity_scale;       /* q16 */
-    int32_t x = (int32_t)((int64_t)in[0] * scale >> 9), y = (int32_t)((int64_t)in[1] * scale >> 9);  /* q11 */
-    uint64_t square = (uint64_t)((int64_t)x * x) + (uint64_t)((int64_t)y * y);
+    int32_t x = mul_shift(in[0], scale, 9), y = mul_shift(in[1], scale, 9);  /* q11 */
+    uint64_t square = (uint64_t)(mul_wide(x, x) + mul_wide(y, y));
     uint32_t reach = (uint32_t)rows->window.reach << 11;
     if (square > (uint64_t)reach * reach) {
         uint32_t length = sqrt_floor_64(square);
         int32_t factor = ratio_q30(reach, length);
-        x = (int32_t)((int64_t)x * factor >> 30);
-        y = (int32_t)((int64_t)y * factor >> 30);
+        x = mul_shift(x, factor, 30);
+        y = mul_shift(y, factor, 30);
     }
     out[0] = (x + 128) >> 8;
     out[1] = (y + 128) >> 8;

@@ -19,7 +19,7 @@ static int32_t over_ratio(int32_t d, int32_t ratio)
 /* r X + displacement x r, in q8 x 2^9; ratio in q(20 - down), at most 2^16. */
 static int32_t place_term(int32_t x, int32_t ratio, int32_t displaced, int down)
 {
-    int64_t n = ((int64_t)x * ratio >> 7) + ((int64_t)displaced * 8192 >> down);
+    int64_t n = (mul_wide(x, ratio) >> 7) + ((int64_t)displaced * 8192 >> down);
     const int64_t far_out = 1 << 30;
     return (int32_t)(n > far_out ? far_out : n < -far_out ? -far_out : n);
 }
@@ -160,7 +160,7 @@ static void displacement_between(const struct setup *s, int32_t x, int32_t y, in
 static void velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
 {
     for (int i = 0; i < 2; i++)
-        out[i] = narrow_sat((int64_t)displacement[i] * scale >> 8);
+        out[i] = narrow_sat(mul_wide(displacement[i], scale) >> 8);
     /* 2048 px at most, then lengths in 1/16 px have 15 bits and squares fit. */
     shorten(out, 27);
     int32_t sx = out[0] >> 12, sy = out[1] >> 12;
@@ -252,7 +252,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
                 int32_t change = stored_next[i] - stored[i];
                 step[i] = n == 8 ? (change + 4) >> 3 : (mul_shift(change, inverse, 15) + 1) >> 1;
                 if (target_is_inspected(t))
-                    wide[i] = (int32_t)((int64_t)(next[i] - here[i]) * inverse >> 10);
+                    wide[i] = mul_shift(next[i] - here[i], inverse, 10);
             }
         }
         int32_t stop = min_i32(n > 0 ? end : x + 1, p->b);
@@ -262,8 +262,8 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
             if (is_drawn(p, x - p->a, z, depth)) {
                 velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
                 if (target_is_inspected(t)) {
-                    t->inspect[2 * at] = (int32_t)((int64_t)ix * s->frame->inspect_scale >> 22);
-                    t->inspect[2 * at + 1] = (int32_t)((int64_t)iy * s->frame->inspect_scale >> 22);
+                    t->inspect[2 * at] = mul_shift(ix, s->frame->inspect_scale, 22);
+                    t->inspect[2 * at + 1] = mul_shift(iy, s->frame->inspect_scale, 22);
                 }
             }
             vx += step[0];
@@ -299,8 +299,8 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
     velocity_store(displacement, store->velocity_scale, store->reach_q3, stored);
     struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
     if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
-        k.wide_x = narrow_sat((int64_t)displacement[0] * store->inspect_scale >> 16);
-        k.wide_y = narrow_sat((int64_t)displacement[1] * store->inspect_scale >> 16);
+        k.wide_x = narrow_sat(mul_wide(displacement[0], store->inspect_scale) >> 16);
+        k.wide_y = narrow_sat(mul_wide(displacement[1], store->inspect_scale) >> 16);
     }
     return k;
 }

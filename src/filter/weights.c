@@ -44,7 +44,7 @@ static uint32_t wide_mean(const struct wide_sum *s, const struct smear_blur_sett
 
 static int32_t length_of(struct vector v)
 {
-    return (int32_t)sqrt_floor_64((uint64_t)((int64_t)v.x * v.x + (int64_t)v.y * v.y));
+    return (int32_t)sqrt_floor_64((uint64_t)(mul_wide(v.x, v.x) + mul_wide(v.y, v.y)));
 }
 
 /* Returns 256 a / b for b > 0. */

@@ -69,12 +69,9 @@ static bool normalize(int32_t out[3], const int32_t in[3], uint32_t *length, int
     if (largest == 0)
         return false;
     *shift = count_leading_zeros(largest) - 2;              /* 30 bits */
-    uint64_t square = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out[i] = *shift >= 0 ? in[i] * (1 << *shift) : in[i] >> -*shift;
-        square += (uint64_t)((int64_t)out[i] * out[i]);
-    }
-    *length = sqrt_floor_64(square);
+    *length = sqrt_floor_64((uint64_t)dot_wide(out, 1, out, 1));
     int zeros = count_leading_zeros(*length);
     int32_t r = (int32_t)recip_norm_precise(*length << zeros);      /* 1 / length = r 2^(zeros - 61) */
     for (int i = 0; i < 3; i++)
@@ -83,10 +80,7 @@ static bool normalize(int32_t out[3], const int32_t in[3], uint32_t *length, int
 }
 
 /* Returns the dot product of q30 vectors, q30. */
-static int32_t dot(const int32_t a[3], const int32_t b[3])
-{
-    return (int32_t)(((int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2]) >> 30);
-}
+static int32_t dot(const int32_t a[3], const int32_t b[3]) { return (int32_t)(dot_wide(a, 1, b, 1) >> 30); }
 
 /* Whether axes at right angles are left-handed: x times y then points away from z, not nearly so. 14 bits tell. */
 static bool is_left_handed(int32_t axis[3][3])
@@ -154,12 +148,8 @@ static bool find_turn(struct smear_turn *turn, const struct smear_axes *before, 
     if (!before->are_square || !now->are_square || before->are_left_handed != now->are_left_handed)
         return false;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            int64_t sum = 0;
-            for (int k = 0; k < 3; k++)
-                sum += (int64_t)now->axis[k][i] * before->axis[k][j];
-            m[i][j] = (int32_t)(sum >> 32);
-        }
+        for (int j = 0; j < 3; j++)
+            m[i][j] = (int32_t)(dot_wide(&now->axis[0][i], 3, &before->axis[0][j], 3) >> 32);
     quaternion_of(q, m);
     uint32_t length;
     int shift;
@@ -183,7 +173,7 @@ static void rotation(int32_t m[3][3], const int32_t axis[3], int32_t c, int32_t 
     int64_t versine = ((int64_t)1 << 30) - c;               /* 0 .. 2, q30 */
     for (int i = 0; i < 3; i++)
         for (int j = i; j < 3; j++) {
-            int64_t nn = ((int64_t)axis[i] * axis[j] >> 30) - (i == j ? 1 << 30 : 0);
+            int64_t nn = (mul_wide(axis[i], axis[j]) >> 30) - (i == j ? 1 << 30 : 0);
             m[i][j] = m[j][i] = (int32_t)(nn * versine >> 31);
         }
     for (int i = 0; i < 3; i++) {
@@ -196,13 +186,9 @@ static void rotation(int32_t m[3][3], const int32_t axis[3], int32_t c, int32_t 
 
 static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
 {
-    for (int j = 0; j < 3; j++) {
-        int64_t x = basis[j], y = basis[3 + j], z = basis[6 + j];
-        for (int i = 0; i < 3; i++) {
-            int64_t sum = m[i][0] * x + m[i][1] * y + m[i][2] * z + (1 << 28);
-            out[3 * i + j] = narrow_sat(basis[3 * i + j] + (sum >> 29));
-        }
-    }
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            out[3 * i + j] = narrow_sat(basis[3 * i + j] + ((dot_wide(m[i], 1, basis + j, 3) + (1 << 28)) >> 29));
 }
 
 /* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by
@@ -270,7 +256,7 @@ static void cross_axis(int32_t out[3], const int32_t axis[3], const int32_t v[3]
 {
     for (int i = 0; i < 3; i++) {
         const int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
-        out[i] = narrow_sat(((int64_t)axis[i1] * v[i2] - (int64_t)axis[i2] * v[i1]) >> 30);
+        out[i] = narrow_sat(cross_wide(axis[i1], axis[i2], v[i1], v[i2]) >> 30);
     }
 }
 
@@ -279,7 +265,7 @@ static void across_axis(int32_t out[3], const int32_t axis[3], const int32_t v[3
 {
     int64_t along = 0;
     for (int i = 0; i < 3; i++)
-        along += (int64_t)axis[i] * v[i] >> 2;
+        along += mul_wide(axis[i], v[i]) >> 2;
     along >>= 28;
     for (int i = 0; i < 3; i++)
         out[i] = narrow_sat(v[i] - (along * axis[i] >> 30));
@@ -320,7 +306,7 @@ static void find_faster(struct smear_curve *c, const struct smear_axes *last, co
     if (!before.turns)
         return;
     for (int i = 0; i < 3; i++)
-        along += (int64_t)c->turn.axis[i] * before.axis[i] >> 30;
+        along += mul_wide(c->turn.axis[i], before.axis[i]) >> 30;
     const int64_t faster = (int64_t)c->turn.angle - (before.angle * along >> 30);
     if (along > (1 << 30) - (1 << 26) && magnitude(faster) <= c->turn.angle / 4)
         c->faster = (int32_t)faster;

@@ -363,7 +363,7 @@ static bool find_extent(struct extent *e, const struct smear_space *space, const
 static int sides_of(const struct smear_homogeneous *h, const struct smear_space *space)
 {
     const int64_t one = (int64_t)2 << space->depths.coarse, x = h->x * one, y = h->y * one;
-    const int64_t right = (int64_t)h->w * space->viewport.width, bottom = (int64_t)h->w * space->viewport.height;
+    const int64_t right = mul_wide(h->w, space->viewport.width), bottom = mul_wide(h->w, space->viewport.height);
     return (x < -right ? OUT_LEFT : 0) | (x > right ? OUT_RIGHT : 0) | (y < -bottom ? OUT_TOP : 0) | (y > bottom ? OUT_BOTTOM : 0);
 }
 
@@ -394,7 +394,7 @@ static bool may_face(const struct smear_homogeneous *const place[3], int key)
     int64_t sum = 0;
     for (int i = 0; i < 3; i++) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        sum += w[i] * ((int64_t)x[j] * y[k] - (int64_t)x[k] * y[j]);
+        sum += w[i] * cross_wide(x[j], x[k], y[j], y[k]);
     }
     return sum >= -((int64_t)1 << (2 * BITS + 3));
 }

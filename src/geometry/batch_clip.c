@@ -17,7 +17,7 @@ bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct bo
 static SMEAR_PRODUCT_CALL uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
     const int64_t far_out = (1 << 27) - 1;
-    int64_t d = there - ((int64_t)ratio * now >> 20);
+    int64_t d = there - (mul_wide(ratio, now) >> 20);
     return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
 }
 

@@ -274,7 +274,7 @@ static inline int64_t edges_area(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
     if (!SMEAR_HAS_MUL64 && !SMEAR_ONE_COPY
         && (((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
         return x1 * y2 - x2 * y1;
-    return (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    return cross_wide(x1, y1, x2, y2);
 }
 
 #endif

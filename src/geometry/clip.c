@@ -16,10 +16,10 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
     switch (plane) {
     case PLANE_NEAR:   return (int64_t)h->distance - depths->near_distance;
     case PLANE_FAR:    return (int64_t)depths->far_distance - h->distance;
-    case PLANE_LEFT:   return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) + h->x;
-    case PLANE_RIGHT:  return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) - h->x;
-    case PLANE_TOP:    return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) + h->y;
-    default:           return ((int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse)) - h->y;
+    case PLANE_LEFT:   return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + h->x;
+    case PLANE_RIGHT:  return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) - h->x;
+    case PLANE_TOP:    return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + h->y;
+    default:           return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) - h->y;
     }
 }
 

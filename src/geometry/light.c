@@ -5,10 +5,7 @@
 #include "base/fixmath.h"
 #include "base/pixel.h"
 
-static SMEAR_PRODUCT_CALL int64_t dot(const int32_t a[3], const int32_t b[3])
-{
-    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
-}
+static SMEAR_PRODUCT_CALL int64_t dot(const int32_t a[3], const int32_t b[3]) { return dot_wide(a, 1, b, 1); }
 
 /* Finds a vector at right angles to two others, and returns the bits that any of its magnitudes has. */
 static SMEAR_PRODUCT_CALL uint64_t cross_product(int64_t out[3], const int32_t a[3], const int32_t b[3])
@@ -16,7 +13,7 @@ static SMEAR_PRODUCT_CALL uint64_t cross_product(int64_t out[3], const int32_t a
     uint64_t bits = 0;
     for (int i = 0; i < 3; i++) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        out[i] = (int64_t)a[j] * b[k] - (int64_t)a[k] * b[j];
+        out[i] = cross_wide(a[j], a[k], b[j], b[k]);
         bits |= magnitude(out[i]);
     }
     return bits;

@@ -74,7 +74,7 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
         for (int j = 0; j < 3; j++) {       /* q48; most objects do not turn, or about one axis */
             const int32_t by = object->basis[k + j];
             for (int i = 0; i < 3 && by != 0; i++)
-                turned[3 * i + j] += (int64_t)camera->basis[k + i] * by;
+                turned[3 * i + j] += mul_wide(camera->basis[k + i], by);
         }
     for (int j = 0; j < 3; j++)
         offset[j] = (int64_t)object->origin[j] - camera->origin[j];
@@ -86,14 +86,11 @@ void smear_view_compose(struct smear_view *view, const smear_transform *object,
     int32_t scale = mesh->scale != 0 ? mesh->scale : 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            scaled[3 * i + j] = (int64_t)unit[i][j] * scale;
+            scaled[3 * i + j] = mul_wide(unit[i][j], scale);
     const int scaled_exponent = normalize_block(view->basis, scaled);
     view->basis_exp = scaled_exponent + exponent - mesh->shift;
     for (int i = 0; i < 3; i++) {
-        int64_t sum = 0;
-        for (int j = 0; j < 3; j++)
-            if (mesh->offset[j] != 0)
-                sum += (int64_t)view->basis[i][j] * mesh->offset[j];
+        const int64_t sum = dot_wide(view->basis[i], 1, mesh->offset, 1);
         if (sum != 0)
             view->origin[i] += scale_to_i52(sum, view->basis_exp + 32);
     }
@@ -126,7 +123,7 @@ static void fill_row(int32_t m[4], const struct smear_view *view, int row, struc
     const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
     const int shift = view->basis_exp + by.exponent + scale + 16;
     for (int j = 0; j < 3; j++)
-        m[j] = scale_narrow((int64_t)view->basis[row][j] * factor, shift) & ~3;
+        m[j] = scale_narrow(mul_wide(view->basis[row][j], factor), shift) & ~3;
     int cut = max_i32(0, bit_length(view->origin[row]) - 31);
     m[3] = scale_to_i32((view->origin[row] >> cut) * factor, cut - 32 + by.exponent + scale);
 }
@@ -142,13 +139,13 @@ void smear_depths_make(struct smear_depths *d, const smear_camera *camera, int s
         /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
         uint32_t range = (uint32_t)(d->far_distance - d->near_distance);
         int zeros = count_leading_zeros(range);
-        struct factor k = factor_from((int64_t)recip_norm_precise(range << zeros) * SMEAR_DEPTH_NEAR,
+        struct factor k = factor_from(mul_wide((int32_t)recip_norm_precise(range << zeros), SMEAR_DEPTH_NEAR),
                                       zeros - 61 + 11);
         d->depth_mantissa = k.mantissa;
         d->depth_shift = (int16_t)(k.exponent + 32);
     } else {
         /* units q11 = near NEAR 2^11 2^scale / W; matrix.c adds the exponent of 1 / W */
-        struct factor k = factor_from((int64_t)camera->near_plane * SMEAR_DEPTH_NEAR, -16 + 11 + scale);
+        struct factor k = factor_from(mul_wide(camera->near_plane, SMEAR_DEPTH_NEAR), -16 + 11 + scale);
         d->depth_mantissa = k.mantissa;
         d->depth_shift = (int16_t)(k.exponent - 29);
     }
@@ -170,9 +167,9 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     if (is_orthographic(p)) {
         struct factor half = factor_from(camera->half_height, -16);
         uint32_t r = recip_norm_precise((uint32_t)min_i32(half.mantissa, (1 << 30) - 1) << 2);
-        pixels = factor_from((int64_t)r * height_px, -61 + 2 - 1 - half.exponent - coarse);
+        pixels = factor_from(mul_wide((int32_t)r, height_px), -61 + 2 - 1 - half.exponent - coarse);
     } else {
-        pixels = factor_from((int64_t)camera->focal * height_px, -17 - coarse);
+        pixels = factor_from(mul_wide(camera->focal, height_px), -17 - coarse);
     }
 
     /* The largest row decides the scale; the unit W of an orthographic camera must fit as well. */
@@ -225,7 +222,7 @@ void smear_projection_weigh(struct smear_projection *const out[], const struct s
             int64_t sum = 0;
             for (int i = count - 1; i >= 0; i--) {
                 const int down = row == 3 ? in[i]->distance_scale - distance_scale : in[i]->scale - scale;
-                int64_t term = (int64_t)in[i]->m[row][j] * weight[i] >> min_i32(down, 62);
+                int64_t term = mul_wide(in[i]->m[row][j], weight[i]) >> min_i32(down, 62);
                 if (out[i] == out[0])
                     term = sum += term;
                 const int32_t m = scale_narrow(term, -24 - room);
@@ -281,7 +278,7 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
 int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
 {
     int64_t x = (int64_t)h->x * 2, y = (int64_t)h->y * 2;
-    int64_t right = (int64_t)h->w * viewport->width, bottom = (int64_t)h->w * viewport->height;
+    int64_t right = mul_wide(h->w, viewport->width), bottom = mul_wide(h->w, viewport->height);
     return (x < -right ? OUT_LEFT : 0) | (x > right ? OUT_RIGHT : 0) | (y < -bottom ? OUT_TOP : 0)
          | (y > bottom ? OUT_BOTTOM : 0);
 }

@@ -54,11 +54,10 @@ bool smear_pose_is_attached(const smear_transform *object, const smear_camera *c
     for (int i = 0; i < 3; i++) {
         int64_t offset[2] = { 0, 0 };
         for (int j = 0; j < 3; j++) {
-            int64_t turn[2] = { 0, 0 };
+            int64_t turn[2];
             for (int side = 0; side < 2; side++) {
                 const int32_t *b = c[side]->pose.basis;
-                for (int k = 0; k < 3; k++)
-                    turn[side] += (int64_t)b[3 * k + i] * o[side]->basis[3 * k + j];
+                turn[side] = dot_wide(b + i, 3, o[side]->basis + j, 3);
                 offset[side] += (int64_t)b[3 * j + i] * ((int64_t)o[side]->origin[j] - c[side]->pose.origin[j]);
             }
             if (magnitude(turn[0] - turn[1]) > (uint64_t)1 << 30)        /* 2^-18 */
@@ -101,7 +100,7 @@ static void scale_object(struct smear_draw_poses *p, uint32_t scale, bool curved
 /* The camera's x axis, without its y, as a rotation about the world's y. Looking straight up or down it stays as it is. */
 static void upright_basis(int32_t turn[9], const int32_t camera[9])
 {
-    const uint32_t length = sqrt_floor_64((uint64_t)((int64_t)camera[0] * camera[0] + (int64_t)camera[6] * camera[6]));
+    const uint32_t length = sqrt_floor_64((uint64_t)(mul_wide(camera[0], camera[0]) + mul_wide(camera[6], camera[6])));
     int32_t x = 1 << 24, z = 0;
     if (length > 1u << 16) {
         x = ratio_q30((int64_t)min_u32(magnitude_i32(camera[0]), length), length) >> 6;
@@ -125,12 +124,8 @@ static void turn_billboard(struct smear_draw_poses *p, bool upright)
         if (upright)
             upright_basis(turn, camera);
         for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) {
-                int64_t sum = 0;
-                for (int k = 0; k < 3; k++)
-                    sum += (int64_t)turn[3 * i + k] * p->object[pose]->basis[3 * k + j];
-                made[3 * i + j] = narrow_sat(sum >> 24);
-            }
+            for (int j = 0; j < 3; j++)
+                made[3 * i + j] = narrow_sat(dot_wide(turn + 3 * i, 1, p->object[pose]->basis + j, 3) >> 24);
         for (int i = 0; i < 3; i++)
             p->made[pose].origin[i] = p->object[pose]->origin[i];
         for (int i = 0; i < 9; i++)
@@ -233,7 +228,7 @@ static bool deforms_on_curve(const struct smear_draw_poses *p, const struct smea
 /* Returns how much of the vertices' displacement since a frame ago is undone at a time, q24. */
 static int32_t part_at(const struct smear_draw_poses *p, int32_t time)
 {
-    return (int32_t)((int64_t)-time * p->deform >> 8);
+    return mul_shift(-time, p->deform, 8);
 }
 
 /* Shares a placement between the mesh's vertices and those of frames ago. */
@@ -243,7 +238,7 @@ static void place_deformed(struct smear_placement *out, const struct smear_draw_
     struct smear_projection *const term[3] = { &out->now, &out->extra[0], &out->extra[SMEAR_WITH_DEFORM] };
     /* The parabola's share of each: 1, -2, 1 times t (t + 1) / 2. */
     const bool bends = p->position[2] != p->position[0];
-    const int32_t bend = bends ? (int32_t)((int64_t)time * (time + (1 << 24)) >> 25) : 0;
+    const int32_t bend = bends ? mul_shift(time, time + (1 << 24), 25) : 0;
     const int32_t older = part_at(p, -bend), last = part_at(p, time) - 2 * older;
     const int32_t weight[3] = { (1 << 24) - last - older, last, older };
     out->extra_count = bends ? 2 : 1;
@@ -276,7 +271,7 @@ void smear_draw_poses_place(struct smear_placement *out, struct smear_draw_poses
         if (!shot_is_curved(shot) && deformation_is_scaled(p, k)) {      /* part of the displacement from the mesh's own vertices */
             in[count] = in[count - 1];
             position[count] = p->position[0];
-            weight[count - 1] = (int32_t)((int64_t)instant->weight[k] * p->deform >> 8);
+            weight[count - 1] = mul_shift(instant->weight[k], p->deform, 8);
             weight[count] = instant->weight[k] - weight[count - 1];
             count++;
         }

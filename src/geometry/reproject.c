@@ -31,7 +31,7 @@ static SMEAR_NOINLINE struct number number_of(int64_t value, int e)
 
 static SMEAR_NOINLINE struct number times(struct number a, struct number b)
 {
-    return number_of((int64_t)a.m * b.m, a.e + b.e);
+    return number_of(mul_wide(a.m, b.m), a.e + b.e);
 }
 
 /* Returns a / b for b > 0. */
@@ -89,9 +89,7 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
         for (int i = 0; i < 3; i++) {
             int64_t offset = 0;
             for (int j = 0; j < 3; j++) {
-                int64_t sum = 0;
-                for (int k = 0; k < 3; k++)
-                    sum += (int64_t)to[3 * k + i] * from[3 * k + j];
+                const int64_t sum = dot_wide(to + i, 3, from + j, 3);
                 offset += (int64_t)to[3 * j + i] * ((int64_t)now->pose.origin[j] - camera->pose.origin[j]);
                 m->turn[i][j] = ((i == 0) != (j == 0) ? -sum : sum) >> 21;
             }
@@ -169,7 +167,7 @@ static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int
 static void pose_perspective(struct smear_reprojection_pose *p, const struct map *m, const smear_camera *now,
                              int32_t height)
 {
-    struct number focal = number_of((int64_t)now->focal * height, -17);
+    struct number focal = number_of(mul_wide(now->focal, height), -17);
     struct number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
     int u_shift = 0, w_shift = 0;
     for (int i = 0; i < 3; i++) {

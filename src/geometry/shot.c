@@ -29,7 +29,7 @@ struct smear_instant smear_instant_at(const struct smear_shot *shot, int32_t u)
 {
     struct smear_instant i = { { 0, 0, 0 }, shot->shutter_poses ? 0 : time_of(shot, u) };
     if (shot_spans_exposure(shot)) {
-        const int64_t square = (int64_t)u * u >> 16;
+        const int64_t square = mul_wide(u, u) >> 16;
         const struct smear_shutter_order at = smear_shot_order(shot);
         i.weight[at.open] = (int32_t)((square - u) * 128);
         i.weight[at.close] = (int32_t)((square + u) * 128);
@@ -80,7 +80,7 @@ static int32_t half_exposure(smear_frame *f)
         exposure = (int32_t)(degrees < (uint64_t)longest ? degrees : (uint64_t)longest);
     }
     exposure = clamp_i32(exposure, 2, longest);
-    f->shutter.degrees = (uint16_t)clamp_i32((int32_t)((int64_t)exposure * 360 >> 24), 1, 3600);
+    f->shutter.degrees = (uint16_t)clamp_i32(mul_shift((int32_t)exposure, 360, 24), 1, 3600);
     return exposure / 2;
 }
 
@@ -162,7 +162,6 @@ void smear_shot_find_turn(struct smear_shot *shot)
     const uint8_t pose[3] = { order.open, order.middle, order.close };
     struct smear_axes axes[3];
     struct smear_turn turn[2];
-    int64_t cosine = 0;
     shot->turn = 0;
     if (!SMEAR_WITH_SUBFRAMES || !SMEAR_WITH_CURVES || !shot->camera_moves || !shot_spans_exposure(shot))
         return;
@@ -172,8 +171,7 @@ void smear_shot_find_turn(struct smear_shot *shot)
         smear_turn_between(&turn[i], &axes[i], &axes[i + 1]);
     if (!turn[0].turns || !turn[1].turns)
         return;
-    for (int i = 0; i < 3; i++)
-        cosine += (int64_t)turn[0].axis[i] * turn[1].axis[i];
+    const int64_t cosine = dot_wide(turn[0].axis, 1, turn[1].axis, 1);
     const uint32_t mean = (turn[0].angle >> 1) + (turn[1].angle >> 1);
     const int32_t faster = abs_i32((int32_t)(turn[0].angle - turn[1].angle));
     if (mean >= LEAST && mean <= MOST && (uint32_t)faster <= mean >> 5 && cosine >> 30 >= ALONG)
@@ -201,7 +199,7 @@ void smear_track_bend(const struct smear_track *t, const struct smear_shot *shot
     find_curve(&curve, t);
     curve.last = &last;
     for (int k = 1; k < 3; k++) {
-        const int64_t time = (int64_t)smear_shot_time(shot, k) * t->scale >> 8, most = 1 << 30;
+        const int64_t time = mul_wide(smear_shot_time(shot, k), (int32_t)t->scale) >> 8, most = 1 << 30;
         smear_curve_at(t->pose[k], &curve, (int32_t)(time < -most ? -most : time > most ? most : time));
     }
 }

@@ -201,6 +201,9 @@
 #define mulh_u32 smear_mulh_u32
 #define scale_sat smear_scale_sat
 #define narrow_sat smear_narrow_sat
+#define mul_wide smear_mul_wide
+#define cross_wide smear_cross_wide
+#define dot_wide smear_dot_wide
 #define count_leading_zeros smear_count_leading_zeros
 #define count_leading_zeros_64 smear_count_leading_zeros_64
 #define recip_norm smear_recip_norm

@@ -110,8 +110,8 @@ void smear_groups_add(struct smear_layers *l, uint32_t index, const smear_draw *
     if (g.method == SMEAR_OBJECT && !setting->layer.two_camera && !is_constant(&m))
         g.method = SMEAR_LAYERED;
     if (m.count != 0) {
-        g.vx = (int32_t)((int64_t)(m.x / m.count) * setting->shutter >> 16);
-        g.vy = (int32_t)((int64_t)(m.y / m.count) * setting->shutter >> 16);
+        g.vx = mul_shift(m.x / m.count, setting->shutter, 16);
+        g.vy = mul_shift(m.y / m.count, setting->shutter, 16);
         g.depth = m.depth * SAMPLES;
     }
     if (!moves)

@@ -246,7 +246,7 @@ static void set_target(struct layers_row *r, int32_t y0, int32_t y1)
         return;
     r->target.velocity8 = rows->velocity8;
     r->target.velocity16 = rows->velocity16;
-    r->frame.velocity_scale = (int32_t)((int64_t)r->frame.velocity_scale * r->layers->setting[group->layer].shutter >> 16);
+    r->frame.velocity_scale = mul_shift(r->frame.velocity_scale, r->layers->setting[group->layer].shutter, 16);
 }
 
 static void merge_group(struct layers_row *r, struct smear_group *group)

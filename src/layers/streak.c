@@ -67,8 +67,8 @@ void smear_streak_make(struct smear_streak *s, int32_t vx, int32_t vy, int32_t h
     if (y > highest)
         by = min_i32(by, ratio_q30(highest, y));
     if (by != 1 << 30) {
-        vx = (int32_t)((int64_t)vx * by >> 30);
-        vy = (int32_t)((int64_t)vy * by >> 30);
+        vx = mul_shift(vx, by, 30);
+        vy = mul_shift(vy, by, 30);
         x = abs_i32(vx);
         y = abs_i32(vy);
     }

@@ -91,7 +91,7 @@ static int set_reach(struct smear_lights_seen *l, struct real reach)
 static int32_t units_along(const struct smear_lights_seen *l, int axis, const int32_t p[3])
 {
     const int32_t *m = l->step + 3 * axis;
-    const int64_t along = ((int64_t)m[0] * p[0] + (int64_t)m[1] * p[1] + (int64_t)m[2] * p[2]) >> l->down;
+    const int64_t along = dot_wide(m, 1, p, 1) >> l->down;
     return within(along);
 }
 
@@ -116,17 +116,13 @@ static bool is_reached(struct smear_lights_seen *l, const struct smear_assembly 
 static struct real length_of(const smear_transform *object)
 {
     const int32_t *b = object->basis;
-    uint64_t square = 0;
-    for (int i = 0; i < 3; i++)
-        square += (uint64_t)((int64_t)b[3 * i] * b[3 * i]);
-    return real_of(max_u32(sqrt_floor_64(square), 1), 0);
+    return real_of(max_u32(sqrt_floor_64((uint64_t)dot_wide(b, 3, b, 3)), 1), 0);
 }
 
 /* Turns a vector of the world to an axis of object space. */
 static int32_t turned(const smear_transform *object, int axis, const int32_t v[3], struct real over_length)
 {
-    const int32_t *b = object->basis + axis;
-    return times_real((int64_t)b[0] * v[0] + (int64_t)b[3] * v[1] + (int64_t)b[6] * v[2], over_length);
+    return times_real(dot_wide(object->basis + axis, 3, v, 1), over_length);
 }
 
 /* Finds the lamp from a draw's object space, whose unit is a power of two of the mesh's steps, so that vertices are where they are. */
@@ -292,7 +288,7 @@ static void light_face(struct fall *f, const struct smear_lights_seen *l, const 
     }
     for (int i = 0; i < 3; i++) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        normal[i] = (int64_t)u[j] * v[k] - (int64_t)u[k] * v[j];
+        normal[i] = cross_wide(u[j], u[k], v[j], v[k]);
         largest |= magnitude(normal[i]);
     }
     const int shift = 64 - count_leading_zeros_64(largest) - 14;
@@ -476,8 +472,8 @@ static bool see(struct smear_lights_seen *l, const struct smear_lights_used *use
     l->vertex = !l->even ? shade_uneven : shade_any;
     if (l->even && l->is_white && l->gloss == 0 && l->near == l->has_lamp) {
         for (int i = 0; i < 3; i++) {
-            l->white[i] = (int32_t)((int64_t)s->direction[i] * s->sun->diffuse[0] >> 16);
-            l->white[3 + i] = (int32_t)((int64_t)l->second[i] * second[0] >> 16);
+            l->white[i] = mul_shift(s->direction[i], s->sun->diffuse[0], 16);
+            l->white[3 + i] = mul_shift(l->second[i], second[0], 16);
         }
         l->ambient = s->sun->ambient[0];
         l->normal = d->mesh->normal;

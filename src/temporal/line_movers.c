@@ -22,10 +22,7 @@ static void see_from(smear_transform *out, const smear_transform *camera, const 
     for (int i = 0; i < 3; i++) {
         int64_t origin = 0;
         for (int j = 0; j < 3; j++) {
-            int64_t sum = 0;
-            for (int k = 0; k < 3; k++)
-                sum += (int64_t)axes.axis[i][k] * camera->basis[3 * k + j];
-            out->basis[3 * i + j] = narrow_sat(sum >> 30);
+            out->basis[3 * i + j] = narrow_sat(dot_wide(axes.axis[i], 1, camera->basis + j, 3) >> 30);
             origin += ((int64_t)camera->origin[j] - object->origin[j]) * axes.axis[i][j] >> 14;
         }
         out->origin[i] = narrow_sat(origin >> 16);

@@ -25,8 +25,8 @@ bool smear_lines_turn(const struct smear_shot *shot, const smear_transform *open
     const int32_t times = shot_spans_exposure(shot) ? 2 << 4 : shot->half_exposure >> 19;       /* q4 */
     int64_t square = 0, product = 0;
     for (int i = 0; i < 9; i++) {
-        square += ((int64_t)open->basis[i] * open->basis[i] + (int64_t)middle->basis[i] * middle->basis[i]) >> 22;
-        product += (int64_t)open->basis[i] * middle->basis[i] >> 21;
+        square += (mul_wide(open->basis[i], open->basis[i]) + mul_wide(middle->basis[i], middle->basis[i])) >> 22;
+        product += mul_wide(open->basis[i], middle->basis[i]) >> 21;
     }
     return ((square - product) * (times * times) >> 8) * parts > square * of;
 }

@@ -540,7 +540,7 @@ static uint32_t moving_area(const struct smear_bins *g, uint32_t triangle)
     /* q4, of edges within the guard band */
     const int32_t x1 = (v1[VERTEX_X] - v0[VERTEX_X]) >> 4, y1 = (v1[VERTEX_Y] - v0[VERTEX_Y]) >> 4,
                   x2 = (v2[VERTEX_X] - v0[VERTEX_X]) >> 4, y2 = (v2[VERTEX_Y] - v0[VERTEX_Y]) >> 4;
-    const int64_t twice = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    const int64_t twice = cross_wide(x1, y1, x2, y2);
     const uint64_t area = (uint64_t)(twice < 0 ? -twice : twice) >> 9;
     const uint32_t box = (uint32_t)((b->x1 - b->x0) * (b->y1 - b->y0));
     if (b->space != 0)

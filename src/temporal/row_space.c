@@ -36,9 +36,9 @@ static void make_even(struct smear_even *e, const int64_t factor[3], int32_t x, 
 
 static void cross(int64_t out[3], const struct smear_homogeneous *a, const struct smear_homogeneous *b)
 {
-    out[0] = (int64_t)a->y * b->w - (int64_t)a->w * b->y;
-    out[1] = (int64_t)a->w * b->x - (int64_t)a->x * b->w;
-    out[2] = (int64_t)a->x * b->y - (int64_t)a->y * b->x;
+    out[0] = cross_wide(a->y, a->w, b->y, b->w);
+    out[1] = cross_wide(a->w, a->x, b->w, b->x);
+    out[2] = cross_wide(a->x, a->y, b->x, b->y);
 }
 
 static void places_at(struct smear_homogeneous place[3], struct smear_space *space, const int32_t *const record[3], int32_t phase)

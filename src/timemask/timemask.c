@@ -114,7 +114,7 @@ static void choose_segments(struct job *j)
     int log2 = 0;
     while (log2 < SEGMENTS_LOG2_MAX
            && (curvature >> (2 * log2) > j->settings->curvature
-               || (!j->even && (int64_t)travel * shutter_curvature(t->shutter, log2) >> 16 > j->settings->curvature)))
+               || (!j->even && mul_wide(travel, shutter_curvature(t->shutter, log2)) >> 16 > j->settings->curvature)))
         log2++;
     j->segments_log2 = log2;
     j->samples_log2 = j->samples.samples_log2 - log2;

@@ -15,7 +15,7 @@ SMEAR_INLINE struct timemask_plane edge_at(const struct timemask_pose *p, int i,
     int32_t ax = p->x[i], ay = p->y[i], dx = p->x[j] - ax, dy = p->y[j] - ay;
     /* A centre on the edge counts (0, else -1) for edges that go up and those that go right. */
     int64_t bias = ~(((int64_t)dy * (1 << 24) - dx) >> 63);
-    int64_t here = ((int64_t)dy * ax - (int64_t)dx * ay + bias) >> 8;
+    int64_t here = (cross_wide(dy, dx, ay, ax) + bias) >> 8;
     /* Steps are below 2^22: far beyond 2^26 the sign is the same all
      * over the block. Differences of two fit, too. */
     const int32_t most = (1 << 30) - (1 << 28);
@@ -53,7 +53,7 @@ static inline struct timemask_plane other_side(const struct timemask_plane *p)
 /* a n / d in q14 for n = 2^samples_log2, to nearest: d = 2^(61 - zeros) / recip, its sign apart. */
 static inline int32_t samples_over(int32_t a, uint32_t recip, int shift)
 {
-    return (int32_t)(((int64_t)a * (int32_t)recip + ((int64_t)1 << (shift - 1))) >> shift);
+    return (int32_t)((mul_wide(a, (int32_t)recip) + ((int64_t)1 << (shift - 1))) >> shift);
 }
 
 /* Twice what the middle lies off the mean of both ends; far off the block it does not matter. */
@@ -88,7 +88,7 @@ struct sweep {
  * below 2^-edge px. `off` is e x length in q8. */
 static inline bool is_near(const struct sweep *w, int32_t off, int32_t edge)
 {
-    return (int64_t)off * off <= (int64_t)w->length * abs_i32(w->d) >> edge;
+    return mul_wide(off, off) <= mul_wide(w->length, abs_i32(w->d)) >> edge;
 }
 
 /* The crossing lies at n (1/2 + mean / difference). Taken with the difference of the
@@ -105,7 +105,7 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     int32_t part = 0;
     if (!is_near(w, (w->h >> 1) + (w->bows >> 1), edge)) {
         part = (int32_t)(mulh_u32((uint32_t)w->h << zeros, r) >> 14);           /* h / d, q15 */
-        int32_t off = (int32_t)((int64_t)w->h * part >> 16);
+        int32_t off = mul_shift(w->h, part, 16);
         form = is_near(w, off + (w->bows >> 1), edge) ? COVER_CURVED : COVER_BOWED;
         if (form == COVER_BOWED && (w->bows > size >> 3 || !is_near(w, off, edge)))
             return false;
@@ -122,13 +122,13 @@ static bool crossing_add(struct timemask_cover *c, const struct sweep *w, int32_
     c->form = form > c->form ? form : c->form;
     if (form != COVER_EVEN) {
         int down = 31 - zeros;          /* |differences| < d < 2^(32 - zeros) */
-        x->curvature.dx = (int32_t)((int64_t)(-sign * (w->start.dx - w->end.dx)) * r >> down);
-        x->curvature.dy = (int32_t)((int64_t)(-sign * (w->start.dy - w->end.dy)) * r >> down);
+        x->curvature.dx = (int32_t)(mul_wide(-sign * (w->start.dx - w->end.dx), (int32_t)r) >> down);
+        x->curvature.dy = (int32_t)(mul_wide(-sign * (w->start.dy - w->end.dy), (int32_t)r) >> down);
         x->curvature.at = (1 << 30) - x->curvature.dx * c->middle_x - x->curvature.dy * c->middle_y;
     }
     if (form == COVER_BOWED) {
         int32_t bow = w->bow.at + w->bow.dx * c->middle_x + w->bow.dy * c->middle_y;
-        x->bow = (int32_t)((int64_t)(sign * bow) * r >> (61 - zeros - 15));     /* 2 bow / d */
+        x->bow = (int32_t)(mul_wide(sign * bow, (int32_t)r) >> (61 - zeros - 15));     /* 2 bow / d */
     }
     return true;
 }
@@ -177,8 +177,7 @@ static bool edge_add(struct timemask_cover *c, const struct timemask_pose *const
 
 static int64_t area_of(const struct timemask_pose *p)
 {
-    return (int64_t)(p->x[1] - p->x[0]) * (p->y[2] - p->y[0])
-         - (int64_t)(p->x[2] - p->x[0]) * (p->y[1] - p->y[0]);
+    return cross_wide(p->x[1] - p->x[0], p->y[1] - p->y[0], p->x[2] - p->x[0], p->y[2] - p->y[0]);
 }
 
 bool smear_timemask_cover(struct timemask_cover *c, const struct timemask_pose *const pose[3], int32_t width,

@@ -186,7 +186,7 @@ uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_
 static inline int32_t timemask_part(int32_t a, int32_t time)
 {
     if (SMEAR_HAS_MUL64)
-        return (int32_t)((int64_t)a * time >> TIMEMASK_TIME_LOG2);
+        return mul_shift(a, time, TIMEMASK_TIME_LOG2);
     const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
     return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
 }

@@ -38,7 +38,7 @@ enum { FINE_LOG2 = 10, FAR_OFF = 256 << 8 };
 static bool shape_make(struct shape *s, const struct timemask_pose *p)
 {
     int32_t x1 = p->x[1] - p->x[0], y1 = p->y[1] - p->y[0], x2 = p->x[2] - p->x[0], y2 = p->y[2] - p->y[0];
-    int64_t area = (int64_t)x1 * y2 - (int64_t)x2 * y1;
+    int64_t area = cross_wide(x1, y1, x2, y2);
     if (area == 0)
         return false;
     uint64_t size = (uint64_t)(area < 0 ? -area : area);
@@ -50,10 +50,10 @@ static bool shape_make(struct shape *s, const struct timemask_pose *p)
     uint32_t longest = (uint32_t)abs_i32(x1) | (uint32_t)abs_i32(y1) | (uint32_t)abs_i32(x2)
                      | (uint32_t)abs_i32(y2);
     int down = 31 - count_leading_zeros(longest);
-    s->x1 = (int32_t)((int64_t)x1 * r >> down);
-    s->y1 = (int32_t)((int64_t)y1 * r >> down);
-    s->x2 = (int32_t)((int64_t)x2 * r >> down);
-    s->y2 = (int32_t)((int64_t)y2 * r >> down);
+    s->x1 = (int32_t)(mul_wide(x1, r) >> down);
+    s->y1 = (int32_t)(mul_wide(y1, r) >> down);
+    s->x2 = (int32_t)(mul_wide(x2, r) >> down);
+    s->y2 = (int32_t)(mul_wide(y2, r) >> down);
     s->shift = clamp_i32(93 - 8 - zeros - down, 0, 63);
     return true;
 }
@@ -62,8 +62,8 @@ static struct slopes slopes_of(const struct shape *s, const int32_t a[3])
 {
     int32_t d1 = sub_wrap(a[1], a[0]), d2 = sub_wrap(a[2], a[0]);
     const int fine = min_i32(s->shift, FINE_LOG2);
-    const int64_t fine_dx = ((int64_t)d1 * s->y2 - (int64_t)d2 * s->y1) >> (s->shift - fine);
-    const int64_t fine_dy = ((int64_t)d2 * s->x1 - (int64_t)d1 * s->x2) >> (s->shift - fine);
+    const int64_t fine_dx = cross_wide(d1, d2, s->y1, s->y2) >> (s->shift - fine);
+    const int64_t fine_dy = cross_wide(d2, d1, s->x2, s->x1) >> (s->shift - fine);
     const int64_t dx = fine_dx >> fine, dy = fine_dy >> fine;
     if (dx > STEEP || dx < -STEEP || dy > STEEP || dy < -STEEP)
         return (struct slopes){ 0, 0, 0, 0, 0 };
@@ -127,9 +127,11 @@ static void course_start(struct course *c, const struct timemask_pose *const pos
 /* |change| + |curve| all over the block. */
 static int64_t change_size(int64_t change, int32_t dx, int32_t dy, int64_t curve)
 {
-    int64_t corner = TIMEMASK_WIDTH * (int64_t)abs_i32(dx) + TIMEMASK_HEIGHT * (int64_t)abs_i32(dy);
+    int64_t corner = mul_wide(abs_i32(dx), TIMEMASK_WIDTH) + mul_wide(abs_i32(dy), TIMEMASK_HEIGHT);
     return (change < 0 ? -change : change) + corner + (curve < 0 ? -curve : curve);
 }
+
+static int64_t dot2(int32_t ax, int32_t ay, int32_t bx, int32_t by) { return mul_wide(ax, bx) + mul_wide(ay, by); }
 
 /* From values at the three vertices at the start, in the middle and at the end. The attribute is a plane with
  * the value v of a point at c and slopes g around it; all three change with time:
@@ -142,18 +144,18 @@ static void timed_make(struct timemask_timed *t, const struct course *c, const i
     struct slopes g = slopes_of(&c->shape, value[1]);
     int32_t v = point_of(value[1]);
     int64_t v_change = (int64_t)point_of(value[2]) - point_of(value[0]);
-    int64_t at = v - (((int64_t)g.dx * c->x + (int64_t)g.dy * c->y) >> 8);
+    int64_t at = v - (dot2(g.dx, g.dy, c->x, c->y) >> 8);
     if (abs_i32(c->x) >= FAR_OFF || abs_i32(c->y) >= FAR_OFF)
         at = v - ((g.fine_dx * c->x + g.fine_dy * c->y) >> (8 + g.fine));
-    int64_t change = v_change - (((int64_t)g.dx * c->x_change + (int64_t)g.dy * c->y_change) >> 8), curve = 0;
+    int64_t change = v_change - (dot2(g.dx, g.dy, c->x_change, c->y_change) >> 8), curve = 0;
     t->change_dx = t->change_dy = 0;
     if (c->turns) {
         struct slopes start = slopes_of(&c->start, value[0]),
                       end = slopes_of(&c->end, value[2]);
         t->change_dx = end.dx - start.dx;
         t->change_dy = end.dy - start.dy;
-        change -= ((int64_t)t->change_dx * c->x + (int64_t)t->change_dy * c->y) >> 8;
-        curve = -(((int64_t)t->change_dx * c->x_change + (int64_t)t->change_dy * c->y_change) >> 8);
+        change -= dot2(t->change_dx, t->change_dy, c->x, c->y) >> 8;
+        curve = -(dot2(t->change_dx, t->change_dy, c->x_change, c->y_change) >> 8);
     }
     t->dx = g.dx;
     t->dy = g.dy;

@@ -20,6 +20,9 @@
 #define scale_sat narrow_scale_sat
 #define magnitude narrow_magnitude
 #define narrow_sat narrow_narrow_sat
+#define mul_wide narrow_mul_wide
+#define cross_wide narrow_cross_wide
+#define dot_wide narrow_dot_wide
 #include "base/fixed.h"
 #undef add_wrap
 #undef sub_wrap
@@ -31,6 +34,9 @@
 #undef scale_sat
 #undef magnitude
 #undef narrow_sat
+#undef mul_wide
+#undef cross_wide
+#undef dot_wide
 
 #include "tests/random.h"
 #include "tests/test.h"
@@ -61,6 +67,8 @@ static bool check_products(int32_t a, int32_t b)
     uint32_t ua = (uint32_t)a, ub = (uint32_t)b;
     bool ok = CHECK_EQ(mulh_i32(a, b), high_word((int64_t)a * b));
     ok = CHECK_EQ(narrow_mulh_i32(a, b), high_word((int64_t)a * b)) && ok;
+    ok = CHECK_EQ(mul_wide(a, b), (int64_t)a * b) && ok;
+    ok = CHECK_EQ(narrow_mul_wide(a, b), (int64_t)a * b) && ok;
     ok = CHECK_EQ(mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
     for (int shift = 1; shift < 32; shift += 5) {
         const int32_t shifted = (int32_t)(uint32_t)((uint64_t)((int64_t)a * b) >> shift);
@@ -68,6 +76,24 @@ static bool check_products(int32_t a, int32_t b)
         ok = CHECK_EQ(narrow_mul_shift(a, b, shift), shifted) && ok;
     }
     return CHECK_EQ(narrow_mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
+}
+
+static void test_sums_of_products_are_exact_in_both_forms(void)
+{
+    random_state = 2;
+    for (int i = 0; i < RANDOMS; i++) {
+        int32_t a[9], b[3];
+        for (int k = 0; k < 9; k++)
+            a[k] = random_i32() >> 1;
+        for (int k = 0; k < 3; k++)
+            b[k] = random_i32() >> 1;
+        const int64_t dot = (int64_t)a[0] * b[0] + (int64_t)a[3] * b[1] + (int64_t)a[6] * b[2];
+        CHECK_EQ(dot_wide(a, 3, b, 1), dot);
+        CHECK_EQ(narrow_dot_wide(a, 3, b, 1), dot);
+        const int64_t cross = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
+        CHECK_EQ(cross_wide(a[0], a[1], b[0], b[1]), cross);
+        END_UNLESS(CHECK_EQ(narrow_cross_wide(a[0], a[1], b[0], b[1]), cross));
+    }
 }
 
 static void test_high_products_of_extremes_are_exact_in_both_forms(void)

@@ -25,6 +25,9 @@
 #define scale_sat poor_scale_sat
 #define magnitude poor_magnitude
 #define narrow_sat poor_narrow_sat
+#define mul_wide poor_mul_wide
+#define cross_wide poor_cross_wide
+#define dot_wide poor_dot_wide
 #define count_leading_zeros poor_count_leading_zeros
 #define count_leading_zeros_64 poor_count_leading_zeros_64
 #define recip_norm poor_recip_norm
@@ -46,6 +49,9 @@
 #undef scale_sat
 #undef magnitude
 #undef narrow_sat
+#undef mul_wide
+#undef cross_wide
+#undef dot_wide
 #undef count_leading_zeros
 #undef count_leading_zeros_64
 #undef recip_norm
