@@ -166,6 +166,12 @@ void smear_turn_between(struct smear_turn *turn, const struct smear_axes *before
 
 /* ------------------------------------------------------------------ poses */
 
+int32_t smear_arc_number(int32_t before, int32_t now, int32_t time)
+{
+    SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
+    return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
+}
+
 /* Finds Q - 1 for a turn about the axis n by an angle of which cosine and sine are given, q29:
  * sin [n] + (1 - cos) (n n' - 1). */
 static void rotation(int32_t m[3][3], const int32_t axis[3], int32_t c, int32_t s)
@@ -212,7 +218,7 @@ static void turn_part(int32_t basis[9], const struct smear_turn *turn, const int
 {
     int32_t m[3][3], rest[9], cosine, sine;
     for (int i = 0; i < 9; i++)
-        rest[i] = extended(turned[i], now->basis[i], time);
+        rest[i] = smear_arc_number(turned[i], now->basis[i], time);
     for (int i = 0; i < 9; i++)
         basis[i] = rest[i];
     if (turn->turns) {
@@ -236,7 +242,7 @@ void smear_arc_between(smear_transform *out, const smear_transform *before, cons
     smear_axes_find(&axes[1], now);
     smear_turn_between(&turn, &axes[0], &axes[1]);
     for (int i = 0; i < 3; i++)
-        origin[i] = extended(before->origin[i], now->origin[i], time);
+        origin[i] = smear_arc_number(before->origin[i], now->origin[i], time);
     turn_whole(turned, &turn, before);
     turn_part(out->basis, &turn, turned, now, time, turn_angle(&turn, time));
     for (int i = 0; i < 3; i++)
@@ -419,7 +425,7 @@ static void origin_at(int32_t origin[3], const struct smear_curve *c, int32_t ti
     for (int i = 0; i < 3; i++) {
         const int64_t part = ((int64_t)c->second[i] - across[i]) * (along >> 6) + across[i] * (b[0] >> 6)
                            + aside[i] * (b[1] >> 6);
-        origin[i] = narrow_sat(extended(c->last->origin[i], c->now->origin[i], time) + ((part + (1 << 17)) >> 18));
+        origin[i] = narrow_sat(smear_arc_number(c->last->origin[i], c->now->origin[i], time) + ((part + (1 << 17)) >> 18));
     }
 }
 

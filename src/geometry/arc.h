@@ -37,11 +37,7 @@ static inline uint32_t turn_angle(const struct smear_turn *turn, int32_t time)
 }
 
 /* Returns now + (now - before) time, time in q24. */
-static inline int32_t extended(int32_t before, int32_t now, int32_t time)
-{
-    SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);
-    return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
-}
+int32_t smear_arc_number(int32_t before, int32_t now, int32_t time);
 
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis

@@ -275,6 +275,8 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
+int smear_outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport) { return outcode_sides_inline(s, viewport); }
+
 int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
 {
     int64_t x = (int64_t)h->x * 2, y = (int64_t)h->y * 2;

@@ -223,8 +223,8 @@ void smear_cameras_bend(const struct smear_shot *shot, smear_camera *camera, boo
     smear_track_bend(&track, shot);
     for (int k = 1; k < 3; k++) {
         const int32_t time = smear_shot_time(shot, k);
-        camera[k].focal = now->focal > 0 ? max_i32(extended(focal, now->focal, time), 1) : 0;
-        camera[k].half_height = now->half_height > 0 ? max_i32(extended(half_height, now->half_height, time), 1) : 0;
+        camera[k].focal = now->focal > 0 ? max_i32(smear_arc_number(focal, now->focal, time), 1) : 0;
+        camera[k].half_height = now->half_height > 0 ? max_i32(smear_arc_number(half_height, now->half_height, time), 1) : 0;
     }
 }
 #endif

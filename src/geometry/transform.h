@@ -123,7 +123,7 @@ static inline void screen_clamp(struct smear_screen *s, const struct smear_viewp
 }
 
 /* Returns the sides that a projected vertex lies beyond. */
-static inline int outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport)
+static inline int outcode_sides_inline(const struct smear_screen *s, const struct smear_viewport *viewport)
 {
     int32_t right = viewport->width << 8, bottom = viewport->height << 8;
     if ((uint32_t)s->x <= (uint32_t)right && (uint32_t)s->y <= (uint32_t)bottom)
@@ -136,5 +136,8 @@ static inline int outcode_sides(const struct smear_screen *s, const struct smear
         code |= OUT_GUARD;
     return code;
 }
+
+/* Does so as a call. */
+int smear_outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport);
 
 #endif

@@ -73,6 +73,12 @@ static int sides_beside(const struct smear_placement *p, const smear_mesh *m, co
     return sides;
 }
 
+int smear_placement_project(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index,
+                            const struct smear_viewport *viewport)
+{
+    return placement_project_inline(screen, h, p, index, viewport);
+}
+
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
 {
     const int16_t *b = d->mesh->bounds;

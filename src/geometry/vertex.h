@@ -220,9 +220,8 @@ static inline void pose_transform(struct smear_homogeneous *h, const struct smea
 }
 
 /* Transforms and projects a vertex; returns its outcode. A vertex behind the near plane is not projected. */
-static inline int placement_project(struct smear_screen *screen, struct smear_homogeneous *h,
-                                    const struct smear_placement *p, uint32_t index,
-                                    const struct smear_viewport *viewport)
+static inline int placement_project_inline(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p,
+                                           uint32_t index, const struct smear_viewport *viewport)
 {
     placement_transform(h, p, index);
     if (h->distance < p->now.depths.near_distance)
@@ -231,6 +230,10 @@ static inline int placement_project(struct smear_screen *screen, struct smear_ho
     int code = outcode_sides(screen, viewport);
     return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
 }
+
+/* Does so as a call. */
+int smear_placement_project(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index,
+                            const struct smear_viewport *viewport);
 
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);

@@ -213,11 +213,15 @@
 #define sqrt_q3 smear_sqrt_of_q3
 #define transform_vertex smear_transform_vertex
 #define project smear_project
+#define outcode_sides smear_outcode_sides
+#define placement_project smear_placement_project
 #else
 #define SMEAR_ONE_COPY 0
 #define SMEAR_SHARED static inline
 #define transform_vertex transform_inline
 #define project project_inline
+#define outcode_sides outcode_sides_inline
+#define placement_project placement_project_inline
 #endif
 #define SMEAR_COPY_ELSEWHERE (SMEAR_ONE_COPY && !SMEAR_COPY_IS_HERE)
 
