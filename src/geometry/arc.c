@@ -166,6 +166,11 @@ void smear_turn_between(struct smear_turn *turn, const struct smear_axes *before
 
 /* ------------------------------------------------------------------ poses */
 
+int32_t smear_arc_scaled(int32_t now, int32_t other, uint32_t scale)
+{
+    return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale >> 8));
+}
+
 int32_t smear_arc_number(int32_t before, int32_t now, int32_t time)
 {
     SMEAR_ASSERT(time >= -(1 << 30) && time <= 1 << 30);

@@ -39,6 +39,9 @@ static inline uint32_t turn_angle(const struct smear_turn *turn, int32_t time)
 /* Returns now + (now - before) time, time in q24. */
 int32_t smear_arc_number(int32_t before, int32_t now, int32_t time);
 
+/* Returns now + (other - now) scale, scale in q8. */
+int32_t smear_arc_scaled(int32_t now, int32_t other, uint32_t scale);
+
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In
  * between and beyond, the turn from one to the other goes on at an even rate about an axis
  * through the origin of the object, which itself moves along a straight line. Scales (along the

@@ -3,6 +3,7 @@
 #include "geometry/pose.h"
 
 #include "base/fixmath.h"
+#include "geometry/arc.h"
 
 /* ------------------------------------------------------------------ poses */
 
@@ -71,11 +72,6 @@ bool smear_pose_is_attached(const smear_transform *object, const smear_camera *c
 
 /* ------------------------------------------------------------------ other poses */
 
-static int32_t scaled(int32_t now, int32_t other, uint32_t scale_q8)
-{
-    return narrow_sat(now + (((int64_t)other - now) * (int32_t)scale_q8 >> 8));
-}
-
 /* Deformation is not scaled further: weights of ten frames by it have eight bits. */
 enum { DEFORM_MOST = 8 << 8 };
 
@@ -86,9 +82,9 @@ static void scale_object(struct smear_draw_poses *p, uint32_t scale, bool curved
         const smear_transform *other = p->object[i], *now = p->object[0];
         smear_transform *made = &p->made[i];
         for (int k = 0; k < 9; k++)
-            made->basis[k] = scaled(now->basis[k], other->basis[k], scale);
+            made->basis[k] = smear_arc_scaled(now->basis[k], other->basis[k], scale);
         for (int k = 0; k < 3; k++)
-            made->origin[k] = scaled(now->origin[k], other->origin[k], scale);
+            made->origin[k] = smear_arc_scaled(now->origin[k], other->origin[k], scale);
         if (!curved)        /* poses on curves are scaled by their times */
             p->object[i] = made;
         if (scale == 0)

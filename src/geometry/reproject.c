@@ -13,41 +13,39 @@
 
 /* ------------------------------------------------------------------ numbers of any size, once per frame */
 
-/* The number m 2^e, |m| < 2^31. */
-struct number {
-    int32_t m;
-    int e;
-};
+/* The number m 2^e, |m| < 2^31: m in the lower word, e in the upper one. Structs would be returned in memory. */
+typedef uint64_t number;
 
-static SMEAR_NOINLINE struct number number_of(int64_t value, int e)
+static inline number number_make(int32_t m, int e) { return (uint64_t)(uint32_t)e << 32 | (uint32_t)m; }
+static inline int32_t mantissa(number a) { return (int32_t)(uint32_t)a; }
+static inline int exponent(number a) { return (int)(int32_t)(uint32_t)(a >> 32); }
+
+static SMEAR_NOINLINE number number_of(int64_t value, int e)
 {
     if (value == 0)
-        return (struct number){ 0, 0 };
-    int shift = 33 - count_leading_zeros_64(magnitude(value));
-    if (shift < 0)
-        return (struct number){ (int32_t)(value * ((int64_t)1 << -shift)), e + shift };
-    return (struct number){ (int32_t)(value >> shift), e + shift };
+        return 0;
+    const int shift = 33 - count_leading_zeros_64(magnitude(value));
+    return number_make((int32_t)(shift < 0 ? value * ((int64_t)1 << -shift) : value >> shift), e + shift);
 }
 
-static SMEAR_NOINLINE struct number times(struct number a, struct number b)
+static SMEAR_NOINLINE number times(number a, number b)
 {
-    return number_of(mul_wide(a.m, b.m), a.e + b.e);
+    return number_of(mul_wide(mantissa(a), mantissa(b)), exponent(a) + exponent(b));
 }
 
 /* Returns a / b for b > 0. */
-static SMEAR_NOINLINE struct number over(struct number a, struct number b)
+static SMEAR_NOINLINE number over(number a, number b)
 {
-    int zeros = count_leading_zeros((uint32_t)b.m);
-    struct number r = { (int32_t)recip_norm_precise((uint32_t)b.m << zeros), zeros - 61 - b.e };
-    return times(a, r);
+    const int zeros = count_leading_zeros((uint32_t)mantissa(b));
+    return times(a, number_make((int32_t)recip_norm_precise((uint32_t)mantissa(b) << zeros), zeros - 61 - exponent(b)));
 }
 
 /* Returns a 2^q to nearest, less than 2^bits in magnitude. */
-static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
+static SMEAR_NOINLINE int32_t fixed_of(number a, int q, int bits)
 {
     const int64_t limit = ((int64_t)1 << bits) - 1;
-    int shift = a.e + q;
-    int64_t value = a.m;
+    int shift = exponent(a) + q;
+    int64_t value = mantissa(a);
     if (shift < 0)
         value = shift < -40 ? 0 : (value + ((int64_t)1 << (-shift - 1))) >> -shift;
     else if (value != 0 && (shift > 31 || magnitude(value) > (uint64_t)limit >> shift))
@@ -58,9 +56,9 @@ static SMEAR_NOINLINE int32_t fixed_of(struct number a, int q, int bits)
 }
 
 /* Lets *shift grow by as many bits as a 2^q must lose to fit: several values share it. */
-static SMEAR_NOINLINE void keep_room(int *shift, struct number a, int q)
+static SMEAR_NOINLINE void keep_room(int *shift, number a, int q)
 {
-    int bits = a.m == 0 ? 0 : 32 - count_leading_zeros((uint32_t)(a.m < 0 ? -a.m : a.m)) + a.e + q;
+    const int bits = mantissa(a) == 0 ? 0 : 32 - count_leading_zeros(magnitude_i32(mantissa(a))) + exponent(a) + q;
     *shift = max_i32(*shift, bits - 30);
 }
 
@@ -74,6 +72,8 @@ struct map {
 
 static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
                                        { 0, 0, 0 } };
+
+static SMEAR_NOINLINE int32_t narrow(int64_t a, int32_t limit) { return clamp_i32(narrow_sat(a), -limit, limit); }
 
 static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
 {
@@ -100,14 +100,14 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
     int32_t a = flat ? now->half_height : camera->focal, b = flat ? camera->half_height : now->focal;
     if (a == b)
         return;
-    struct number zoom = over(number_of(a, 0), number_of(b, 0));
+    number zoom = over(number_of(a, 0), number_of(b, 0));
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 3; j++)
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
-        struct number offset = times(number_of(m->offset[i], 0), zoom);
-        m->offset[i] = offset.e > 30 ? 0
-                     : offset.e < 0  ? (offset.e < -31 ? 0 : offset.m >> -offset.e)
-                                     : (int64_t)offset.m * ((int64_t)1 << offset.e);
+        number offset = times(number_of(m->offset[i], 0), zoom);
+        const int up = exponent(offset);
+        m->offset[i] = up > 30 || up < -31 ? 0
+                     : up < 0 ? mantissa(offset) >> -up : (int64_t)mantissa(offset) * ((int64_t)1 << up);
         m->offset[i] = clamp_i64(m->offset[i], (int64_t)1 << 58);      /* as without a zoom */
     }
 }
@@ -122,23 +122,24 @@ static void map_add(struct map *sum, const struct map *m, int32_t weight)
 }
 
 /* Inverts a turn, q27; returns false where it has no inverse to speak of. */
-static bool invert(int64_t out[3][3], const int64_t in[3][3])
+static bool invert(int32_t out[3][3], const int64_t in[3][3])
 {
-    int64_t m[3][3], minor[3][3];
+    int64_t minor[3][3];
+    int32_t m[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            m[i][j] = clamp_i64(in[i][j], (int64_t)8 << 27) >> 2;                      /* q25 */
+            m[i][j] = narrow(in[i][j], 8 << 27) >> 2;                      /* q25 */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-            minor[i][j] = (m[a][c] * m[b][d] - m[a][d] * m[b][c]) >> 23;               /* q27 */
+            minor[i][j] = cross_wide(m[a][c], m[a][d], m[b][c], m[b][d]) >> 23;               /* q27 */
         }
     int64_t determinant = 0;
     for (int j = 0; j < 3; j++)
         determinant += m[0][j] * (clamp_i64(minor[0][j], (int64_t)1 << 33)) >> 25;     /* q27 */
     if (determinant < 1 << 20)
         return false;
-    struct number d = number_of(determinant, -27);
+    number d = number_of(determinant, -27);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out[i][j] = fixed_of(over(number_of(minor[j][i], -27), d), 27, 31);
@@ -146,18 +147,19 @@ static bool invert(int64_t out[3][3], const int64_t in[3][3])
 }
 
 /* Makes m start from the drawn instant: A B' and a - A B' b. */
-static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int64_t offset[3])
+static void map_from_drawn(struct map *m, const int32_t inverse[3][3], const int64_t offset[3])
 {
-    struct map old = *m;
     for (int i = 0; i < 3; i++) {
+        int32_t turn[3];
+        for (int j = 0; j < 3; j++)
+            turn[j] = narrow(m->turn[i][j], 1 << 30);
         for (int j = 0; j < 3; j++) {
-            int64_t sum = 0;
+            m->turn[i][j] = 0;
             for (int k = 0; k < 3; k++)
-                sum += clamp_i64(old.turn[i][k], (int64_t)1 << 30) * inverse[k][j] >> 27;
-            m->turn[i][j] = sum;
+                m->turn[i][j] += mul_wide(turn[k], inverse[k][j]) >> 27;
         }
         for (int j = 0; j < 3; j++)
-            m->offset[i] -= (clamp_i64(m->turn[i][j], (int64_t)1 << 30) >> 10)
+            m->offset[i] -= (narrow(m->turn[i][j], 1 << 30) >> 10)
                        * (clamp_i64(offset[j], (int64_t)1 << 55) >> 14) >> 3;
     }
 }
@@ -167,8 +169,8 @@ static void map_from_drawn(struct map *m, const int64_t inverse[3][3], const int
 static void pose_perspective(struct smear_reprojection_pose *p, const struct map *m, const smear_camera *now,
                              int32_t height)
 {
-    struct number focal = number_of(mul_wide(now->focal, height), -17);
-    struct number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
+    number focal = number_of(mul_wide(now->focal, height), -17);
+    number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
     int u_shift = 0, w_shift = 0;
     for (int i = 0; i < 3; i++) {
         u[i] = over(number_of(m->offset[i], -40), near_units);
@@ -182,7 +184,7 @@ static void pose_perspective(struct smear_reprojection_pose *p, const struct map
     }
     p->w_x = fixed_of(over(number_of(m->turn[2][0], -27), focal), 30, 31);
     p->w_y = fixed_of(over(number_of(m->turn[2][1], -27), focal), 30, 31);
-    p->w_1 = (int32_t)clamp_i64(m->turn[2][2], 1 << 29);
+    p->w_1 = narrow(m->turn[2][2], 1 << 29);
     p->w_u = fixed_of(u[2], 48 - w_shift, 31);
     p->u_shift = (uint8_t)min_i32(u_shift, 31);
     p->w_shift = (uint8_t)min_i32(w_shift, 31);
@@ -192,14 +194,14 @@ static void pose_orthographic(struct smear_reprojection_pose *p, const struct ma
                               int32_t height)
 {
     /* Distance is far less range times units over NEAR. */
-    struct number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
-    struct number far_plane = number_of(now->far_plane, -16);
-    struct number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
-                              number_of(SMEAR_DEPTH_NEAR, 0));
-    struct number u[2];
+    number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
+    number far_plane = number_of(now->far_plane, -16);
+    number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
+                       number_of(SMEAR_DEPTH_NEAR, 0));
+    number u[2];
     int u_shift = 0;
     for (int i = 0; i < 2; i++) {
-        struct number across = times(number_of(-m->turn[i][2], -27), unit_px);
+        number across = times(number_of(-m->turn[i][2], -27), unit_px);
         int64_t one = fixed_of(times(number_of(m->offset[i], -40), unit_px), 16, 30);
         p->one[i] = (int32_t)(one - fixed_of(times(across, far_plane), 16, 30));
         u[i] = times(across, step);
@@ -218,23 +220,23 @@ void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now,
     const smear_camera *camera[3] = { now, open, close };
     bool drawn_is_now = weight[0] == 1 << 24;
     struct map map[3], drawn = { { { 0 } }, { 0 } };
-    int64_t inverse[3][3];
+    int32_t inverse[3][3];
     for (int i = 0; i < 3; i++) {
         map_make(&map[i], now, camera[i]);
         map_add(&drawn, &map[i], weight[i]);
     }
     if (!drawn_is_now && invert(inverse, (const int64_t(*)[3])drawn.turn))
         for (int i = 0; i < 3; i++)
-            map_from_drawn(&map[i], (const int64_t(*)[3])inverse, drawn.offset);
+            map_from_drawn(&map[i], (const int32_t(*)[3])inverse, drawn.offset);
     *r = (struct smear_reprojection){ .width = width, .height = height };
     r->poses = to_close || !drawn_is_now ? 2 : 1;
     for (int i = 0; i < r->poses; i++) {
         const struct map *m = &map[i == 0 ? 1 : to_close ? 2 : 0];
         struct smear_reprojection_pose *p = &r->pose[i];
-        p->x[0] = (int32_t)clamp_i64(m->turn[0][0], 1 << 30);
-        p->x[1] = (int32_t)clamp_i64(m->turn[0][1], 1 << 30);
-        p->y[0] = (int32_t)clamp_i64(m->turn[1][0], 1 << 30);
-        p->y[1] = (int32_t)clamp_i64(m->turn[1][1], 1 << 30);
+        for (int j = 0; j < 2; j++) {
+            p->x[j] = narrow(m->turn[0][j], 1 << 30);
+            p->y[j] = narrow(m->turn[1][j], 1 << 30);
+        }
         if (now->half_height > 0)
             pose_orthographic(p, m, now, height);
         else
@@ -291,28 +293,28 @@ void smear_reproject(const struct smear_reprojection *r, int32_t x2, int32_t y2,
 
 /* ------------------------------------------------------------------ of first order */
 
-static int64_t scale_up(int32_t a, int shift) { return (int64_t)a * ((int64_t)1 << shift); }
+static int64_t scale_up(int32_t a, int shift) { return (int64_t)((uint64_t)(int64_t)a << shift); }
 
 /* How a term changes from the first pose to the second, over the exposure. */
 struct change {
     const struct smear_reprojection *r;
-    struct number exposure;
+    number exposure;
 };
 
 /* Returns the change of a term 2^-q; without a second pose it ends where nothing moves. */
-static struct number change_of(const struct change *c, int64_t first, int64_t second, int q)
+static number change_of(const struct change *c, int64_t first, int64_t second, int q)
 {
     return times(number_of((c->r->poses == 2 ? second : 0) - first, -q), c->exposure);
 }
 
 /* Makes terms per unit of 11 bits. Returns by how many they are to be shifted down. */
-static uint8_t take_units(int32_t out[], const struct number term[], int count)
+static uint8_t take_units(int32_t out[], const number term[], int count)
 {
     enum { BITS = 11 };
     int up = 47;
     for (int i = 0; i < count; i++)
-        if (term[i].m != 0)
-            up = min_i32(up, BITS - (32 - count_leading_zeros((uint32_t)abs_i32(term[i].m))) - term[i].e);
+        if (mantissa(term[i]) != 0)
+            up = min_i32(up, BITS - (32 - count_leading_zeros(magnitude_i32(mantissa(term[i])))) - exponent(term[i]));
     up = clamp_i32(up, 16, 47);
     for (int i = 0; i < count; i++)
         out[i] = fixed_of(term[i], up, BITS);
@@ -324,8 +326,8 @@ void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, i
     enum { MOST = 28 };         /* bits of a sum's terms: 4096 px */
     const struct smear_reprojection_pose *p = &r->pose[0], *q = &r->pose[1];
     const struct change c = { r, number_of(exposure, -16) };
-    const struct number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
-    struct number aside[2];
+    const number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
+    number aside[2];
     *f = (struct smear_flow){ .width = r->width, .height = r->height };
     f->turn_x = fixed_of(change_of(&c, -(int64_t)p->w_x, -(int64_t)q->w_x, 30), 22, 19);
     f->turn_y = fixed_of(change_of(&c, -(int64_t)p->w_y, -(int64_t)q->w_y, 30), 22, 19);

@@ -107,16 +107,13 @@ static void scale_camera(smear_camera *other, const smear_camera *now, const sme
         smear_arc_between(&turned, &other->pose, &now->pose, -(int32_t)f->scale.rotation * (1 << 16));
         for (int i = 0; i < 9; i++)
             other->pose.basis[i] = f->scale.rotation == 0 ? now->pose.basis[i] : turned.basis[i];
-        int64_t focal = now->focal + (((int64_t)other->focal - now->focal) * f->scale.rotation >> 8);
-        int64_t half = now->half_height
-                     + (((int64_t)other->half_height - now->half_height) * f->scale.rotation >> 8);
-        other->focal = now->focal > 0 ? max_i32(narrow_sat(focal), 1) : 0;
-        other->half_height = now->half_height > 0 ? max_i32(narrow_sat(half), 1) : 0;
+        const int32_t focal = smear_arc_scaled(now->focal, other->focal, f->scale.rotation),
+                      half = smear_arc_scaled(now->half_height, other->half_height, f->scale.rotation);
+        other->focal = now->focal > 0 ? max_i32(focal, 1) : 0;
+        other->half_height = now->half_height > 0 ? max_i32(half, 1) : 0;
     }
     for (int i = 0; i < 3 && f->scale.translation != 256; i++)
-        other->pose.origin[i] = narrow_sat(now->pose.origin[i]
-                                           + (((int64_t)other->pose.origin[i] - now->pose.origin[i])
-                                              * f->scale.translation >> 8));
+        other->pose.origin[i] = smear_arc_scaled(now->pose.origin[i], other->pose.origin[i], f->scale.translation);
 }
 
 bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b)
