@@ -161,6 +161,7 @@
 #define SMEAR_PART_SEGMENTS 6           /* what triangles of one draw share */
 #define SMEAR_PART_TRIANGLES 7          /* these, and vertices */
 #define SMEAR_PART_DRAWS 8              /* as they were submitted */
+#define SMEAR_PART_LINES 9              /* of sketches, rows behind lines: 32 bits per pixel, then 16 */
 #ifndef SMEAR_PLACE
 #define SMEAR_PLACE(desc, part, address, bytes) (address)
 #endif

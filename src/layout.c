@@ -46,8 +46,8 @@ static void lay_out_window(struct smear_window *w, struct smear_arena *a, const 
 static void lay_out_lines(struct smear_temporal *t, struct smear_arena *a, const smear_desc *d)
 {
     const size_t pixels = (size_t)d->width * (size_t)d->tile;
-    uint32_t *row = arena_take(a, pixels, sizeof *row);
-    uint16_t *depth = arena_take(a, pixels, sizeof *depth);
+    uint32_t *row = SMEAR_PLACE(d, SMEAR_PART_LINES, arena_take(a, pixels, sizeof *row), pixels * sizeof *row);
+    uint16_t *depth = SMEAR_PLACE(d, SMEAR_PART_LINES, arena_take(a, pixels, sizeof *depth), pixels * sizeof *depth);
     uint32_t *over = (uint32_t *)(void *)t->work;       /* until tiles are finished, if there is room */
     if ((size_t)d->workers * t->work_bytes < pixels * sizeof *over)
         over = arena_take(a, pixels, sizeof *over);

@@ -1,23 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* display.c - display.h on a Game Boy Advance, 15 bits per pixel.
  *
- * Frames up to 160x128 go to mode 5, which has two pages: the next frame is written to the hidden
- * one, and the interrupt at the start of the vertical blank shows it. A frame of half the screen's
- * size fills the screen, every pixel 2x2. Frames of the screen's own size go to mode 3, which has
- * room for one page only. */
+ * All is mode 3, of 240x160 pixels. A frame of half the screen's size fills the screen, every pixel 2x2, and two such lie side by
+ * side in the picture's upper half: the next frame is written to the hidden one, and the interrupt at the start of the vertical
+ * blank shows it. Of frames of the screen's own size there is room for one. */
 #include "platform/display.h"
 #include "platform/gba/gba.h"
 
 enum {
-    SCREEN_WIDTH = 240, SCREEN_HEIGHT = 160, PAGE_WIDTH = 160, PAGE_HEIGHT = 128,
-    PAGE_BYTES = 0xa000,
-    SHOW_LAYER = 0x0400, SHOW_PAGE_1 = 0x0010,  /* GBA_DISPLAY_CONTROL; its lowest bits: mode */
+    SCREEN_WIDTH = 240, SCREEN_HEIGHT = 160, PAGE_WIDTH = 120, ROW_BYTES = 2 * SCREEN_WIDTH,
+    SHOW_LAYER = 0x0400, MODE = 3,              /* GBA_DISPLAY_CONTROL */
     VERTICAL_BLANK = 1
 };
 
 static struct {
     bool is_paged;
-    uint32_t row_bytes;             /* from row to row in video memory */
     uint32_t hidden;                /* page that is written to */
     volatile bool is_waiting;       /* for the blank that shows the last frame */
     volatile uint32_t blanks;       /* so far: 16.74 ms each */
@@ -26,7 +23,7 @@ static struct {
 static GBA_FAST void interrupt(void)
 {
     if (screen.is_waiting) {
-        GBA_DISPLAY_CONTROL = (uint16_t)(GBA_DISPLAY_CONTROL ^ SHOW_PAGE_1);
+        GBA_BG2_X = (screen.hidden ^ 1) * PAGE_WIDTH << 8;
         screen.is_waiting = false;
     }
     screen.blanks++;
@@ -41,14 +38,13 @@ static int flush(void *user, const smear_band *band)
     while (screen.is_waiting) {
     }
     uint32_t from = (uint32_t)band->pixels, halfwords = (uint32_t)band->width;
-    uint32_t to = GBA_VIDEO_MEMORY + screen.hidden * PAGE_BYTES +
-                  (uint32_t)band->y * screen.row_bytes + (uint32_t)band->x * 2;
+    uint32_t to = GBA_VIDEO_MEMORY + (uint32_t)band->y * ROW_BYTES + (screen.hidden * PAGE_WIDTH + (uint32_t)band->x) * 2;
     for (int y = 0; y < band->height; y++) {
         GBA_DMA3_FROM = from;
         GBA_DMA3_TO = to;
         GBA_DMA3_CONTROL = 0x80000000u | halfwords;
         from += band->stride;
-        to += screen.row_bytes;
+        to += ROW_BYTES;
     }
     return 0;
 }
@@ -67,8 +63,8 @@ bool display_open(smear_desc *desc)
     desc->flush = flush;
     screen.is_paged = is_half;
     screen.hidden = is_half;
-    screen.row_bytes = is_half ? PAGE_WIDTH * 2 : SCREEN_WIDTH * 2;
-    GBA_DISPLAY_CONTROL = SHOW_LAYER | (is_half ? 5 : 3);
+    GBA_DISPLAY_CONTROL = SHOW_LAYER | MODE;
+    GBA_BG2_X = 0;
     GBA_BG2_XX = GBA_BG2_YY = is_half ? 0x80 : 0x100;
     GBA_HANDLER = interrupt;
     GBA_DISPLAY_STATUS = 8;         /* wants the vertical blank's interrupt */

@@ -13,6 +13,7 @@
 #define GBA_LINE GBA_REG16(0x04000006u)
 #define GBA_BG2_XX GBA_REG16(0x04000020u)       /* 1/256: steps through the picture per pixel */
 #define GBA_BG2_YY GBA_REG16(0x04000026u)
+#define GBA_BG2_X GBA_REG32(0x04000028u)        /* 1/256: the picture's column that the screen's first one shows */
 #define GBA_DMA3_FROM GBA_REG32(0x040000d4u)
 #define GBA_DMA3_TO GBA_REG32(0x040000d8u)
 #define GBA_DMA3_CONTROL GBA_REG32(0x040000dcu) /* count below, flags above */

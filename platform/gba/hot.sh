@@ -40,7 +40,7 @@ link_programs() {
         $1 == ".assemble" || $1 == ".draw" || $1 == ".warm" { if ($2 > size[$1]) size[$1] = $2 }
         $1 == "link_stack_limit" { limit = $2 }
         $1 == "link_fast_end" && $2 > end { end = $2 }
-        END { print limit - end - size[".assemble"], limit - end - size[".draw"], 21504 - size[".warm"] }')
+        END { print limit - end - size[".assemble"], limit - end - size[".draw"], 19968 - size[".warm"] }')
 }
 
 # Prints "SCORE SHARP OBJECTS CAMERA GAME" in cycles; the score is 10000 times the sum of logarithms.

@@ -7,7 +7,7 @@
 # lie and leaves them in slow memory. Sharp frames, and the mean of the loop's blurred ones.
 set -eu
 folder=$1
-for way in none auto; do
+for way in none auto-sketch; do
     platform/gba/run.sh -d "$folder/$way.data" "$folder/demo.elf" cost gba $way 1 >"$folder/$way.places"
 done
 echo '| | sharp: bytes | read, written (1000) | cycles per byte, video; fast | blurred: bytes | read, written (1000) | cycles per byte, video; fast |'
@@ -27,21 +27,22 @@ awk '
     }
     BEGIN {
         FRAMES = 72
-        split("context,colour of rows,depth of rows,instants,sums of instants,band,segments,triangles,draws,the rest of the arena", name, ",")
+        split("context,colour of rows,depth of rows,instants,sums of instants,band,segments,triangles,draws,rows behind lines,the rest of the arena", name, ",")
     }
     { way = FILENAME; sub(/.*\//, "", way); sub(/\..*/, "", way) }
     $1 == "place" {
-        first[way, $2] = number($3)
-        size[way, $2] = $4
+        if (size[way, $2] == 0)
+            first[way, $2] = number($3)
+        size[way, $2] += $4                     # one part lies behind another of its kind
     }
-    $1 == "memory" { size[way, 9] = $2; for (p = 0; p < 9; p++) size[way, 9] -= size[way, p]; arena_end[way] = first[way, 0] + $2 }
+    $1 == "memory" { size[way, 10] = $2; for (p = 0; p < 10; p++) size[way, 10] -= size[way, p]; arena_end[way] = first[way, 0] + $2 }
     FILENAME ~ /data$/ && $1 ~ /^02/ {
         address = number($1)
-        part = 9
-        for (p = 0; p < 9; p++)
+        part = 10
+        for (p = 0; p < 10; p++)
             if (size[way, p] > 0 && address >= first[way, p] && address < first[way, p] + size[way, p])
                 part = p
-        if (part == 9 && (address < first[way, 0] || address >= arena_end[way]))
+        if (part == 10 && (address < first[way, 0] || address >= arena_end[way]))
             next
         reads[way, part] += $3 + $4 + $5
         writes[way, part] += $6 + $7 + $8
@@ -50,6 +51,6 @@ awk '
         words[way, part] += $5 + $8
     }
     END {
-        for (p = 0; p < 10; p++)
-            printf "| %s | %s | %s |\n", name[p + 1], cell("none", p), cell("auto", p)
-    }' "$folder/none.places" "$folder/auto.places" "$folder/none.data" "$folder/auto.data"
+        for (p = 0; p < 11; p++)
+            printf "| %s | %s | %s |\n", name[p + 1], cell("none", p), cell("auto-sketch", p)
+    }' "$folder/none.places" "$folder/auto-sketch.places" "$folder/none.data" "$folder/auto-sketch.data"

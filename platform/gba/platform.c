@@ -55,29 +55,27 @@ static void say_place(int part, uint32_t address, uint32_t bytes)
     platform_print("\n");
 }
 
-/* Below the rows that mode 5 shows of a frame of half the screen's size, each of the two pages has rows that nobody sees, 48 and,
- * down to the functions there, 32: 2 cycles for 32 bits, where the arena takes 6. Writes of single bytes go wrong there, so
- * that parts with such stay. */
+/* Two frames of half the screen's size lie side by side in the upper half of video memory's picture (display.c). From there to the
+ * functions at its end it takes 2 cycles for 32 bits, where the arena takes 6. Writes of single bytes go wrong there, so that parts
+ * with such stay. */
 void *gba_place(int is_half, int part, void *address, uint32_t bytes)
 {
-    enum { PAGES = 2, PAGE = 0xa000, SHOWN = 160 * 80 * 2 };
-    const uint32_t room[PAGES] = { PAGE, (uint32_t)link_warm_start - GBA_VIDEO_MEMORY - PAGE };
-    static uint32_t used[PAGES];
+    enum { SHOWN = 240 * 80 * 2 };
+    static uint32_t end;                        /* of what is taken */
     if (address != NULL && GBA_SAYS_PLACES)
         say_place(part, (uint32_t)address, bytes);
     if (address == NULL || GBA_SAYS_PLACES || !is_half)
         return address;
     if (part == SMEAR_PART_COLOR)               /* the first of a context */
-        used[0] = used[1] = SHOWN;
-    if (part != SMEAR_PART_COLOR && part != SMEAR_PART_DEPTH && part != SMEAR_PART_INSTANTS && part != SMEAR_PART_BAND)
+        end = GBA_VIDEO_MEMORY + SHOWN;
+    if (part != SMEAR_PART_COLOR && part != SMEAR_PART_DEPTH && part != SMEAR_PART_INSTANTS && part != SMEAR_PART_BAND
+        && part != SMEAR_PART_LINES)
         return address;
-    for (int page = 0; page < PAGES; page++)
-        if (used[page] + bytes <= room[page]) {
-            const uint32_t at = GBA_VIDEO_MEMORY + (uint32_t)page * PAGE + used[page];
-            used[page] += (bytes + 7u) & ~7u;
-            return (void *)at;
-        }
-    return address;
+    const uint32_t at = end;
+    if (bytes > (uint32_t)link_warm_start - at)
+        return address;
+    end = at + ((bytes + 7u) & ~7u);
+    return (void *)at;
 }
 
 /* What the compiler calls for a memory barrier: one core that does everything in order needs none. */
