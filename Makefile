@@ -71,7 +71,7 @@ SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal met
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm
 PORT_ROOMS += $(filter-out $(PORT_ROOMS),$(patsubst %/target.mk,%,$(wildcard platform/*/target.mk))) platform/template platform/game platform/lessons
-TEST_ROOMS := tests $(addprefix tests/,data ref kernels unit suite examples faults fuzz proofs target shell)
+TEST_ROOMS := tests $(addprefix tests/,ref kernels unit suite examples faults fuzz proofs target shell)
 
 LIB_SRC := $(foreach room,$(SRC_ROOMS),$(wildcard $(room)/*.c))
 
@@ -236,7 +236,7 @@ layers:
 
 # All C sources but what tools write.
 NO_ROOMS := platform/examples $(patsubst %/,%,$(sort $(dir $(shell find tests/examples/stand_ins -name "*.h"))))
-FORMATTED = $(filter-out src/base/tables.c platform/lessons/bird.h,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(filter-out tests/data,$(TEST_ROOMS)),$(wildcard $(room)/*.[ch])))
+FORMATTED = $(filter-out src/base/tables.c platform/lessons/bird.h,$(foreach room,include $(NO_ROOMS) $(SRC_ROOMS) $(TOOL_ROOMS) $(PORT_ROOMS) $(TEST_ROOMS),$(wildcard $(room)/*.[ch])))
 
 .PHONY: core-alone
 ## the core links without models and the rooms of other systems' methods, and draws the same
@@ -356,8 +356,15 @@ VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit
     x11.c x11_auth.c)
 TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
 
-# What runs the tests of a file, which its last line includes; and the model of tests/data/arm.gltf in words, low byte first.
-SUITE_LISTS := $(ALL_SUITES:%=build/suites/%.h) build/suites/arm_blob.h
+# What runs the tests of a file, which its last line includes; and the model of tests/data/arm.gltf, as a header and in words, low byte
+# first.
+SUITE_LISTS := $(ALL_SUITES:%=build/suites/%.h) build/suites/arm.h build/suites/arm_blob.h
+build/suites/smear: $(call host_objects,$(CLI_SRC) $(VIEW_SRC) $(TOOL_SRC) $(LIB_SRC))
+	$(call say,LD)
+	@mkdir -p $(@D)
+	$(HOST_CC) -o $@ $^ -lm -lpthread
+build/suites/arm.h: tests/data/arm.gltf $(CONVERT_SRC) $(MODEL_SRC) | build/suites/smear
+	build/suites/smear convert $< --name arm -o $@ > /dev/null
 build/suites/arm_blob.h: tests/fuzz/corpus/blob/arm
 	@mkdir -p $(@D)
 	(echo 'static const uint32_t arm_blob[] = {'; \
@@ -368,7 +375,7 @@ build/suites/%.h: tests/unit/test_%.c tests/suites.awk
 build/suites/%.h: tests/suite/test_%.c tests/suites.awk
 	@mkdir -p $(@D)
 	awk -v suite=$* -f tests/suites.awk $< > $@
-$(sort $(call objects,$(TEST_SRC))): | $(SUITE_LISTS)
+$(sort $(call objects,$(filter tests/%,$(TEST_SRC)))): | $(SUITE_LISTS)
 
 $(call objects,tests/run.c): CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'
 $(call objects,tests/run.c): HOST_CFLAGS += -D'TEST_SUITES=$(foreach suite,$(SUITES),SUITE($(suite)))'

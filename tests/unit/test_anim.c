@@ -2,7 +2,7 @@
 /* test_anim.c - the animation module on models from tables: clips, nodes, skins, morph targets, actors, blobs. Needs
  * neither libc nor floating point. The last tests play what `smear convert` made of tests/data/arm.gltf, and the numbers
  * must be the same on every machine. */
-#include "tests/data/arm.h"
+#include "build/suites/arm.h"
 #include "build/suites/arm_blob.h"
 
 #include "base/crc32.h"
