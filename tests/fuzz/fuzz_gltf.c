@@ -1,19 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* fuzz_gltf.c - libFuzzer target: any bytes are decisions by which a glTF file is written that is right but for a few
  * of them. So mutations reach what lies behind the parser: strips, sparse and strided accessors, skins, targets, clips,
- * pictures, and all of `smear convert`.
- *
- * What the loader takes can be posed, shown and converted, or is refused with a reason; a blob that comes out passes its
- * own check. */
-#include "tests/fuzz/require.h"
-#include "tools/convert/convert.h"
-#include "tools/scenes/present.h"
-#include "tools/scenes/scene.h"
-
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+ * pictures, and all of `smear convert` (check_model.h). */
+#include "tests/fuzz/check_model.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -32,19 +21,6 @@ static long index_below(unsigned count)
     static const long wild[] = { -1, 255, 65536, 2147483647, 4294967296L };
     unsigned i = any(count + 1 + (count < 200 ? 24 : 0));
     return i < count ? (long)i : i == count ? wild[any(5)] : (long)(i % (count > 0 ? count : 1));
-}
-
-static char text[1 << 16];
-static size_t length;
-
-__attribute__((format(printf, 1, 2))) static void say(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    int n = vsnprintf(text + length, sizeof text - length, format, args);
-    va_end(args);
-    if (n > 0)
-        length = length + (size_t)n < sizeof text ? length + (size_t)n : sizeof text - 1;
 }
 
 static const char *between(int i)
@@ -192,10 +168,8 @@ static void fill_bin(uint8_t bin[BIN])
     }
 }
 
-static size_t write_file(uint8_t *out)
+static void write_text(void)
 {
-    uint8_t bin[BIN];
-    length = 0;
     say("{\"asset\":{\"version\":\"2.0\"}");
     say_views();
     say_accessors();
@@ -207,76 +181,19 @@ static size_t write_file(uint8_t *out)
     say("}");
     while (length % 4 != 0)
         say(" ");
-    fill_bin(bin);
-    const uint32_t head[5] = { 0x46546c67, 2, (uint32_t)(28 + length + BIN), (uint32_t)length, 0x4e4f534a };
-    const uint32_t chunk[2] = { BIN, 0x004e4942 };
-    memcpy(out, head, 20);
-    memcpy(out + 20, text, length);
-    memcpy(out + 20 + length, chunk, 8);
-    memcpy(out + 28 + length, bin, BIN);
-    return 28 + length + BIN;
-}
-
-/* ------------------------------------------------------------------ what must hold */
-
-static void show(const struct model *m)
-{
-    struct failure f = { "" };
-    struct scene scene;
-    const struct scene_view view = { .clip = m->clip_count > 0 ? 0 : MODEL_CLIP_NONE, .camera = m->camera_count > 0 ? 0 : -1 };
-    const struct present_options options = { .fps = 30.0, .shutter_degrees = 180.0 };
-    if (scene_from_model(m, &view, &scene, &f)) {
-        struct presenter *presenter = presenter_new(&scene, &f);
-        require(presenter != NULL);
-        require(presenter_frame(presenter, 0.25, &options, &f) != NULL || f.text[0] != '\0');
-        presenter_free(presenter);
-        scene_free(&scene);
-    } else {
-        require(f.text[0] != '\0');
-    }
-}
-
-static void convert(const struct model *m, unsigned choice)
-{
-    static const int clip[CLIPS] = { 0, 1 };
-    struct failure f = { "" };
-    struct conversion c;
-    const struct convert_options o = {
-        .clip = clip, .clip_count = m->clip_count < CLIPS ? m->clip_count : CLIPS, .scale = 1, .fit = choice & 1 ? 4 : 0,
-        .texture = (enum convert_texture)(choice / 2 % 5), .texture_edge = 8, .colors = 16, .influences = 1 + (int)(choice / 16 % 4),
-        .clip_error_px = 0.1, .rows = 240, .fov_degrees = 45
-    };
-    if (!convert_model(m, &o, &c, &f)) {
-        require(f.text[0] != '\0');
-        return;
-    }
-    uint8_t *bytes;
-    size_t size;
-    require(convert_to_blob(&c, &bytes, &size, &f));
-    require(smear_mesh_check(bytes, size) == SMEAR_OK);
-    free(bytes);
-    conversion_free(&c);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static uint8_t file[sizeof text + BIN + 64];
-    struct failure f = { "" };
-    struct model m;
+    uint8_t bin[BIN];
     next = data;
     last = data + size;
-    unsigned choice = any(256);
-    size_t bytes = write_file(file);
-    uint8_t *exact = malloc(bytes);         /* so that a byte too far is seen */
-    require(exact != NULL);
-    memcpy(exact, file, bytes);
-    if (model_parse(exact, bytes, NULL, &m, &f)) {
-        show(&m);
-        convert(&m, choice);
-        model_free(&m);
-    } else {
-        require(f.text[0] != '\0');
-    }
-    free(exact);
+    length = 0;
+    const unsigned choice = any(256) * 257;
+    write_text();
+    fill_bin(bin);
+    uint8_t *glb = glb_of(text, length, bin, BIN, &size);
+    check_file(glb, size, choice);
+    free(glb);
     return 0;
 }
