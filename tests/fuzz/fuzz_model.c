@@ -3,7 +3,7 @@
  *
  * Input that begins with byte 1 is JSON, a NUL and a BIN chunk, which are wrapped into a GLB
  * here, so that a mutation need not keep GLB's lengths right. Anything else goes to model_parse
- * as it is. Seeds are in tests/fuzz/corpus/model; gltf.dict there is the dictionary. */
+ * as it is. Seeds are in tests/fuzz/corpus/model. */
 #include "tests/fuzz/check_model.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
