@@ -586,10 +586,9 @@ $(BUILD)/jpeg-files: $(call objects,tests/shell/jpeg_files.c tests/random.c $(IM
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-$(BUILD)/hostile: tests/shell/hostile.c
-	$(call say,CC,$<)
-	@mkdir -p $(@D)
-	$(CC) -std=c11 -O2 -Wall -Wextra -o $@ $<
+$(BUILD)/hostile: $(call objects,tests/shell/hostile.c $(IMAGE_SRC))
+	$(call say,LD)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
 .PHONY: faults-injected
 ## tests: every allocation, read, write and rename of the program fails once, and the power at each

@@ -5,26 +5,16 @@
 
 #include "tests/fuzz/require.h"
 #include "tools/convert/convert.h"
+#include "tools/image/buffer.h"
 #include "tools/scenes/present.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <string.h>
 
-/* ------------------------------------------------------------------ text */
+/* ------------------------------------------------------------------ files */
 
-static char text[1 << 16];
-static size_t length;
-
-__attribute__((format(printf, 1, 2))) static inline void say(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    int n = vsnprintf(text + length, sizeof text - length, format, args);
-    va_end(args);
-    if (n > 0)
-        length = length + (size_t)n < sizeof text ? length + (size_t)n : sizeof text - 1;
-}
+/* What is written. */
+static struct buffer text;
+#define say(...) buffer_print(&text, __VA_ARGS__)
 
 /* A GLB of its two chunks, which the caller frees. */
 static inline uint8_t *glb_of(const void *json, size_t json_size, const void *bin, size_t bin_size, size_t *size)

@@ -179,7 +179,7 @@ static void write_text(void)
     if (any(3) > 0)
         say_clips();
     say("}");
-    while (length % 4 != 0)
+    while (text.size % 4 != 0)
         say(" ");
 }
 
@@ -188,11 +188,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t bin[BIN];
     next = data;
     last = data + size;
-    length = 0;
+    text.size = 0;
     const unsigned choice = any(256) * 257;
     write_text();
     fill_bin(bin);
-    uint8_t *glb = glb_of(text, length, bin, BIN, &size);
+    uint8_t *glb = glb_of(text.data, text.size, bin, BIN, &size);
     check_file(glb, size, choice);
     free(glb);
     return 0;

@@ -12,6 +12,7 @@
 #include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
+#include "tools/image/png.h"
 #include "tools/image/palette.h"
 
 #include <stdlib.h>
@@ -71,14 +72,6 @@ static void fuzz_mended_png(const uint8_t *data, size_t size)
     free(copy);
 }
 
-static void put_chunk(struct buffer *out, const char *name, const void *data, size_t size)
-{
-    buffer_be32(out, (uint32_t)size);
-    buffer_append(out, name, 4);
-    buffer_append(out, data, size);
-    buffer_be32(out, crc32_update(crc32_update(0, name, 4), data, size));
-}
-
 /* A file that is right but for its pixels: width, height, kind, palette size, then filtered rows.
  * */
 static void fuzz_png_rows(const uint8_t *data, size_t size)
@@ -96,14 +89,14 @@ static void fuzz_png_rows(const uint8_t *data, size_t size)
     data += 4;
     size -= 4;
     buffer_append(&file, "\x89PNG\r\n\x1a\n", 8);
-    put_chunk(&file, "IHDR", header, sizeof header);
+    png_chunk(&file, "IHDR", header, sizeof header);
     if (palette > 0 && palette <= size)
-        put_chunk(&file, "PLTE", data, palette);
+        png_chunk(&file, "PLTE", data, palette);
     if (transparent > 0 && transparent <= size)
-        put_chunk(&file, "tRNS", data, transparent);
+        png_chunk(&file, "tRNS", data, transparent);
     require(deflate_zlib(data, size, &packed));
-    put_chunk(&file, "IDAT", packed.data, packed.size);
-    put_chunk(&file, "IEND", NULL, 0);
+    png_chunk(&file, "IDAT", packed.data, packed.size);
+    png_chunk(&file, "IEND", NULL, 0);
     fuzz_png(file.data, file.size);
     buffer_free(&packed);
     buffer_free(&file);

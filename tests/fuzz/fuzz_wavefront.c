@@ -46,12 +46,12 @@ static void statement(const uint8_t b[4], int count[3])
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     int count[3] = { 0 };
-    length = 0;
+    text.size = 0;
     say("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\n");
     count[0] = 3;
     count[1] = count[2] = 1;
-    for (size_t i = 0; i + 4 <= size && length < sizeof text - 200; i += 4)
+    for (size_t i = 0; i + 4 <= size && text.size < 65000; i += 4)
         statement(data + i, count);
-    check_file((const uint8_t *)text, length, (unsigned)length * 40503u);
+    check_file(text.data, text.size, (unsigned)text.size * 40503u);
     return 0;
 }

@@ -5,47 +5,15 @@
  *     hostile KIND BYTES > FILE        about so many bytes
  *     hostile                          the kinds, a line each, with the ending of its files
  */
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tools/image/png.h"
 
-struct bytes {
-    uint8_t *at;
-    size_t size, room;
-};
-
-static void put(struct bytes *b, const void *from, size_t size)
+static void put32(struct buffer *b, uint32_t value)
 {
-    if (b->size + size > b->room) {
-        b->room = (b->size + size) * 2;
-        b->at = realloc(b->at, b->room);
-        if (b->at == NULL)
-            exit(1);
-    }
-    memcpy(b->at + b->size, from, size);
-    b->size += size;
+    buffer_le16(b, value);
+    buffer_le16(b, value >> 16);
 }
 
-__attribute__((format(printf, 2, 3))) static void say(struct bytes *b, const char *format, ...)
-{
-    char text[1024];
-    va_list args;
-    va_start(args, format);
-    int length = vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    put(b, text, (size_t)length);
-}
-
-static void put32(struct bytes *b, uint32_t value)
-{
-    const uint8_t four[4] = { (uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16), (uint8_t)(value >> 24) };
-    put(b, four, 4);
-}
-
-static void put_float(struct bytes *b, float value)
+static void put_float(struct buffer *b, float value)
 {
     uint32_t word;
     memcpy(&word, &value, 4);
@@ -70,30 +38,30 @@ static float any_place(void)
 /* A file of nodes, meshes and the like: `more` says what stands in it besides. Views are of the whole of `bin` from
  * their offset on. */
 struct glb {
-    struct bytes json, bin;
+    struct buffer json, bin;
     size_t limit;
     unsigned count;     /* how often what is repeated first came */
 };
 
 static void write_glb(struct glb *g, FILE *to)
 {
-    struct bytes out = { 0 };
+    struct buffer out = { 0 };
     while (g->json.size % 4 != 0)
-        put(&g->json, " ", 1);
+        buffer_byte(&g->json, ' ');
     while (g->bin.size % 4 != 0)
-        put(&g->bin, "", 1);
-    put(&out, "glTF", 4);
+        buffer_byte(&g->bin, 0);
+    buffer_append(&out, "glTF", 4);
     put32(&out, 2);
     put32(&out, (uint32_t)(12 + 8 + g->json.size + (g->bin.size > 0 ? 8 + g->bin.size : 0)));
     put32(&out, (uint32_t)g->json.size);
     put32(&out, 0x4e4f534a);
-    put(&out, g->json.at, g->json.size);
+    buffer_append(&out, g->json.data, g->json.size);
     if (g->bin.size > 0) {
         put32(&out, (uint32_t)g->bin.size);
         put32(&out, 0x004e4942);
-        put(&out, g->bin.at, g->bin.size);
+        buffer_append(&out, g->bin.data, g->bin.size);
     }
-    fwrite(out.at, 1, out.size, to);
+    fwrite(out.data, 1, out.size, to);
 }
 
 /* Corners of triangles at random, and their numbers: accessors 0 and 1. */
@@ -108,9 +76,9 @@ static void triangles(struct glb *g, unsigned vertices, unsigned corners)
 /* Accessors 0 (positions) and 1 (indices) of triangles() and the views 0 and 1 behind them. */
 static void end(struct glb *g, unsigned vertices, unsigned corners)
 {
-    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':%u,'type':'VEC3'},"
+    buffer_print(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':%u,'type':'VEC3'},"
         "{'bufferView':1,'componentType':5125,'count':%u,'type':'SCALAR'}]", vertices, corners);
-    say(&g->json, ",'bufferViews':[{'buffer':0,'byteLength':%u},{'buffer':0,'byteOffset':%u,'byteLength':%u}],"
+    buffer_print(&g->json, ",'bufferViews':[{'buffer':0,'byteLength':%u},{'buffer':0,'byteOffset':%u,'byteLength':%u}],"
         "'buffers':[{'byteLength':%zu}]}", vertices * 12, vertices * 12, corners * 4, g->bin.size);
 }
 
@@ -144,7 +112,7 @@ static void tell(struct glb *g, const char *text)
     bool first = g->count == 0;
     for (; *text != '\0'; text++) {
         if (*text != '<') {
-            put(&g->json, text, 1);
+            buffer_append(&g->json, text, 1);
             continue;
         }
         const char *how = text + 1, *from = strchr(text, '|') + 1;
@@ -152,11 +120,11 @@ static void tell(struct glb *g, const char *text)
         for (text = strchr(from, '>'); goes_on(g, how, i); i++)
             for (const char *c = from; c < text; c++) {
                 if (*c > 5)
-                    put(&g->json, c, 1);
+                    buffer_append(&g->json, c, 1);
                 else if (*c >= 4)
-                    say(&g->json, "%u", *c == 4 ? any(10) : 1 + any(3));
+                    buffer_print(&g->json, "%u", *c == 4 ? any(10) : 1 + any(3));
                 else
-                    say(&g->json, text[1] == '%' ? "%x" : "%u", *c == 1 ? i : *c == 2 ? i + 1 : i - 1);
+                    buffer_print(&g->json, text[1] == '%' ? "%x" : "%u", *c == 1 ? i : *c == 2 ? i + 1 : i - 1);
             }
         text += text[1] == '%';
         if (first)
@@ -180,12 +148,12 @@ static void skins(struct glb *g)
     for (unsigned i = 0; i < 3; i++)
         put32(&g->bin, i);
     for (unsigned i = 0; i < 12; i++)           /* joints of three vertices, and their weights */
-        put(&g->bin, i % 4 == 0 ? "\1\0" : "\0\0", 2);
+        buffer_append(&g->bin, i % 4 == 0 ? "\1\0" : "\0\0", 2);
     for (unsigned i = 0; i < 12; i++)
         put_float(&g->bin, 0.25f);
     tell(g, BEGIN ",'scene':0,'nodes':[{}<f6|,{'mesh':0,'skin':0}>],'scenes':[{'nodes':[0<n9|,\1>]}],'skins':[{'joints':[0<njf|,\1>]}],"
          "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3},'indices':1}]}]");
-    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+    buffer_print(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
         "{'bufferView':0,'byteOffset':36,'componentType':5125,'count':3,'type':'SCALAR'},"
         "{'bufferView':0,'byteOffset':48,'componentType':5123,'count':3,'type':'VEC4'},"
         "{'bufferView':0,'byteOffset':72,'componentType':5126,'count':3,'type':'VEC4'}],"
@@ -199,12 +167,12 @@ static void clip(struct glb *g, unsigned keys, const char *text)
         put_float(&g->bin, (float)i / 64.0f);
     for (unsigned i = 0; i < keys * 3; i++)
         put_float(&g->bin, any_place());
-    say(&g->json, BEGIN ",'scene':0" MESH ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+    buffer_print(&g->json, BEGIN ",'scene':0" MESH ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
         "{'bufferView':0,'byteOffset':36,'componentType':5125,'count':3,'type':'SCALAR'},"
         "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':%u,'type':'SCALAR'},"
         "{'bufferView':0,'byteOffset':%u,'componentType':5126,'count':%u,'type':'VEC3'}],"
         "'bufferViews':[{'buffer':0,'byteLength':%zu}],'buffers':[{'byteLength':%zu}]", keys, 48 + keys * 4, keys,
-        g->bin.size, g->bin.size);
+                 g->bin.size, g->bin.size);
     tell(g, text);
 }
 
@@ -236,7 +204,7 @@ static void layers(struct glb *g)
         put_float(&g->bin, far[i]);
     for (unsigned i = 0; i < corners; i++)
         put32(&g->bin, i % 3);
-    say(&g->json, BEGIN ",'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'camera':0,'translation':[0,0,3]}],"
+    buffer_print(&g->json, BEGIN ",'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'camera':0,'translation':[0,0,3]}],"
         "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}],'materials':[{'doubleSided':true,"
         "'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}]"
         ",'meshes':[{'primitives':[" POINTS ",'material':0}]}]");
@@ -246,47 +214,19 @@ static void layers(struct glb *g)
 /* Brackets within brackets. */
 static void json_deep(struct glb *g)
 {
-    say(&g->json, BEGIN ",'extras':");
+    buffer_print(&g->json, BEGIN ",'extras':");
     for (size_t i = 0; i < g->limit / 2; i++)
-        put(&g->json, "[", 1);
+        buffer_byte(&g->json, '[');
     for (size_t i = 0; i < g->limit / 2; i++)
-        put(&g->json, "]", 1);
-    put(&g->json, "}", 1);
+        buffer_byte(&g->json, ']');
+    buffer_byte(&g->json, '}');
 }
 
 /* ------------------------------------------------------------------ pictures */
 
-static uint32_t crc(uint32_t c, const uint8_t *at, size_t size)
-{
-    c = ~c;
-    for (; size > 0; size--) {
-        c ^= *at++;
-        for (int i = 0; i < 8; i++)
-            c = c >> 1 ^ (c & 1 ? 0xedb88320u : 0);
-    }
-    return ~c;
-}
-
-static void put_high(struct bytes *b, uint32_t value)
-{
-    const uint8_t four[4] = { (uint8_t)(value >> 24), (uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value };
-    put(b, four, 4);
-}
-
-static void chunk(struct bytes *out, const char *name, const struct bytes *data)
-{
-    struct bytes all = { 0 };
-    put(&all, name, 4);
-    put(&all, data->at, data->size);
-    put_high(out, (uint32_t)data->size);
-    put(out, all.at, all.size);
-    put_high(out, crc(0, all.at, all.size));
-    free(all.at);
-}
-
 /* Bits of deflate, the lowest first. */
 struct bits {
-    struct bytes *to;
+    struct buffer *to;
     uint32_t held;
     int count;
 };
@@ -294,19 +234,17 @@ struct bits {
 static void put_bits(struct bits *b, uint32_t value, int count)
 {
     b->held |= value << b->count;
-    for (b->count += count; b->count >= 8; b->count -= 8, b->held >>= 8) {
-        const uint8_t byte = (uint8_t)b->held;
-        put(b->to, &byte, 1);
-    }
+    for (b->count += count; b->count >= 8; b->count -= 8, b->held >>= 8)
+        buffer_byte(b->to, b->held & 255);
 }
 
 /* `size` zeros in about a thousandth: a literal and matches of 258 by a code whose two symbols take a bit each. */
-static void zeros(struct bytes *out, size_t size)
+static void zeros(struct buffer *out, size_t size)
 {
     static const uint8_t order[19] = { 16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15 };
     struct bits b = { .to = out };
     uint32_t sum = 1, high = 0;
-    put(out, "\x78\x01", 2);
+    buffer_append(out, "\x78\x01", 2);
     put_bits(&b, 5, 3);                         /* the last block, codes of its own */
     put_bits(&b, 286 - 257, 5);
     put_bits(&b, 0, 5);
@@ -331,28 +269,28 @@ static void zeros(struct bytes *out, size_t size)
     put_bits(&b, 3, 2);
     put_bits(&b, 0, 7);
     high = (uint32_t)(size % 65521);
-    put_high(out, high << 16 | sum);
+    buffer_be32(out, high << 16 | sum);
 }
 
-static void begin_png(struct bytes *out, uint32_t width, uint32_t height, const char *kind)
+static void begin_png(struct buffer *out, uint32_t width, uint32_t height, const char *kind)
 {
-    struct bytes head = { 0 };
-    put_high(&head, width);
-    put_high(&head, height);
-    put(&head, kind, 5);
-    put(out, "\x89PNG\r\n\x1a\n", 8);
-    chunk(out, "IHDR", &head);
+    struct buffer head = { 0 };
+    buffer_be32(&head, width);
+    buffer_be32(&head, height);
+    buffer_append(&head, kind, 5);
+    buffer_append(out, png_signature, 8);
+    png_chunk(out, "IHDR", head.data, head.size);
 }
 
-static void end_png(struct bytes *out, const struct bytes *data)
+static void end_png(struct buffer *out, const struct buffer *data)
 {
-    chunk(out, "IDAT", data);
-    chunk(out, "IEND", &(struct bytes){ 0 });
+    png_chunk(out, "IDAT", data->data, data->size);
+    png_chunk(out, "IEND", NULL, 0);
 }
 
 static void picture_bomb(struct glb *g)
 {
-    struct bytes data = { 0 };
+    struct buffer data = { 0 };
     const uint32_t edge = g->limit < 8000000 ? 4096 : 16384;
     begin_png(&g->json, edge, edge, "\x10\x06\0\0\0");
     zeros(&data, ((size_t)edge * 8 + 1) * edge);
@@ -362,7 +300,7 @@ static void picture_bomb(struct glb *g)
 /* The largest that is compared. */
 static void picture_large(struct glb *g)
 {
-    struct bytes data = { 0 };
+    struct buffer data = { 0 };
     begin_png(&g->json, 4096, 2048, "\x08\x02\0\0\0");
     zeros(&data, ((size_t)4096 * 3 + 1) * 2048);
     end_png(&g->json, &data);
@@ -372,22 +310,22 @@ static void picture_chunks(struct glb *g)
 {
     begin_png(&g->json, 64, 64, "\x08\x02\0\0\0");
     while (g->json.size + 100 < g->limit)
-        chunk(&g->json, "IDAT", &(struct bytes){ 0 });
-    chunk(&g->json, "IEND", &(struct bytes){ 0 });
+        png_chunk(&g->json, "IDAT", NULL, 0);
+    png_chunk(&g->json, "IEND", NULL, 0);
 }
 
 /* A model whose pictures are all one file. */
-static void pictures_of(struct glb *g, const struct bytes *file)
+static void pictures_of(struct glb *g, const struct buffer *file)
 {
     triangles(g, 3, 3);
     size_t at = g->bin.size;
-    put(&g->bin, file->at, file->size);
+    buffer_append(&g->bin, file->data, file->size);
     const unsigned n = (unsigned)((g->limit - file->size) / 300);
     g->count = (n > 20000 ? 20000 : n) - 1;
     tell(g, BEGIN ",'scene':0" ONE_SCENE ",'images':[{'bufferView':2}<n|,{'bufferView':2}>],'textures':[{'source':0}<n|,{'source':\1}>],"
          "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}<n|,{'pbrMetallicRoughness':{'baseColorTexture':"
          "{'index':\1}}}>],'meshes':[{'primitives':[" POINTS ",'material':0}<n|," POINTS ",'material':\1}>]}]");
-    say(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+    buffer_print(&g->json, ",'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
         "{'bufferView':1,'componentType':5125,'count':3,'type':'SCALAR'}],'bufferViews':[{'buffer':0,"
         "'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':12},{'buffer':0,'byteOffset':%zu,"
         "'byteLength':%zu}],'buffers':[{'byteLength':%zu}]}", at, file->size, g->bin.size);
@@ -403,11 +341,11 @@ static void pictures(struct glb *g)
 /* Of one pixel each, behind half of the file. */
 static void pictures_chunks(struct glb *g)
 {
-    struct bytes b = { 0 }, data = { 0 };
+    struct buffer b = { 0 }, data = { 0 };
     begin_png(&b, 1, 1, "\x08\x02\0\0\0");
     zeros(&data, 4);
     while (b.size + 200 < g->limit / 2)
-        chunk(&b, "IDAT", &(struct bytes){ 0 });
+        png_chunk(&b, "IDAT", NULL, 0);
     end_png(&b, &data);
     pictures_of(g, &b);
 }
@@ -415,63 +353,62 @@ static void pictures_chunks(struct glb *g)
 /* ------------------------------------------------------------------ JPEG */
 
 /* Quantisation and the frame of three components; codes of a bit: a mean that does not change, and a run of blocks. */
-static void begin_jpeg(struct bytes *b, unsigned edge)
+static void begin_jpeg(struct buffer *b, unsigned edge)
 {
     const uint8_t frame[] = { 0xff, 0xc2, 0, 17, 8, (uint8_t)(edge >> 8), (uint8_t)edge, (uint8_t)(edge >> 8), (uint8_t)edge, 3,
                               1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0 };
-    put(b, "\xff\xd8\xff\xdb\0\x43\0", 7);
+    buffer_append(b, "\xff\xd8\xff\xdb\0\x43\0", 7);
     for (int i = 0; i < 64; i++)
-        put(b, "\1", 1);
-    put(b, frame, sizeof frame);
-    put(b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
-    put(b, "\xff\xc4\0\x14\x10\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xe0", 22);
+        buffer_append(b, "\1", 1);
+    buffer_append(b, frame, sizeof frame);
+    buffer_append(b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
+    buffer_append(b, "\xff\xc4\0\x14\x10\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xe0", 22);
 }
 
 /* The bits `low` of some coefficients, all of them zero: runs of 32,767 blocks, by a bit and 14 more. */
-static void jpeg_band(struct bytes *b, unsigned component, unsigned first, unsigned last, unsigned high, unsigned low, unsigned blocks)
+static void jpeg_band(struct buffer *b, unsigned component, unsigned first, unsigned last, unsigned high, unsigned low, unsigned blocks)
 {
     const uint8_t scan[] = { 0xff, 0xda, 0, 8, 1, (uint8_t)component, 0, (uint8_t)first, (uint8_t)last, (uint8_t)(high << 4 | low) };
     uint32_t held = 0;
     int count = 0;
-    put(b, scan, sizeof scan);
+    buffer_append(b, scan, sizeof scan);
     for (unsigned told = 0; told < blocks; told += 32767)
         for (int i = 0; i < 15; i++) {
             held = held << 1 | (i > 0);
             if (++count % 8 == 0) {
-                const uint8_t byte = (uint8_t)held;
-                put(b, &byte, 1);
-                if (byte == 255)
-                    put(b, "", 1);
+                buffer_byte(b, held & 255);
+                if ((held & 255) == 255)
+                    buffer_byte(b, 0);
             }
         }
-    put(b, "\x7f", count % 8 != 0);
+    buffer_append(b, "\x7f", count % 8 != 0);
 }
 
 /* As large and as often gone over as a picture may be: all details of each component, bit by bit. */
 static void jpeg_scans(struct glb *g)
 {
     enum { EDGE = 4096, BLOCKS = EDGE / 8 * (EDGE / 8) };
-    struct bytes b = { 0 };
+    struct buffer b = { 0 };
     begin_jpeg(&b, EDGE);
-    put(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0", 14);
+    buffer_append(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0", 14);
     for (int i = 0; i < BLOCKS * 3 / 8; i++)
-        put(&b, "", 1);
+        buffer_byte(&b, 0);
     for (unsigned i = 0; i < 3 * 14; i++) {
         const unsigned low = 13 - i % 14;
         jpeg_band(&b, 1 + i / 14, 1, 63, low < 13 ? low + 1 : 0, low, BLOCKS);
     }
-    put(&b, "\xff\xd9", 2);
+    buffer_append(&b, "\xff\xd9", 2);
     pictures_of(g, &b);
 }
 
 /* Tables upon tables, half of the file, for a picture of a block. */
 static void jpeg_tables(struct glb *g)
 {
-    struct bytes b = { 0 };
+    struct buffer b = { 0 };
     begin_jpeg(&b, 8);
     while (b.size + 100 < g->limit / 2)
-        put(&b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
-    put(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0\x1f\xff\xd9", 17);
+        buffer_append(&b, "\xff\xc4\0\x14\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
+    buffer_append(&b, "\xff\xda\0\x0c\3\1\0\2\0\3\0\0\0\0\x1f\xff\xd9", 17);
     pictures_of(g, &b);
 }
 
@@ -480,9 +417,9 @@ static void picture_text(struct glb *g)
     unsigned edge = 1;
     while ((size_t)(edge + 1) * (edge + 1) * 6 + 100 < g->limit)
         edge++;
-    say(&g->json, "P3\n%u %u\n9\n", edge, edge);
+    buffer_print(&g->json, "P3\n%u %u\n9\n", edge, edge);
     for (size_t i = 0; i < (size_t)edge * edge * 3; i++)
-        say(&g->json, "%u ", any(10));
+        buffer_print(&g->json, "%u ", any(10));
 }
 
 /* ------------------------------------------------------------------ kinds */
@@ -563,11 +500,11 @@ static void write_kind(const struct kind *k, struct glb *g)
         tell(g, k->text);
     }
     for (size_t i = 0; (is_glb || strcmp(k->ending, "gltf") == 0) && i < g->json.size; i++)
-        g->json.at[i] = g->json.at[i] == '\'' ? '"' : g->json.at[i];
+        g->json.data[i] = g->json.data[i] == '\'' ? '"' : g->json.data[i];
     if (is_glb)
         write_glb(g, stdout);
     else
-        fwrite(g->json.at, 1, g->json.size, stdout);
+        fwrite(g->json.data, 1, g->json.size, stdout);
 }
 
 int main(int argc, char **argv)
@@ -578,7 +515,7 @@ int main(int argc, char **argv)
             printf("%s.%s\n", kinds[i].name, kinds[i].ending);
         } else if (strcmp(argv[1], kinds[i].name) == 0) {
             write_kind(&kinds[i], &g);
-            return fflush(stdout) != 0;
+            return fflush(stdout) != 0 || g.json.failed || g.bin.failed;
         }
     }
     return argc >= 3;

@@ -3,12 +3,14 @@
  *
  * What the tools read is made by small encoders here, and by other programs; what they write is read by what has been tested so, and
  * animations by small decoders here that trust nothing: any deviation from the format makes them fail. */
+#include "tests/random.h"
 #include "tests/test.h"
 
 #include "tools/image/buffer.h"
 #include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
+#include "tools/image/png.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,25 +18,9 @@
 
 /* --- helpers --- */
 
-static uint32_t random_state = 1;
-
-static void random_seed(uint32_t seed)
-{
-    random_state = seed * 2654435761u | 1;
-}
-
-/* xorshift32 */
-static uint32_t random_bits(void)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
-}
-
 static unsigned random_below(unsigned n)
 {
-    return (unsigned)((uint64_t)random_bits() * n >> 32);
+    return (unsigned)((uint64_t)random_u32() * n >> 32);
 }
 
 /* A name for a file that a test writes and removes: in the folder TMPDIR names, else the current.
@@ -105,7 +91,7 @@ static struct image noise_image(int width, int height, bool has_alpha)
     struct image image = make_image(width, height);
     for (size_t i = 0; i < (size_t)width * (size_t)height * 4; i++)
         if (has_alpha || i % 4 != 3)
-            image.rgba[i] = (uint8_t)random_bits();
+            image.rgba[i] = (uint8_t)random_u32();
     return image;
 }
 
@@ -180,21 +166,21 @@ static size_t check_round_trip(const uint8_t *bytes, size_t size)
 static void test_deflate_round_trips_every_small_size_and_many_kinds_of_data(void)
 {
     static uint8_t data[150000];
-    random_seed(1);
+    random_state = 1;
     for (size_t size = 0; size < 300; size++) {
         for (size_t i = 0; i < size; i++)
-            data[i] = (uint8_t)(random_below(3) == 0 ? random_bits() : 'a');
+            data[i] = (uint8_t)(random_below(3) == 0 ? random_u32() : 'a');
         check_round_trip(data, size);
     }
     for (int kind = 0; kind < 6; kind++) {
         for (size_t i = 0; i < sizeof data; i++) {
             switch (kind) {
-            case 0: data[i] = (uint8_t)random_bits(); break;            /* cannot be compressed */
+            case 0: data[i] = (uint8_t)random_u32(); break;            /* cannot be compressed */
             case 1: data[i] = 0; break;
             case 2: data[i] = (uint8_t)(i % 251); break;
             case 3: data[i] = (uint8_t)(random_below(16) * random_below(16)); break;
-            case 4: data[i] = i < 32768 ? (uint8_t)random_bits() : data[i - 32768 + i % 3]; break;
-            default: data[i] = (uint8_t)(i < 32767 ? random_bits() : data[i - 32767]); break;
+            case 4: data[i] = i < 32768 ? (uint8_t)random_u32() : data[i - 32768 + i % 3]; break;
+            default: data[i] = (uint8_t)(i < 32767 ? random_u32() : data[i - 32767]); break;
             }
         }
         check_round_trip(data, sizeof data);
@@ -204,13 +190,13 @@ static void test_deflate_round_trips_every_small_size_and_many_kinds_of_data(voi
 static void test_deflate_finds_matches_of_all_lengths_and_distances(void)
 {
     static uint8_t data[400000];
-    random_seed(2);
+    random_state = 2;
     for (int round = 0; round < 3; round++) {
         size_t at = 0;
         while (at < sizeof data) {
             size_t run = 1 + random_below(round == 0 ? 4 : 40);
             for (; run > 0 && at < sizeof data; run--)
-                data[at++] = (uint8_t)random_bits();
+                data[at++] = (uint8_t)random_u32();
             size_t distance = 1 + random_below(random_below(2) == 0 ? 40000 : 300);
             size_t length = 3 + random_below(random_below(2) == 0 ? 270 : 10);
             for (; length > 0 && at < sizeof data && distance <= at; length--, at++)
@@ -225,7 +211,7 @@ static void test_deflate_limits_the_length_of_codes(void)
 {
     static uint8_t data[400000];
     size_t at = 0, uses = 1, last = 1;
-    random_seed(3);
+    random_state = 3;
     for (unsigned symbol = 0; symbol < 24 && at < sizeof data; symbol++) {
         for (size_t i = 0; i < uses && at < 24000; i++)
             data[at++] = (uint8_t)(symbol * 7);
@@ -253,7 +239,7 @@ static void test_deflate_is_as_small_as_zlib(void)
         data[i] = (uint8_t)((x * x / 97 + y * (i % 3 + 1) + x * y / 50) / 8);
     }
     CHECK(check_round_trip(data, sizeof data) <= 111800);
-    random_seed(4);
+    random_state = 4;
     for (size_t i = 0; i < sizeof data; i++)
         data[i] = (uint8_t)"etaoin shrdlu"[random_below(13) * random_below(13) / 13];
     CHECK(check_round_trip(data, sizeof data) <= 134000);
@@ -454,15 +440,6 @@ static void test_inflate_checks_header_checksum_and_end_of_zlib_streams(void)
 
 /* --- PNG: an encoder of all kinds --- */
 
-static void put_chunk(struct buffer *b, const char *name, const void *data, size_t size)
-{
-    uint32_t crc = crc32_update(crc32_update(0, name, 4), data, size);
-    buffer_be32(b, (uint32_t)size);
-    buffer_append(b, name, 4);
-    buffer_append(b, data, size);
-    buffer_be32(b, crc);
-}
-
 /* Signature and IHDR. */
 static void put_head(struct buffer *b, uint32_t width, uint32_t height, int depth, int type,
                      int interlace)
@@ -475,7 +452,7 @@ static void put_head(struct buffer *b, uint32_t width, uint32_t height, int dept
     buffer_byte(&h, (unsigned)type);
     buffer_le16(&h, 0);
     buffer_byte(&h, (unsigned)interlace);
-    put_chunk(b, "IHDR", h.data, h.size);
+    png_chunk(b, "IHDR", h.data, h.size);
 }
 
 /* `raw` as a zlib stream of stored blocks. */
@@ -499,7 +476,7 @@ static struct buffer store(const uint8_t *raw, size_t size)
 static void put_idat(struct buffer *b, const uint8_t *raw, size_t size)
 {
     struct buffer packed OWNED(buffer_free) = store(raw, size);
-    put_chunk(b, "IDAT", packed.data, packed.size);
+    png_chunk(b, "IDAT", packed.data, packed.size);
 }
 
 /* What the filters of the standard predict from left, above and the corner between. */
@@ -543,7 +520,7 @@ static struct sample_picture make_samples(int width, int height, int depth, int 
     size_t count = (size_t)(width * height * p.channels);
     p.palette_count = 1 + random_below(1u << (depth < 8 ? depth : 8));
     for (unsigned i = 0; i < 256 * 4; i++)
-        p.palette[i / 4][i % 4] = (uint8_t)random_bits();
+        p.palette[i / 4][i % 4] = (uint8_t)random_u32();
     p.sample = malloc(count * sizeof *p.sample);
     for (size_t i = 0; i < count; i++)
         p.sample[i] = (uint16_t)random_below(type == 3 ? p.palette_count : largest_sample(&p) + 1);
@@ -621,16 +598,16 @@ static struct buffer png_of_samples(const struct sample_picture *p)
     struct buffer b = {0}, raw = {0};
     unsigned turn = random_below(5);
     put_head(&b, (uint32_t)p->width, (uint32_t)p->height, p->depth, p->type, p->interlaced);
-    put_chunk(&b, "gAMA", "\0\0\xb1\x8f", 4);
+    png_chunk(&b, "gAMA", "\0\0\xb1\x8f", 4);
     if (p->type == 3) {
         uint8_t colors[768], alpha[256];
         for (unsigned i = 0; i < 256; i++) {
             memcpy(colors + i * 3, p->palette[i], 3);
             alpha[i] = p->palette[i][3];
         }
-        put_chunk(&b, "PLTE", colors, p->palette_count * 3);
+        png_chunk(&b, "PLTE", colors, p->palette_count * 3);
         if (p->has_transparency)
-            put_chunk(&b, "tRNS", alpha, p->palette_count / 2 + 1 < p->palette_count
+            png_chunk(&b, "tRNS", alpha, p->palette_count / 2 + 1 < p->palette_count
                                              ? p->palette_count / 2 + 1 : p->palette_count);
     } else if (p->has_transparency) {
         uint8_t key[6];
@@ -638,7 +615,7 @@ static struct buffer png_of_samples(const struct sample_picture *p)
             key[k * 2] = (uint8_t)(p->key[k] >> 8);
             key[k * 2 + 1] = (uint8_t)p->key[k];
         }
-        put_chunk(&b, "tRNS", key, p->type == 0 ? 2 : 6);
+        png_chunk(&b, "tRNS", key, p->type == 0 ? 2 : 6);
     }
     for (char pass = '1'; p->interlaced && pass <= '7'; pass++)
         put_pass(&raw, p, pass, &turn);
@@ -648,11 +625,11 @@ static struct buffer png_of_samples(const struct sample_picture *p)
     for (size_t at = 0; at < packed.size;) {    /* cut anywhere, even into nothing */
         size_t run = random_below(60);
         run = run < packed.size - at ? run : packed.size - at;
-        put_chunk(&b, "IDAT", packed.data + at, run);
+        png_chunk(&b, "IDAT", packed.data + at, run);
         at += run;
     }
-    put_chunk(&b, "tIME", "\x07\xe8\1\1\0\0\0", 7);
-    put_chunk(&b, "IEND", NULL, 0);
+    png_chunk(&b, "tIME", "\x07\xe8\1\1\0\0\0", 7);
+    png_chunk(&b, "IEND", NULL, 0);
     buffer_free(&raw);
     buffer_free(&packed);
     return b;
@@ -682,7 +659,7 @@ static void check_png_kind(int width, int height, int kind, bool interlaced, boo
 
 static void test_png_reads_every_colour_type_depth_interlace_and_filter(void)
 {
-    random_seed(6);
+    random_state = 6;
     for (int kind = 0; kind < 15; kind++)
         for (int flags = 0; flags < 4; flags++) {
             for (int width = 1; width <= 9; width++)
@@ -717,7 +694,7 @@ static struct buffer small_png(int kind, bool interlaced)
 
 static void test_png_notices_every_changed_byte_and_every_cut(void)
 {
-    random_seed(7);
+    random_state = 7;
     for (int kind = 0; kind < 15; kind++) {
         struct buffer file OWNED(buffer_free) = small_png(kind, kind % 2 == 0);
         struct image got OWNED(image_free);
@@ -760,13 +737,13 @@ static void mend_checksums(struct buffer *file)
 static void test_png_survives_damage_under_right_checksums(void)
 {
     int pictures = 0, errors = 0;
-    random_seed(8);
+    random_state = 8;
     for (int round = 0; round < 6000; round++) {
         struct buffer file OWNED(buffer_free) = small_png(round % 15, round % 2 == 0);
         struct image got OWNED(image_free);
         struct failure f = {""};
         for (unsigned n = 1 + random_below(3); n > 0; n--)
-            file.data[random_below((unsigned)file.size)] = (uint8_t)random_bits();
+            file.data[random_below((unsigned)file.size)] = (uint8_t)random_u32();
         mend_checksums(&file);
         bool ok = png_decode(file.data, file.size, &got, &f);
         pictures += ok;
@@ -803,7 +780,7 @@ static void test_png_refuses_sizes_that_are_zero_huge_or_a_lie(void)
         struct buffer file OWNED(buffer_free) = {0};
         put_head(&file, 4096, 4096, 16, 6, interlace);
         put_idat(&file, (const uint8_t *)"0123456789", 10);
-        put_chunk(&file, "IEND", NULL, 0);
+        png_chunk(&file, "IEND", NULL, 0);
         CHECK(png_is_refused(&file, "too small for its picture size"));
     }
 }
@@ -823,17 +800,17 @@ static struct buffer chunks_in_order(const char *order, int type)
         case 'l': put_idat(&file, raw, size + 1); break;        /* long */
         case 'f': put_idat(&file, (const uint8_t *)"\5\0\0\0", size); break;    /* filter 5 */
         case 'i': put_idat(&file, (const uint8_t *)"\0\3\0\0", size); break;    /* index 3 */
-        case 'e': put_chunk(&file, "IDAT", NULL, 0); break;
-        case 'a': put_chunk(&file, "anCi", "x", 1); break;
-        case 'X': put_chunk(&file, "ABCD", "x", 1); break;
-        case 'n': put_chunk(&file, "A1CD", "x", 1); break;
-        case 'H': put_chunk(&file, "IHDR", "0123456789abc", 13); break;
-        case 'P': put_chunk(&file, "PLTE", "abcdef", 6); break;
-        case '4': put_chunk(&file, "PLTE", "abcd", 4); break;
-        case '0': put_chunk(&file, "PLTE", NULL, 0); break;
-        case 'T': put_chunk(&file, "tRNS", "\0\0\0\0\0\0", key_size); break;
-        case '5': put_chunk(&file, "tRNS", "\0\0\0\0\0", 5); break;
-        case 'E': put_chunk(&file, "IEND", NULL, 0); break;
+        case 'e': png_chunk(&file, "IDAT", NULL, 0); break;
+        case 'a': png_chunk(&file, "anCi", "x", 1); break;
+        case 'X': png_chunk(&file, "ABCD", "x", 1); break;
+        case 'n': png_chunk(&file, "A1CD", "x", 1); break;
+        case 'H': png_chunk(&file, "IHDR", "0123456789abc", 13); break;
+        case 'P': png_chunk(&file, "PLTE", "abcdef", 6); break;
+        case '4': png_chunk(&file, "PLTE", "abcd", 4); break;
+        case '0': png_chunk(&file, "PLTE", NULL, 0); break;
+        case 'T': png_chunk(&file, "tRNS", "\0\0\0\0\0\0", key_size); break;
+        case '5': png_chunk(&file, "tRNS", "\0\0\0\0\0", 5); break;
+        case 'E': png_chunk(&file, "IEND", NULL, 0); break;
         default: break;
         }
     }
@@ -875,7 +852,7 @@ static void test_png_refuses_chunks_that_are_missing_misplaced_or_malformed(void
     }
     struct buffer file = {0};
     buffer_append(&file, "\x89PNG\r\n\x1a\n", 8);
-    put_chunk(&file, "IEND", NULL, 0);
+    png_chunk(&file, "IEND", NULL, 0);
     CHECK(png_is_refused(&file, "no IHDR"));
     buffer_free(&file);
     static const int methods[3] = {26, 27, 28};         /* compression, filter, interlace */
@@ -944,8 +921,8 @@ static bool second_pixels(const uint8_t *packed, size_t size, int channels, stru
     struct image got OWNED(image_free) = {0};
     struct failure f = {""};
     put_head(&file, (uint32_t)width, (uint32_t)height, 8, channels == 3 ? 2 : 6, 0);
-    put_chunk(&file, "IDAT", packed, size);
-    put_chunk(&file, "IEND", NULL, 0);
+    png_chunk(&file, "IDAT", packed, size);
+    png_chunk(&file, "IEND", NULL, 0);
     if (left + width > to->width || top + height > to->height || !png_decode(file.data, file.size, &got, &f))
         return false;
     for (int y = 0; y < height; y++)
@@ -975,7 +952,7 @@ static size_t check_png_round_trip(const struct image *image, int channels)
 static void test_png_round_trips_pictures_of_all_shapes(void)
 {
     static const int sizes[][2] = {{1, 1}, {1, 40}, {40, 1}, {2, 3}, {17, 31}, {128, 96}, {701, 3}};
-    random_seed(9);
+    random_state = 9;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         int width = sizes[i][0], height = sizes[i][1];
         struct image pictures[4] = {
@@ -1076,7 +1053,7 @@ static void test_ppm_refuses_what_is_not_a_picture(void)
 
 static void test_ppm_round_trips_colours_and_drops_alpha(void)
 {
-    random_seed(10);
+    random_state = 10;
     struct image image OWNED(image_free) = noise_image(33, 21, true), got;
     struct failure f = {""};
     uint8_t *bytes;
@@ -1113,7 +1090,7 @@ static void test_pfm_reads_both_byte_orders_bottom_row_first(void)
 
 static void test_pfm_round_trips_every_bit_pattern(void)
 {
-    random_seed(11);
+    random_state = 11;
     for (int channels = 1; channels <= 3; channels += 2) {
         struct float_image image OWNED(float_image_free), got;
         struct failure f = {""};
@@ -1121,7 +1098,7 @@ static void test_pfm_round_trips_every_bit_pattern(void)
         size_t size, values = (size_t)(13 * 9 * channels);
         CHECK(float_image_alloc(&image, 13, 9, channels, &f));
         for (size_t i = 0; i < values; i++) {
-            uint32_t bits = i == 0 ? 0x7f800000 : i == 1 ? 0x80000000 : random_bits();
+            uint32_t bits = i == 0 ? 0x7f800000 : i == 1 ? 0x80000000 : random_u32();
             if ((bits & 0x7f800000) == 0x7f800000 && i > 0)
                 bits |= 0x400000;               /* a quiet NaN */
             memcpy(&image.value[i], &bits, 4);
@@ -1203,9 +1180,9 @@ static void test_files_round_trip_and_end_in_a_zero(void)
     struct failure f = {""};
     uint8_t *back;
     size_t size;
-    random_seed(12);
+    random_state = 12;
     for (size_t i = 0; i < sizeof data; i++)
-        data[i] = (uint8_t)random_bits();
+        data[i] = (uint8_t)random_u32();
     static const size_t sizes[] = {0, 1, 65535, 65536, 131071, sizeof data};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         CHECK(file_write(path, data, sizes[i], &f));
@@ -1240,7 +1217,7 @@ static void test_pictures_are_saved_and_loaded_by_content(void)
 {
     const char *path = scratch("test_image.xyz");
     struct failure f = {""}, g = {""};
-    random_seed(13);
+    random_state = 13;
     struct image image = noise_image(9, 8, false), got;
     CHECK(png_save(path, &image, &f) && image_load(path, &got, &f) && same_pixels(&image, &got));
     image_free(&got);
@@ -1525,11 +1502,11 @@ static double mean_square(const struct image *a, const struct image *b)
 static void test_gif_is_exact_for_up_to_256_colours(void)
 {
     static const int colors[] = {1, 2, 3, 4, 5, 16, 17, 128, 255, 256};
-    random_seed(14);
+    random_state = 14;
     for (size_t c = 0; c < sizeof colors / sizeof colors[0]; c++) {
         struct image frames[3];
         for (int n = 0; n < 3; n++) {           /* other colours in each frame */
-            uint32_t base = random_bits();
+            uint32_t base = random_u32();
             frames[n] = make_image(83, 61);
             for (int i = 0; i < 83 * 61; i++) {
                 unsigned which = i < colors[c] ? (unsigned)i : random_below((unsigned)colors[c]);
@@ -1557,7 +1534,7 @@ static void test_gif_is_exact_for_up_to_256_colours(void)
 /* Rows of every length, so that the data ends at every width of its codes. */
 static void test_gif_ends_its_data_at_any_length(void)
 {
-    random_seed(18);
+    random_state = 18;
     for (int colors = 2; colors <= 256; colors *= 2)
         for (int width = 1; width <= 560; width += width < 300 || colors == 256 ? 1 : 37) {
             const char *path = scratch("test_image.gif");
@@ -1599,7 +1576,7 @@ static void test_animations_hold_only_the_rectangle_that_changes(void)
 {
     for (int is_gif = 0; is_gif < 2; is_gif++) {
         struct image frames[6];
-        random_seed(15);
+        random_state = 15;
         frames[0] = make_image(50, 40);
         scribble(&frames[0], 0, 0, 50, 40);
         for (int n = 1; n < 6; n++)
@@ -1669,7 +1646,7 @@ static void test_gif_dithers_smooth_pictures_close_to_the_original(void)
 static void test_gif_leaves_unchanged_pixels_of_dithered_frames_alone(void)
 {
     struct image frames[8];
-    random_seed(16);
+    random_state = 16;
     for (int n = 0; n < 8; n++) {               /* a window on something that moves */
         frames[n] = smooth_image(160, 120, 0);
         struct image other OWNED(image_free) = smooth_image(160, 120, 37 * n);
@@ -1744,7 +1721,7 @@ static void test_animation_delays_add_up(void)
 
 static void test_apng_is_exact_with_and_without_alpha(void)
 {
-    random_seed(17);
+    random_state = 17;
     for (int has_alpha = 0; has_alpha < 2; has_alpha++) {
         struct image frames[5];
         frames[0] = noise_image(37, 23, has_alpha != 0);
@@ -1814,34 +1791,6 @@ static void test_animations_that_fail_or_are_cancelled_leave_no_file(void)
         image_free(&other);
     }
     animation_cancel(NULL);
-}
-
-/* --- pictures made by other programs, when the folder SMEAR_ASSETS names is there --- */
-
-static void test_pictures_of_other_programs_round_trip(void)
-{
-    static const char *const names[] = {"kenney-platformer/Textures/colormap.png",
-                                        "kenney-racing/Textures/colormap.png"};
-    const char *folder = getenv("SMEAR_ASSETS");
-    if (folder == NULL || folder[0] == '\0') {
-        test_print("    no folder of models: set SMEAR_ASSETS\n");
-        return;
-    }
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        char path[600];
-        struct image image OWNED(image_free) = { 0 };
-        struct failure f = {""};
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        if (!exists(path))
-            continue;
-        CHECK(image_load(path, &image, &f));
-        if (image.rgba == NULL)
-            continue;
-        bool opaque = true;
-        for (int k = 0; k < image.width * image.height; k++)
-            opaque = opaque && image.rgba[k * 4 + 3] == 255;
-        check_png_round_trip(&image, opaque ? 3 : 4);
-    }
 }
 
 #include "build/suites/image.h"

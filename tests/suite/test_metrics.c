@@ -5,6 +5,7 @@
  * The direct SSIM and FLIP below follow the definitions pixel by pixel with two-dimensional kernels
  * and the published numbers of the sRGB standard; nothing is separated, shared or kept between
  * pixels. */
+#include "tests/random.h"
 #include "tests/test.h"
 
 #include "tools/image/image.h"
@@ -12,16 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static uint32_t random_state = 1;
-
-static uint32_t random_bits(void)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
-}
 
 static struct image make_image(int width, int height)
 {
@@ -55,9 +46,9 @@ static struct image busy_image(int width, int height, uint32_t seed)
             p[0] = (uint8_t)(inside ? 230 : x * 255 / width);
             p[1] = (uint8_t)(inside ? (int)seed * 31 & 255 : y * 255 / height);
             p[2] = (uint8_t)(x / 4 % 2 == 0 ? 40 : 200);
-            if (random_bits() % 3 == 0)
-                p[random_bits() % 3] = (uint8_t)random_bits();
-            p[3] = (uint8_t)random_bits();
+            if (random_u32() % 3 == 0)
+                p[random_u32() % 3] = (uint8_t)random_u32();
+            p[3] = (uint8_t)random_u32();
         }
     return image;
 }

@@ -75,13 +75,13 @@ static inline void buffer_be32(struct buffer *b, uint32_t value)
         buffer_byte(b, value >> shift & 255);
 }
 
-/* Text in printf style, of 400 bytes at most. */
+/* Text in printf style, of 1000 bytes at most. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 static inline void buffer_print(struct buffer *b, const char *format, ...)
 {
-    char text[400];
+    char text[1000];
     va_list args;
     va_start(args, format);
     const int size = vsnprintf(text, sizeof text, format, args);
