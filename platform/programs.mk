@@ -147,7 +147,7 @@ endif
 
 # Draws a frame on this machine, to look at and to compare screenshots with.
 SCREEN_SRC := tests/target/target_screen.c platform/demo_player.c platform/demo_scene.c $(PROPS)/props.c \
-              $(LIB_SRC) $(wildcard tools/image/*.c)
+              tools/player/picture.c $(LIB_SRC) $(wildcard tools/image/*.c)
 
 $(PROPS)/target_screen: $(call host_objects,$(SCREEN_SRC))
 	$(call say,LD)

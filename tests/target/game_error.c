@@ -7,13 +7,13 @@
  * each pixel of the panel, in 24 bits, of the curve through the last poses. Nothing lies over either. */
 #include "platform/game/lap.h"
 #include "platform/game/screen.h"
+#include "tests/target/panel.h"
 
 #include <smear_methods.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { INSTANTS = 256 };
 
@@ -26,35 +26,16 @@ struct side {
     const char *folder;
 };
 
-static void take_pixel(const struct side *s, const uint8_t *from, uint8_t rgb[3])
-{
-    const unsigned code = s->desc.format == SMEAR_RGB565_SWAPPED ? (unsigned)from[0] << 8 | from[1] : (unsigned)from[1] << 8 | from[0];
-    uint32_t wide;
-    unsigned r, g, b;
-    switch (s->desc.format) {
-    case SMEAR_XRGB8888:
-        memcpy(&wide, from, 4);
-        rgb[0] = (uint8_t)(wide >> 16), rgb[1] = (uint8_t)(wide >> 8), rgb[2] = (uint8_t)wide;
-        return;
-    case SMEAR_RGB555:
-        r = code & 31, g = code >> 5 & 31, b = code >> 10;
-        rgb[1] = (uint8_t)(g << 3 | g >> 2);
-        break;
-    default:
-        r = code >> 11, g = code >> 5 & 63, b = code & 31;
-        rgb[1] = (uint8_t)(g << 2 | g >> 4);
-    }
-    rgb[0] = (uint8_t)(r << 3 | r >> 2), rgb[2] = (uint8_t)(b << 3 | b >> 2);
-}
-
 static int flush(void *user, const smear_band *band)
 {
     const struct side *s = user;
-    const uint32_t bytes = s->desc.format == SMEAR_XRGB8888 ? 4 : 2;
     for (int y = 0; y < band->height; y++)
-        for (int x = 0; x < band->width; x++)
-            take_pixel(s, (const uint8_t *)band->pixels + (uint32_t)y * band->stride + (uint32_t)x * bytes,
-                       s->rgb[(band->y + y) * s->width + band->x + x]);
+        for (int x = 0; x < band->width; x++) {
+            const uint8_t *row = (const uint8_t *)band->pixels + (uint32_t)y * band->stride;
+            const uint32_t color = panel_color(panel_code(row, x, s->desc.format), s->desc.format);
+            for (int k = 0; k < 3; k++)
+                s->rgb[(band->y + y) * s->width + band->x + x][k] = (uint8_t)(color >> (16 - 8 * k));
+        }
     if (s->desc.bands == 2)
         smear_band_done(s->ctx);
     return 0;

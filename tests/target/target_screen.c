@@ -15,68 +15,41 @@
  * all of one colour; what a larger screenshot has around the picture is of one colour, too.
  * Every code of the display's format must come back, to the bit. */
 #include "platform/demo_player.h"
-#include "tools/image/image.h"
+#include "tests/target/panel.h"
+#include "tools/player/picture.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { DEFAULT_SHUTTER = 180 };
 
 struct screen {
     const smear_desc *desc;
-    uint32_t *code;                 /* of each pixel, in the display's format */
+    uint8_t *pixels;                /* in the display's format */
 };
 
-/* Codes of a band, pixel by pixel. */
+static size_t row_bytes(const smear_desc *desc)
+{
+    return picture_row_bytes(desc->width, desc->format);
+}
+
+static size_t screen_bytes(const smear_desc *desc)
+{
+    return row_bytes(desc) * (size_t)desc->height;
+}
+
 static int take_band(void *user, const smear_band *band)
 {
-    struct screen *screen = user;
-    const uint8_t *row = band->pixels;
-    for (int y = 0; y < band->height; y++, row += band->stride) {
-        uint32_t *to = screen->code + (size_t)(band->y + y) * (size_t)screen->desc->width + band->x;
-        for (int x = 0; x < band->width; x++) {
-            uint32_t word;
-            switch (screen->desc->format) {
-            case SMEAR_L4:
-                *to++ = row[x / 2] >> (x % 2 == 0 ? 4 : 0) & 15u;
-                break;
-            case SMEAR_RGB565_SWAPPED:
-                *to++ = (uint32_t)row[2 * x] << 8 | row[2 * x + 1];
-                break;
-            case SMEAR_RGB565:
-            case SMEAR_RGB555:
-                *to++ = (uint32_t)row[2 * x + 1] << 8 | row[2 * x];
-                break;
-            default:                /* XRGB8888 */
-                memcpy(&word, row + 4 * x, sizeof word);
-                *to++ = word;
-            }
-        }
-    }
+    const struct screen *screen = user;
+    picture_put_band(screen->pixels, row_bytes(screen->desc), screen->desc->format, band);
     return 0;
 }
 
-static uint32_t widen(uint32_t code, int bits)
+/* The colour of a pixel, 0xRRGGBB. */
+static uint32_t shown(const struct screen *screen, int x, int y)
 {
-    return code << (8 - bits) | code >> (2 * bits - 8);
-}
-
-/* The colour that a display shows for a code, 0xRRGGBB. */
-static uint32_t shown(uint32_t code, uint8_t format)
-{
-    switch (format) {
-    case SMEAR_L4:
-        return code * 0x111111u;
-    case SMEAR_RGB565:
-    case SMEAR_RGB565_SWAPPED:
-        return widen(code >> 11, 5) << 16 | widen(code >> 5 & 63, 6) << 8 | widen(code & 31, 5);
-    case SMEAR_RGB555:
-        return widen(code & 31, 5) << 16 | widen(code >> 5 & 31, 5) << 8 | widen(code >> 10, 5);
-    default:
-        return code;
-    }
+    const uint8_t format = screen->desc->format;
+    return panel_color(panel_code(screen->pixels + (size_t)y * row_bytes(screen->desc), x, format), format);
 }
 
 /* Starts the library in memory that the caller frees; null on failure. */
@@ -107,8 +80,8 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
     desc.flush = take_band;
     desc.user = screen;
     screen->desc = &which->desc;
-    screen->code = calloc((size_t)desc.width * (size_t)desc.height, sizeof *screen->code);
-    void *memory = screen->code != NULL ? start(&player, which, desc, f) : NULL;
+    screen->pixels = calloc(1, screen_bytes(&desc));
+    void *memory = screen->pixels != NULL ? start(&player, which, desc, f) : NULL;
     if (memory == NULL)
         return false;
     player.shutter_degrees = shutter;
@@ -117,35 +90,6 @@ static bool draw(struct screen *screen, const struct demo_screen *which, uint32_
         result = demo_player_frame(&player, (frame + DEMO_LOOP - before) % DEMO_LOOP, before == 0);
     free(memory);
     return result == SMEAR_OK || fail(f, "the library refused the frame: %s", smear_error_text(result));
-}
-
-/* Of what arrives, by the rule of smear_stats.crc32: 32-bit pixels count as R, G, B. */
-static uint32_t crc_of(const struct screen *screen)
-{
-    uint32_t crc = 0;
-    int pixels = screen->desc->width * screen->desc->height;
-    for (int i = 0; i < pixels; i++) {
-        uint32_t c = screen->code[i];
-        uint8_t bytes[3] = { (uint8_t)(c >> 16), (uint8_t)(c >> 8), (uint8_t)c };
-        switch (screen->desc->format) {
-        case SMEAR_L4:
-            if (i % 2 == 0)
-                bytes[0] = (uint8_t)(c << 4 | screen->code[i + 1]);
-            crc = crc32_update(crc, bytes, i % 2 == 0);
-            break;
-        case SMEAR_RGB565_SWAPPED:
-            crc = crc32_update(crc, bytes + 1, 2);
-            break;
-        case SMEAR_RGB565:
-        case SMEAR_RGB555:
-            bytes[0] = bytes[2];
-            crc = crc32_update(crc, bytes, 2);
-            break;
-        default:
-            crc = crc32_update(crc, bytes, 3);
-        }
-    }
-    return crc;
 }
 
 /* A player for a display that is sent all, or keeps what it is sent; its memory is never given back. */
@@ -165,16 +109,16 @@ static bool start_kept(struct demo_player *player, const struct demo_screen *whi
 static bool crcs(const struct demo_screen *which, uint32_t step, struct failure *f)
 {
     static struct demo_player player;
-    struct screen screen = { .code = calloc((size_t)which->desc.width * (size_t)which->desc.height, sizeof *screen.code) };
-    if (screen.code == NULL || !start_kept(&player, which, &screen, 0, f))
+    struct screen screen = { .pixels = calloc(1, screen_bytes(&which->desc)) };
+    if (screen.pixels == NULL || !start_kept(&player, which, &screen, 0, f))
         return false;
     for (uint32_t i = 0; i < DEMO_LOOP; i++) {
         if (demo_player_frame(&player, i, i % step == 0) != SMEAR_OK)
             return fail(f, "the library refused frame %u", i);
         if (i % step == 0)
-            printf("%" PRIu32 " %08" PRIx32 "\n", i, crc_of(&screen));
+            printf("%" PRIu32 " %08" PRIx32 "\n", i, picture_crc(screen.pixels, screen_bytes(&which->desc), which->desc.format));
     }
-    free(screen.code);
+    free(screen.pixels);
     return true;
 }
 
@@ -182,26 +126,26 @@ static bool crcs(const struct demo_screen *which, uint32_t step, struct failure 
 static bool kept(const struct demo_screen *which, struct failure *f)
 {
     static struct demo_player keeps, all;
-    const size_t pixels = (size_t)which->desc.width * (size_t)which->desc.height;
+    const size_t bytes = screen_bytes(&which->desc);
     const int buffers = which->desc.reuse.buffer_age;
-    uint32_t *code = calloc(pixels * ((size_t)buffers + 1), sizeof *code);
-    struct screen shown = { .code = code }, want = { .code = code != NULL ? code + pixels * (size_t)buffers : NULL };
+    uint8_t *pixels = calloc((size_t)buffers + 1, bytes);
+    struct screen shown = { .pixels = pixels }, want = { .pixels = pixels != NULL ? pixels + bytes * (size_t)buffers : NULL };
     uint32_t tiles = 0;
-    if (code == NULL || buffers == 0)
-        return fail(f, code == NULL ? "out of memory" : "keeps nothing");
+    if (pixels == NULL || buffers == 0)
+        return fail(f, pixels == NULL ? "out of memory" : "keeps nothing");
     if (!start_kept(&keeps, which, &shown, buffers, f) || !start_kept(&all, which, &want, 0, f))
         return false;
     for (uint32_t i = 0; i < 2 * DEMO_LOOP; i++) {
         smear_stats stats;
-        shown.code = code + pixels * (i % (uint32_t)buffers);
+        shown.pixels = pixels + bytes * (i % (uint32_t)buffers);
         if (demo_player_frame(&keeps, i, true) != SMEAR_OK || demo_player_frame(&all, i, true) != SMEAR_OK)
             return fail(f, "the library refused frame %u", i);
-        if (memcmp(shown.code, want.code, pixels * sizeof *code) != 0)
+        if (memcmp(shown.pixels, want.pixels, bytes) != 0)
             return fail(f, "frame %u is another", i);
         smear_get_stats(keeps.ctx, &stats);
         tiles += stats.tiles_kept;
     }
-    free(code);
+    free(pixels);
     if (tiles == 0)
         return fail(f, "all tiles were sent in all frames");
     printf("%s: %u tiles kept in %d frames\n", which->name, tiles, 2 * DEMO_LOOP);
@@ -225,10 +169,10 @@ static bool with_keys(const struct demo_screen *which, uint32_t frames, const ch
 {
     struct demo_player player;
     struct demo_controls controls = { .held = 0 };
-    struct screen screen = { .code = calloc((size_t)which->desc.width * (size_t)which->desc.height, sizeof *screen.code) };
+    struct screen screen = { .pixels = calloc(1, screen_bytes(&which->desc)) };
     unsigned held = 0;
     uint32_t shown = 0;
-    if (screen.code == NULL)
+    if (screen.pixels == NULL)
         return fail(f, "out of memory");
     if (!start_kept(&player, which, &screen, 0, f))
         return false;
@@ -238,10 +182,10 @@ static bool with_keys(const struct demo_screen *which, uint32_t frames, const ch
         demo_player_obey(&player, &controls, held);
         if (demo_player_frame(&player, shown, true) != SMEAR_OK)
             return fail(f, "the library refused frame %u", i);
-        printf("%" PRIu32 " %08" PRIx32 "\n", i, crc_of(&screen));
+        printf("%" PRIu32 " %08" PRIx32 "\n", i, picture_crc(screen.pixels, screen_bytes(&which->desc), which->desc.format));
         shown = (shown + !controls.is_paused) % DEMO_LOOP;
     }
-    free(screen.code);
+    free(screen.pixels);
     return true;
 }
 
@@ -251,7 +195,7 @@ static bool save(const struct screen *screen, const char *path, struct failure *
     if (!image_alloc(&image, screen->desc->width, screen->desc->height, f))
         return false;
     for (int i = 0; i < image.width * image.height; i++) {
-        uint32_t color = shown(screen->code[i], screen->desc->format);
+        const uint32_t color = shown(screen, i % image.width, i / image.width);
         image.rgba[4 * i] = (uint8_t)(color >> 16);
         image.rgba[4 * i + 1] = (uint8_t)(color >> 8);
         image.rgba[4 * i + 2] = (uint8_t)color;
@@ -286,8 +230,7 @@ static bool compare(const struct screen *screen, const char *path, int zoom, str
             bool is_inside = x >= left && x < left + width * zoom && y >= top && y < top + height * zoom;
             uint32_t want = border;
             if (is_inside)
-                want = shown(screen->code[(y - top) / zoom * width + (x - left) / zoom],
-                             screen->desc->format);
+                want = shown(screen, (x - left) / zoom, (y - top) / zoom);
             if (color_at(p) != want)
                 wrong++;
         }
@@ -307,7 +250,7 @@ static const char usage[] = "usage: target_screen crcs SCREEN STEP\n"
 int main(int argc, char **argv)
 {
     struct failure f = { "" };
-    struct screen screen = { .code = NULL };
+    struct screen screen = { .pixels = NULL };
     const struct demo_screen *which = argc > 2 ? demo_screen_find(argv[2]) : NULL;
     bool ok;
     if (which == NULL) {
@@ -333,6 +276,6 @@ int main(int argc, char **argv)
     }
     if (!ok)
         fprintf(stderr, "target_screen: %s: %s\n", argv[argc > 5 ? 5 : 2], f.text);
-    free(screen.code);
+    free(screen.pixels);
     return ok ? 0 : 1;
 }
