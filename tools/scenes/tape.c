@@ -7,6 +7,7 @@
 #include "tools/scenes/tape.h"
 
 #include "tools/image/buffer.h"
+#include "tools/model/intern.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -14,19 +15,8 @@
 
 enum { LINE_WIDTH = 96 };
 
-/* One object: `static const TYPE oN = VALUE;` */
-struct object {
-    const char *type;               /* a string constant */
-    bool is_array;
-    uint32_t hash;
-    char *value;
-};
-
 struct tape_writer {
-    int object_count, object_room;
-    struct object *object;
-    int bucket_count;               /* a power of two; open addressing, -1 is free */
-    int *bucket;
+    struct text_table objects;      /* number N is `TYPE=VALUE`, for `static const TYPE oN = VALUE;`; of arrays `[TYPE=VALUE` */
     /* the tape being written */
     bool is_open;
     char name[64];
@@ -61,73 +51,17 @@ static void add_number(struct buffer *text, int64_t value)
 
 /* ------------------------------------------------------------------ objects */
 
-static uint32_t hash_of(const char *type, const char *value)
-{
-    uint32_t hash = 2166136261u;
-    for (; *type != '\0'; type++)
-        hash = (hash ^ (uint8_t)*type) * 16777619u;
-    for (; *value != '\0'; value++)
-        hash = (hash ^ (uint8_t)*value) * 16777619u;
-    return hash;
-}
-
-static void put_bucket(struct tape_writer *w, int object)
-{
-    uint32_t mask = (uint32_t)w->bucket_count - 1, at = w->object[object].hash & mask;
-    while (w->bucket[at] >= 0)
-        at = (at + 1) & mask;
-    w->bucket[at] = object;
-}
-
-static bool more_buckets(struct tape_writer *w)
-{
-    int count = w->bucket_count == 0 ? 1024 : w->bucket_count * 2;
-    int *bucket = malloc((size_t)count * sizeof *bucket);
-    if (bucket == NULL)
-        return false;
-    free(w->bucket);
-    w->bucket = bucket;
-    w->bucket_count = count;
-    for (int i = 0; i < count; i++)
-        bucket[i] = -1;
-    for (int i = 0; i < w->object_count; i++)
-        put_bucket(w, i);
-    return true;
-}
-
 /* The object with this text, new or known; takes the text. -1 when out of memory. */
 static int object(struct tape_writer *w, const char *type, bool is_array, struct buffer *value)
 {
-    int found = -1;
-    buffer_byte(value, '\0');
-    char *const text = (char *)value->data;
-    if (value->failed || (w->object_count * 2 >= w->bucket_count && !more_buckets(w))) {
-        free(text);
-        return -1;
-    }
-    uint32_t hash = hash_of(type, text), mask = (uint32_t)w->bucket_count - 1;
-    for (uint32_t at = hash & mask; w->bucket[at] >= 0 && found < 0; at = (at + 1) & mask) {
-        const struct object *o = &w->object[w->bucket[at]];
-        if (o->hash == hash && strcmp(o->type, type) == 0 && strcmp(o->value, text) == 0)
-            found = w->bucket[at];
-    }
-    if (found >= 0) {
-        free(text);
-        return found;
-    }
-    if (w->object_count == w->object_room) {
-        int room = w->object_room == 0 ? 256 : w->object_room * 2;
-        struct object *grown = realloc(w->object, (size_t)room * sizeof *grown);
-        if (grown == NULL) {
-            free(text);
-            return -1;
-        }
-        w->object = grown;
-        w->object_room = room;
-    }
-    w->object[w->object_count] = (struct object){ type, is_array, hash, text };
-    put_bucket(w, w->object_count);
-    return w->object_count++;
+    struct buffer key = { .failed = value->failed };
+    buffer_print(&key, "%s%s=", is_array ? "[" : "", type);
+    buffer_append(&key, value->data, value->size);
+    buffer_byte(&key, '\0');
+    const int found = key.failed ? -1 : text_intern(&w->objects, (const char *)key.data);
+    buffer_free(&key);
+    buffer_free(value);
+    return found;
 }
 
 /* `.name = &oN, ` (`oN` for arrays); nothing for a null pointer. -1 stands for out of memory. */
@@ -140,7 +74,7 @@ static void add_reference(struct buffer *text, const struct tape_writer *w, cons
         text->failed = true;
     if (object_index < 0)
         return;
-    buffer_print(text, ".%s = %so%d, ", name, w->object[object_index].is_array ? "" : "&", object_index);
+    buffer_print(text, ".%s = %so%d, ", name, w->objects.text[object_index][0] == '[' ? "" : "&", object_index);
 }
 
 static void add_field(struct buffer *text, const char *name, int64_t value)
@@ -430,9 +364,7 @@ static bool close_tape(struct tape_writer *w, struct failure *f)
     int crcs = NO_OBJECT;
     if (all_crcs)
         crcs = object(w, "uint32_t", true, &w->crcs);
-    else
-        buffer_free(&w->crcs);
-    w->frames = w->crcs = (struct buffer){ 0 };
+    buffer_free(&w->crcs);
     buffer_print(&value, "{ .name = \"%s\", ", w->name);
     add_reference(&value, w, "desc", w->desc);
     add_reference(&value, w, "frame", frames);
@@ -500,10 +432,10 @@ bool tape_write(struct tape_writer *w, const char *path, const char *command, st
     if (w->tape_count == 0)
         return fail(f, "no tape was begun");
     buffer_print(&out, "/* Written by %s; do not edit. */\n#include \"platform/play.h\"\n\n", command);
-    for (int i = 0; i < w->object_count; i++) {
-        const struct object *o = &w->object[i];
-        buffer_print(&out, "static const %s o%d%s = ", o->type, i, o->is_array ? "[]" : "");
-        buffer_append(&out, o->value, strlen(o->value));
+    for (int i = 0; i < w->objects.count; i++) {
+        const char *text = w->objects.text[i], *type = text + (*text == '['), *value = strchr(text, '=');
+        buffer_print(&out, "static const %.*s o%d%s = ", (int)(value - type), type, i, type > text ? "[]" : "");
+        buffer_append(&out, value + 1, strlen(value + 1));
         buffer_print(&out, ";\n");
     }
     buffer_print(&out, "\nconst struct tape *const tape_list[] = {\n");
@@ -527,10 +459,7 @@ void tape_writer_free(struct tape_writer *w)
 {
     if (w == NULL)
         return;
-    for (int i = 0; i < w->object_count; i++)
-        free(w->object[i].value);
-    free(w->object);
-    free(w->bucket);
+    text_table_free(&w->objects);
     buffer_free(&w->frames);
     buffer_free(&w->crcs);
     buffer_free(&w->list);
