@@ -5,10 +5,9 @@
 #include "tests/host.h"
 #include "tests/ref/glb.h"
 
+#include "tools/image/buffer.h"
 #include "tools/model/model.h"
 #include "tools/model/obj.h"
-
-#include <stdarg.h>
 
 static int files_of_each(void)
 {
@@ -17,34 +16,21 @@ static int files_of_each(void)
 
 /* ------------------------------------------------------------------ texts and files */
 
-static struct text {
-    char bytes[65536];
-    size_t size;
-} text;
+static struct buffer text, bin;
+#define add(...) buffer_print(&text, __VA_ARGS__)
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 1, 2)))
-#endif
-static void add(const char *format, ...)
+/* The text as a string. */
+static const char *said(void)
 {
-    va_list args;
-    va_start(args, format);
-    int length = vsnprintf(text.bytes + text.size, sizeof text.bytes - text.size, format, args);
-    va_end(args);
-    if (length < 0 || (size_t)length >= sizeof text.bytes - text.size)
-        abort();
-    text.size += (size_t)length;
+    buffer_byte(&text, 0);
+    text.size--;
+    return (const char *)text.data;
 }
-
-static struct bin {
-    uint8_t byte[32768];
-    size_t size;
-} bin;
 
 static void put(uint32_t value, int bytes)
 {
-    for (int i = 0; i < bytes && bin.size < sizeof bin.byte; i++)
-        bin.byte[bin.size++] = (uint8_t)(value >> 8 * i);
+    for (int i = 0; i < bytes; i++)
+        buffer_byte(&bin, value >> 8 * i & 255);
 }
 
 static void put_float(double value)
@@ -59,8 +45,7 @@ static void put_float(double value)
 static bool parse_glb(struct model *m, struct failure *f)
 {
     size_t size;
-    text.bytes[text.size] = '\0';
-    uint8_t *glb = glb_make(text.bytes, bin.byte, bin.size, &size);
+    uint8_t *glb = glb_make(said(), bin.data, bin.size, &size);
     *f = (struct failure){ "" };
     bool ok = model_parse(glb, size, NULL, m, f);
     free(glb);
@@ -137,7 +122,7 @@ static void add_names(const char *key, int count, uint64_t must, uint64_t *set, 
     for (int n = 0; n < NAMES; n++)
         if ((must >> n & 1) != 0 && (*set >> n & 1) == 0) {
             *set |= (uint64_t)1 << n;
-            add("%s'%s'", text.bytes[text.size - 1] != '[' ? "," : "", name_of(n));
+            add("%s'%s'", text.data[text.size - 1] != '[' ? "," : "", name_of(n));
         }
     add("],");
 }
@@ -212,7 +197,7 @@ static void test_what_lies_in_an_extension_alone_is_refused_by_its_name(void)
         bool ok = parse_glb(&m, &f);
         bool is_there = has_view && view_of == 0;
         if (!CHECK(ok == is_there))
-            test_print(text.bytes);
+            test_print(said());
         if (!ok && has_view && packer != NULL)
             CHECK(count_name(f.text, packer) == 1);
         else if (!ok && has_view)
@@ -597,10 +582,10 @@ static void test_obj_is_drawn_but_for_what_is_no_face(void)
             else
                 add_face(&e);
         }
-        bool ok = model_parse((const uint8_t *)text.bytes, text.size, NULL, &m, &f);
+        bool ok = model_parse(text.data, text.size, NULL, &m, &f);
         if (!CHECK(ok == (e.triangles > 0))) {
             test_print(f.text);
-            test_print(text.bytes);
+            test_print(said());
         }
         if (!ok)
             continue;
@@ -656,7 +641,7 @@ static void test_materials_mean_what_their_writers_meant(void)
                 has_map = true;
             }
         }
-        if (!CHECK(mtl_parse((const uint8_t *)text.bytes, text.size, &library, &m, &f)))
+        if (!CHECK(mtl_parse(text.data, text.size, &library, &m, &f)))
             break;
         library.material[0].is_drawn = true;
         mtl_settle(&library, &m);

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_sketch.c - targets beyond SMEAR_DRAFT in a context with SMEAR_SET_SKETCH: what stands still is blurred along lines. The same
  * picture however it is drawn, near the truth, and never taken for a still one. Host only. */
-#include "tests/random.h"
 #include "tests/rig.h"
-#include "tests/test.h"
 
 #include "smear_overlay.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,15 +28,7 @@ struct world {
     smear_mesh mesh;
 };
 
-static void say(const char *format, ...)
-{
-    char text[120];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    test_print(text);
-}
+void say(const char *format, ...);      /* accuracy.h, whose scenes are others */
 
 /* What is special in a frame. */
 enum kind { PLAIN, ENCODED, TRAILING, LEADING, CURVE, POSES, LONG, FOG, SMOOTH, OVERLAY, FLAT, ZOOM, SKY, HILLS, CUT, FIXED, KINDS };
