@@ -20,18 +20,16 @@
 
 #include "tools/failure.h"
 #include "tools/image/image.h"
+#include "tools/scenes/color.h"
 #include "tools/scenes/scene.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-/* sRGB transfer function (IEC 61966-2-1); clamps its argument to 0..1. */
-double ref_srgb_encode(double linear);
-double ref_srgb_decode(double encoded);
-
-/* A code rounded to nearest and clamped to 0..255. Halves go up, also those that rounded arithmetic
- * has made smaller by less than 10^-6. */
-uint8_t ref_code(double code);
+/* sRGB transfer function; clamps its argument to 0..1. */
+static inline double ref_srgb_encode(double linear) { return color_encode(fmin(fmax(linear, 0.0), 1.0)); }
+static inline double ref_srgb_decode(double encoded) { return color_decode(fmin(fmax(encoded, 0.0), 1.0)); }
 
 /* ------------------------------------------------------------------ one sharp instant */
 
