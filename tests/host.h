@@ -23,6 +23,19 @@ static inline uint32_t number_from(const char *name, uint32_t usual)
 static inline double light_of(double code) { return color_decode(code / 255); }
 static inline double code_of(double light) { return 255 * color_encode(light); }
 
+/* Prints what differs, so that a failed comparison can be understood. */
+static inline bool same_text(const char *got, const char *want)
+{
+    if (strcmp(got, want) == 0)
+        return true;
+    test_print("  got:  ");
+    test_print(got);
+    test_print("\n  want: ");
+    test_print(want);
+    test_print("\n");
+    return false;
+}
+
 /* For qsort. */
 static inline int by_value(const void *a, const void *b)
 {

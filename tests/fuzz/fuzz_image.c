@@ -72,8 +72,7 @@ static void fuzz_mended_png(const uint8_t *data, size_t size)
     free(copy);
 }
 
-/* A file that is right but for its pixels: width, height, kind, palette size, then filtered rows.
- * */
+/* A file that is right but for its pixels: width, height, kind, palette size, then filtered rows. */
 static void fuzz_png_rows(const uint8_t *data, size_t size)
 {
     static const uint8_t kinds[15][2] = {

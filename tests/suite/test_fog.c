@@ -302,6 +302,4 @@ static void test_walls_that_recede_have_their_fog(void)
     }
 }
 
-/* ------------------------------------------------------------------ what is refused */
-
 #include "build/suites/fog.h"

@@ -23,8 +23,7 @@ static unsigned random_below(unsigned n)
     return (unsigned)((uint64_t)random_u32() * n >> 32);
 }
 
-/* A name for a file that a test writes and removes: in the folder TMPDIR names, else the current.
- * */
+/* A name for a file that a test writes and removes: in the folder TMPDIR names, else the current. */
 static const char *scratch(const char *name)
 {
     static char path[2][512];
@@ -95,8 +94,7 @@ static struct image noise_image(int width, int height, bool has_alpha)
     return image;
 }
 
-/* Smooth shades, what blurred renderings are made of: far more than 256 colours. `shift` moves it.
- * */
+/* Smooth shades, what blurred renderings are made of: far more than 256 colours. `shift` moves it. */
 static struct image smooth_image(int width, int height, int shift)
 {
     struct image image = make_image(width, height);
@@ -1517,8 +1515,7 @@ static void test_gif_is_exact_for_up_to_256_colours(void)
         }
         struct movie m = write_movie(true, frames, 3);
         for (int n = 0; n < m.frames; n++) {
-            /* With all 256 colours a frame that leaves pixels alone has no entry for transparency.
-             * */
+            /* With all 256 colours a frame that leaves pixels alone has no entry for transparency. */
             if (n == 0 || colors[c] < 256)
                 CHECK(same_pixels(&m.frame[n], &frames[n]));
             CHECK(m.delay[n] == 4);

@@ -128,18 +128,6 @@ static bool parses(const char *text, struct model *m)
     return say_no(f.text);
 }
 
-static bool same_text(const char *got, const char *want)
-{
-    if (strcmp(got, want) == 0)
-        return true;
-    test_print("  got:  ");
-    test_print(got);
-    test_print("\n  want: ");
-    test_print(want);
-    test_print("\n");
-    return false;
-}
-
 /* Every number within slack; prints the first that is not. */
 static bool same_floats(const float *got, const double *want, int n, double slack)
 {

@@ -116,8 +116,6 @@ static void test_a_pose_depends_on_nothing_but_time(void)
     }
 }
 
-/* ------------------------------------------------------------------ shapes */
-
 /* ------------------------------------------------------------------ peers */
 
 static void test_peer_colors_are_whole_display_codes(void)

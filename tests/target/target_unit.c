@@ -2,8 +2,7 @@
 /* target_unit.c - runs the test suites that need neither a C library nor floating point.
  *
  * Which suites these are is the Makefile's UNIT_SUITES: it defines TARGET_SUITES as `SUITE(a)
- * SUITE(b)`, where SUITE(a) stands for suite_a(). An argument selects tests whose names contain it.
- *  */
+ * SUITE(b)`, where SUITE(a) stands for suite_a(). An argument selects tests whose names contain it. */
 #include "platform/platform.h"
 #include "platform/print.h"
 #include "tests/test.h"

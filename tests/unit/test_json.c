@@ -11,19 +11,6 @@ static bool parse(const char *text, struct json *out, struct failure *f)
     return json_parse((const uint8_t *)text, strlen(text), out, f);
 }
 
-/* Prints what differs, so that a failed comparison can be understood. */
-static bool same_text(const char *got, const char *want)
-{
-    if (strcmp(got, want) == 0)
-        return true;
-    test_print("  got:  ");
-    test_print(got);
-    test_print("\n  want: ");
-    test_print(want);
-    test_print("\n");
-    return false;
-}
-
 static void test_values_of_every_type_are_read(void)
 {
     struct json j;

@@ -139,8 +139,6 @@ static void test_faces_are_lit_by_their_plane_within_a_hundredth(void)
     }
 }
 
-/* ------------------------------------------------------------------ colours */
-
 /* ------------------------------------------------------------------ the light of a frame */
 
 enum { EDGE = 16, LOOKS = 300 };

@@ -174,8 +174,7 @@ static int split_box(const struct box *b, struct point *points)
     return low;
 }
 
-/* Splits the box of the largest spread until there are `limit` of them; returns how many there are.
- * */
+/* Splits the box of the largest spread until there are `limit` of them; returns how many there are. */
 static int median_cut(struct point *points, int count, int limit, struct center *center)
 {
     struct box box[256];
@@ -326,8 +325,7 @@ static struct mixture find_mixture(const float v[3], const struct center *center
     unsigned dots = (unsigned)(share * 64 + 0.5f);
     dots = dots > 64 ? 64 : dots;
     uint8_t entry = (uint8_t)nearest, other = (uint8_t)partner;
-    /* Always counting the brighter entry keeps the pattern when nearest and partner change places.
-     * */
+    /* Always counting the brighter entry keeps the pattern when nearest and partner change places. */
     if (center[partner].v[0] > n[0])
         return (struct mixture){0, entry, other, (uint8_t)dots};
     return (struct mixture){0, other, entry, (uint8_t)(64 - dots)};

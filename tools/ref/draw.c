@@ -293,8 +293,7 @@ static void shade_corners(const struct painter *p, struct record *r)
     }
 }
 
-/* The pose of a draw at another instant, or null when it has none there that belongs to this one.
- * */
+/* The pose of a draw at another instant, or null when it has none there that belongs to this one. */
 static const struct scene_draw *counterpart(const struct painter *p,
                                             const struct scene_instant *other, int index)
 {
