@@ -8,7 +8,8 @@
 # First by a model: programs with nothing in fast memory are profiled, functions gain what hot_model.awk says, and the densest
 # are taken. Then by measuring: what the model or the lists of platform/gba chose, whichever costs less, is changed by one
 # function at a time, which displaces those that gain least per byte, and what costs less is kept. The cost is the
-# product of four: a sharp frame, a blurred one of which things move, one in which the camera moves, too, and one of the game.
+# product of four: a sharp frame, a blurred one of which things move, one in which the camera moves, too, and one of the game, blurred as
+# the firmware does: sketches.
 # TRIES: how many functions are tried at a time [60]; of those that are kept, all are tried again ROUNDS times [2].
 set -u
 folder=$1 library=$2
@@ -47,7 +48,7 @@ link_programs() {
 cost() {
     {
         platform/gba/run.sh "$folder/demo.elf" cost gba none 12 | sed -n 's/^total/sharp/p' &&
-            platform/gba/run.sh "$folder/demo.elf" cost gba auto 12 &&
+            platform/gba/run.sh "$folder/demo.elf" cost gba auto-sketch 12 &&
             platform/gba/run.sh "$folder/game.elf" cost gba 400
     } | awk '
         $1 ~ /^(sharp|objects|camera|mean)$/ { sub(/,/, "", $2); cycles[$1] = $2; sum += log($2) }
@@ -67,7 +68,7 @@ sh platform/gba/stages.sh "$library" >"$folder/stages" || exit 1
 link_programs "$folder/none" || { cat "$folder/link.log"; exit 1; }
 say "profiling with nothing in fast memory"
 platform/gba/run.sh -p "$folder/sharp.profile" "$folder/demo.elf" cost gba none 4 >/dev/null &&
-    platform/gba/run.sh -p "$folder/auto.profile" "$folder/demo.elf" cost gba auto 12 >/dev/null &&
+    platform/gba/run.sh -p "$folder/auto.profile" "$folder/demo.elf" cost gba auto-sketch 12 >/dev/null &&
     platform/gba/run.sh -p "$folder/game.profile" "$folder/game.elf" cost gba 1200 >/dev/null || exit 1
 for profile in demo:sharp demo:auto demo:auto game:game; do
     echo "W ${profile#*:}"
@@ -127,7 +128,7 @@ while [ $round -lt "$rounds" ]; do
     for place in fast warm out; do
         awk -v place=$place 'FNR == NR { at[$1] = $2; next }
             place == "out" && at[$1] == "fast" { print -$4 / $3, $1 }
-            place != "out" && at[$1] != "fast" && at[$1] != place && $4 > 0 { print $4 / $3, $1 }' "$folder/state" "$folder/model" |
+            place != "out" && at[$1] != "fast" && at[$1] != place && $4 > 0 { print place == "warm" ? $4 : $4 / $3, $1 }' "$folder/state" "$folder/model" |
             sort -rn | awk -v tries="$tries" 'NR <= tries { print $2 }' >"$folder/candidates.$place"
         while read -r name; do
             try $place "$name"

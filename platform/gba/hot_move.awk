@@ -37,6 +37,10 @@ function make_room(where, kind, need,    list, n, i, other, gone, last) {
 FNR == NR { stage[$1] = $2; bytes[$1] = $3; density[$1] = $4 / $3; next }
 { at[$1] = $2; order[++lines] = $1 }
 END {
+    if (!(name in at)) {                # before anything asks where it lies
+        order[++lines] = name
+        at[name] = "rom"
+    }
     split(slack, left, " ")
     need = bytes[name] + 16 + more
     if (at[name] == "warm")
@@ -72,8 +76,6 @@ END {
     }
     if (place != "out" && (missing > 0 || lost > 3 * density[name] * bytes[name]))
         exit 1
-    if (!(name in at))
-        order[++lines] = name
     if (place != "out")
         at[name] = place
     for (i = 1; i <= lines; i++)
