@@ -311,7 +311,7 @@ static bool assemble_draws(struct smear_context *c, struct smear_assembler *as, 
 /* Assembles with the assembler's state on the stack, where that is faster. */
 static SMEAR_NOINLINE bool assemble_fast(struct smear_context *c, const struct smear_instant *instant)
 {
-    enum { VERTICES = 64 };
+    enum { VERTICES = 32 };
     struct smear_cached_vertex cache[VERTICES];
     struct smear_bins bins = c->rows.bins;
     struct smear_assembler as = c->assembler;

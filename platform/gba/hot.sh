@@ -35,11 +35,11 @@ link_programs() {
     $LINK_DEMO 2>"$folder/link.log" && $LINK_GAME 2>>"$folder/link.log" || return 1
     slack=$(for program in demo game; do
         arm-none-eabi-size -A "$folder/$program.elf"
-        arm-none-eabi-nm "$folder/$program.elf" | awk '$3 == "link_stack_limit" || $3 == "link_fast_end" { print $3, "0x" $1 }' |
+        arm-none-eabi-nm "$folder/$program.elf" | awk '$3 == "link_context" || $3 == "link_fast_end" { print $3, "0x" $1 }' |
             while read -r name address; do echo "$name $((address))"; done
     done | awk '
         $1 == ".assemble" || $1 == ".draw" || $1 == ".warm" { if ($2 > size[$1]) size[$1] = $2 }
-        $1 == "link_stack_limit" { limit = $2 }
+        $1 == "link_context" { limit = $2 }
         $1 == "link_fast_end" && $2 > end { end = $2 }
         END { print limit - end - size[".assemble"], limit - end - size[".draw"], 19968 - size[".warm"] }')
 }

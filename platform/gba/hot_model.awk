@@ -54,7 +54,7 @@ function worth(name,    i, other, value) {
     }
     return value
 }
-BEGIN { FAST = 1.8; SLOW = 3.2; CALL_OUT = 6; CALL_IN = 14; ROOM = 23700; WARM = 19400; VENEERS = 6 }
+BEGIN { FAST = 1.8; SLOW = 3.2; CALL_OUT = 6; CALL_IN = 14; ROOM = 22400; WARM = 19400; VENEERS = 6 }
 FILENAME != "-" { stage[$1] = $2; next }
 $1 == "W" { end_way(); next }
 $1 == "F" {

@@ -25,7 +25,7 @@ void gba_main(void);
 
 const char platform_clock_unit[] = "cycles";
 
-extern uint8_t link_fast_end[], link_warm_start[];
+extern uint8_t link_fast_end[], link_warm_start[], link_context[], link_stack_limit[];
 extern uint8_t link_assemble_load[], link_assemble_size[], link_draw_load[], link_draw_size[];
 
 void gba_enter_stage(int stage)
@@ -55,9 +55,9 @@ static void say_place(int part, uint32_t address, uint32_t bytes)
     platform_print("\n");
 }
 
-/* Two frames of half the screen's size lie side by side in the upper half of video memory's picture (display.c). From there to the
- * functions at its end it takes 2 cycles for 32 bits, where the arena takes 6. Writes of single bytes go wrong there, so that parts
- * with such stay. */
+/* The context lies in fast memory. Two frames of half the screen's size lie side by side in the upper half of video memory's
+ * picture (display.c). From there to the functions at its end it takes 2 cycles for 32 bits, where the arena takes 6. Writes of
+ * single bytes go wrong there, so that parts with such stay. */
 void *gba_place(int is_half, int part, void *address, uint32_t bytes)
 {
     enum { SHOWN = 240 * 80 * 2 };
@@ -66,6 +66,8 @@ void *gba_place(int is_half, int part, void *address, uint32_t bytes)
         say_place(part, (uint32_t)address, bytes);
     if (address == NULL || GBA_SAYS_PLACES || !is_half)
         return address;
+    if (part == SMEAR_PART_CONTEXT && bytes <= (uint32_t)(link_stack_limit - link_context))
+        return link_context;
     if (part == SMEAR_PART_COLOR)               /* the first of a context */
         end = GBA_VIDEO_MEMORY + SHOWN;
     if (part != SMEAR_PART_COLOR && part != SMEAR_PART_DEPTH && part != SMEAR_PART_INSTANTS && part != SMEAR_PART_BAND

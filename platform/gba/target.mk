@@ -19,13 +19,17 @@ $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CF
 
 # What runs from ROM most of the time is Thumb code: half as many bytes to fetch for an instruction.
 $(addprefix $(BUILD)/src/,$(addsuffix .o,draws draws_prepare validate display/band display/overlay display/pixel_format methods/temporal \
-    raster/few_draw temporal/lines temporal/subframe_gap temporal/tile_method)): CFLAGS += -mthumb
+    raster/few_draw raster/raster temporal/lines temporal/subframe_gap temporal/subframes temporal/tile_method methods/along_lines)): \
+    CFLAGS += -mthumb
 
 # What is large and hot is made small, so that it fits into fast memory. All files must agree on what -Os leaves out.
 # Fog makes hot functions larger than fast memory has room for, further lights the stack.
 CFLAGS += -DSMEAR_WITH_FOG=0 -DSMEAR_WITH_LIGHTS=0
 CFLAGS += -DSMEAR_DIRECT=0 -DSMEAR_SPAN_ROWS=1 -DSMEAR_RASTER_CACHE=1 -DSMEAR_SMALL_CODE=0 -DSMEAR_FAST_STACK=1 -Iplatform/gba -D'SMEAR_CONFIG_FILE="stage.h"'
-$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/filter/weights.o $(BUILD)/src/raster/cover.o $(BUILD)/src/raster/raster.o $(BUILD)/src/raster/setup.o $(BUILD)/src/raster/tiny_draw.o: CFLAGS += -Os
+$(BUILD)/src/filter/reconstruct.o $(BUILD)/src/filter/uniform.o $(BUILD)/src/filter/weights.o $(BUILD)/src/raster/cover.o \
+$(BUILD)/src/raster/setup.o: CFLAGS += -Os
+# Eight taps of a line one after the other.
+$(BUILD)/src/kernels/line_means.o: CFLAGS += -O3
 
 # The core has no pipeline that waits for loads: what is loaded early only takes registers.
 CFLAGS += -fno-schedule-insns
@@ -49,7 +53,7 @@ TARGET_TESTS := golden
 SYMBOLS_HOOKS := gba_enter_stage|gba_place
 
 # Of gba.ld.
-STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print 1024 * $$5 }' platform/gba/gba.ld)
+STACK := $(shell awk '/link_stack_limit = link_stack_top/ { print $$5 + 0 }' platform/gba/gba.ld)
 
 DISPLAY_SRC := platform/gba/display.c
 SOUND_SRC   := platform/gba/sound.c
