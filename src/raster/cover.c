@@ -301,7 +301,7 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
         write = smear_span_level;
     if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !setup_is_shaded(s)
         && (s->segment->uv == 0 || (s->texture.mode == TEXTURE_CURVED && s->texture.turns && s->segment->shade == SHADE_NONE)))
-        write = smear_span_shadow;
+        write = s->segment->uv == 0 ? smear_span_shadow : smear_span_texels_shadow;
     if (small && !SMEAR_SMALL_CODE)
         cover_small(s, box, write);
     else

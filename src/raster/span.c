@@ -45,19 +45,23 @@ static SMEAR_NOINLINE void darken(const uint32_t *in, uint32_t *color, const uin
     }
 }
 
+void smear_span_texels_shadow(const struct setup *s, const struct span *p)
+{
+    uint32_t block[BLOCK_LONGEST];
+    for (int32_t x = p->a, at = 0, n; !SMEAR_SMALL_CODE && x < p->b; x += n, at += n) {
+        const struct smear_texture_run run = texcoord_packed(texcoord_curved(&s->texture, &s->draw->sampler, x, p->y));
+        n = min_i32(p->b - x, BLOCK_LONGEST);
+        smear_sample(block, &s->draw->sampler, &run, 0, n);
+        darken(block, (uint32_t *)p->color + at, p->depth + at, p->z + (uint32_t)p->dz * (uint32_t)at, (uint32_t)p->dz, n,
+               frame_transfer(s->frame));
+    }
+}
+
 void smear_span_shadow(const struct setup *s, const struct span *p)
 {
     const uint16_t *depth = p->depth, *const end = depth + (p->b - p->a);
     uint32_t *color = (uint32_t *)p->color, z = p->z, dz = (uint32_t)p->dz, last = 0xff000000u, dark = last;     /* as dark as can be */
-    for (int32_t n; !SMEAR_SMALL_CODE && segment_textured(s->segment) && depth != end; depth += n, color += n, z += dz * (uint32_t)n) {
-        uint32_t block[BLOCK_LONGEST];
-        const int32_t x = p->b - (int32_t)(end - depth);
-        const struct smear_texture_run run = texcoord_packed(texcoord_curved(&s->texture, &s->draw->sampler, x, p->y));
-        n = min_i32(p->b - x, BLOCK_LONGEST);
-        smear_sample(block, &s->draw->sampler, &run, 0, n);
-        darken(block, color, depth, z, dz, n, frame_transfer(s->frame));
-    }
-    for (; !SMEAR_SMALL_CODE && !segment_textured(s->segment) && depth != end; depth++, color++, z += dz)
+    for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz)
         if (z >> 16 > *depth) {
             if (*color != last)
                 last = *color, dark = blended_pixel(last, s->color, true, frame_transfer(s->frame));

@@ -23,14 +23,8 @@ struct span {
 /* Writes colour and depth where the span passes the depth test (and cutout, blend). */
 typedef void smear_span_fn(const struct setup *s, const struct span *p);
 
-/* One colour, opaque; and everything. */
-smear_span_fn smear_span_flat, smear_span_general;
-
-/* A shadow of one colour, or of texels by a polynomial. */
-smear_span_fn smear_span_shadow;
-
-/* One colour, opaque, in one part of fog for each row. */
-smear_span_fn smear_span_level;
+/* One colour, opaque, or in one part of fog for each row; a shadow of one colour, or of texels by a polynomial; and everything. */
+smear_span_fn smear_span_flat, smear_span_level, smear_span_shadow, smear_span_texels_shadow, smear_span_general;
 
 /* How many of n pixels come before the first one beyond the
  * break of the depth code, which lies among them. */
