@@ -113,6 +113,7 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     a->mirrored = smear_transform_is_mirrored(poses.object[0]);
     a->backs = a->material->double_sided || turns_inside_out(&poses, a->mirrored);
     a->moves = 0;
+    a->uv_up = c->raster_draw[i].sampler.uv_up;
     a->path = a->has_rest = false;
     /* Fog, of which a tiny triangle has one part however the frame is cut, and velocities that are not those of the depth. */
     a->fixed = frame_has_fog(&c->rows.raster) || draw_is_fixed(&c->raster_draw[i]) || draw_is_mover(c, i);

@@ -121,9 +121,15 @@ static void look_up_material(struct smear_context *c, uint32_t i)
     const smear_texture *texture = SMEAR_TEXTURE_MOST && m != NULL ? m->texture : NULL;
     r->alpha = m != NULL ? m->alpha : (uint8_t)SMEAR_OPAQUE;
     r->cutoff = m != NULL && m->cutoff != 0 ? m->cutoff : 128;
-    if (texture != NULL)
-        smear_sampler_make(&r->sampler, texture, d->mesh->uv_shift != 0 ? d->mesh->uv_shift : 15, m->bilinear,
-                           frame_transfer(&c->rows.raster));
+    if (texture != NULL) {
+        /* Coarse coordinates grow: where triangles are cut, they are rounded. */
+        const smear_mesh *mesh = d->mesh;
+        const int shift = mesh->uv_shift != 0 ? mesh->uv_shift : 15;
+        const bool grows = shift < 9 && mesh->uv != NULL;
+        const int up = grows ? 15 - max_i32(shift, smear_mesh_bits(mesh->uv, 2u * mesh->vertex_count)) : 0;
+        r->sampler.uv_up = (uint8_t)up;
+        smear_sampler_make(&r->sampler, texture, shift + up, m->bilinear, frame_transfer(&c->rows.raster));
+    }
     c->rows.blends = c->rows.blends || draw_is_blended(r);
     /* Texels that must be rounded are rounded once at the end, not wherever they are drawn. */
     c->direct = c->direct && !c->rows.blends && (texture == NULL || texture->format == SMEAR_TEXEL_565);
@@ -139,11 +145,13 @@ void smear_draws_classify(struct smear_context *c)
 void smear_draws_prepare(struct smear_context *c)
 {
     c->rows.blends = false;
-    smear_draws_classify(c);
+    c->shot.reach = INT8_MIN;
     for (uint32_t i = 0; i < c->draw_count; i++) {
         look_up_material(c, i);
         c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
+        c->shot.reach = max_i32(c->shot.reach, draw_reach(&c->submitted[i].draw));
     }
+    smear_draws_classify(c);
     draws_begin_exposure(c, -65536, 65536);
 }
 
@@ -232,7 +240,7 @@ void smear_draws_end_damage(struct smear_context *c, int result)
 static void begin_damage(struct smear_context *c, bool with_static)
 {
     struct smear_damage *d = c->damage;
-    const uint8_t kind = (uint8_t)(c->frame.light_space | c->frame.edges << 1 | damage_compares(d) << 7);
+    const uint8_t kind = (uint8_t)(c->frame.light_space | c->frame.edges << 1 | (c->shot.reach & 31) << 2 | damage_compares(d) << 7);
     smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, kind, &c->sun);
     for (uint32_t i = 0; with_static && i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)

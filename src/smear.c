@@ -201,7 +201,6 @@ static void recall(struct smear_context *c, struct smear_submitted *s, int32_t a
 
 int smear_submit(smear_context *c, const smear_draw *draw)
 {
-    static const smear_transform identity = SMEAR_IDENTITY;
     if (c == NULL || draw == NULL)
         return SMEAR_ERR_ARG;
     if (c->state != STATE_BEGUN)
@@ -216,9 +215,13 @@ int smear_submit(smear_context *c, const smear_draw *draw)
         return SMEAR_ERR_FULL;
     struct smear_submitted *s = &c->submitted[c->draw_count++];
     s->draw = *draw;
-    if (s->draw.now == NULL)
-        s->draw.now = &identity;
     copy_pose(&s->draw.now, &s->pose[0]);
+    if (s->draw.now == NULL) {
+        s->pose[0] = (smear_transform){ 0 };
+        for (int i = 0; i < 9; i += 4)
+            s->pose[0].basis[i] = 1 << 24;
+        s->draw.now = &s->pose[0];
+    }
     copy_pose(&s->draw.open, &s->pose[1]);
     copy_pose(&s->draw.close, &s->pose[2]);
     recall(c, s, at);

@@ -202,9 +202,9 @@ static int transform_ends(struct end end[2], const struct lens *l, const smear_p
     const int rows = is_orthographic(&l->projection) ? 4 : 3;
     int32_t row[2][4];
     for (int r = 0; r < rows; r++) {
-        const int32_t from_eye = transform_row(l->end[0].offset[r], v);
+        const int32_t from_eye = transform_row(l->end[0].offset[r], v, 0);
         row[0][r] = from_eye + way_row(l->end[0].way[r], w);
-        row[1][r] = (l->still ? from_eye : transform_row(l->end[1].offset[r], v)) + way_row(l->end[1].way[r], w);
+        row[1][r] = (l->still ? from_eye : transform_row(l->end[1].offset[r], v, 0)) + way_row(l->end[1].way[r], w);
         for (int e = 0; e < 2 && !l->still; e++)
             row[e][r] = narrow_sat((int64_t)row[e][r] + eyes_of(&l->end[e], r, exponent));
     }

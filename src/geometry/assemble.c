@@ -35,14 +35,13 @@ static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, c
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
-    const smear_mesh *mesh = d->mesh;
     struct smear_bins *g = b->a->bins;
     uint32_t word = g->vertex_words;
     uint32_t *record = g->pool + word;
     g->vertex_words = word + s->stride;
     store_place(record, screen);
     if (segment_textured(s))
-        store_uv(record + s->uv, mesh->uv[2 * index], mesh->uv[2 * index + 1]);
+        store_mesh_uv(record + s->uv, d, index);
     if (SMEAR_WITH_GOURAUD && b->vertex_color != NULL) {      /* as smear_shade has it */
         const uint8_t *c = b->vertex_color + 4 * index;
         record[s->color] = (uint32_t)c[0] << 8 | (uint32_t)c[1] << 24;
@@ -56,8 +55,7 @@ static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, c
 }
 
 /* Returns the first word of the vertex's record, which it stores where that has not been done. */
-static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle,
-                                     bool back)
+static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle, bool back)
 {
     const bool shares = batch_shares(b, back);
     if (shares && v->stored > b->segment->base)
@@ -242,8 +240,7 @@ SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, s
         return false;
     struct smear_segment *s = b->segment;
     b->a->triangles_drawn++;
-    if (t.count <= POINTS_MAX && b->points
-        && (!segment_by_vertices(s) || segment_flat_depth(s)
+    if (t.count <= POINTS_MAX && b->points && (!segment_by_vertices(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, &t);
@@ -268,8 +265,7 @@ static SMEAR_NOINLINE void find_all(struct batch *b, uint32_t tag)
 }
 
 /* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
-static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t tag,
-                                                       const struct smear_cached_vertex *in_use1,
+static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t tag, const struct smear_cached_vertex *in_use1,
                                                        const struct smear_cached_vertex *in_use2,
                                                        struct smear_cached_vertex *spare)
 {
@@ -294,8 +290,7 @@ static void batch_start(struct batch *b)
     const struct smear_bins *g = a->bins;
     b->shares = shares_vertices(d, s);
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
-    b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed
-             && bins_margin(g) == 0;
+    b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed && bins_margin(g) == 0;
     b->double_sided = d->backs;
     if (d->shading.lit || !d->shading.white)
         return;

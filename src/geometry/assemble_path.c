@@ -70,16 +70,14 @@ static inline void find_kind(struct path_vertex *v, bool orthographic, uint32_t 
         v->outcodes |= IN_SPACE;
 }
 
-static void find_vertex(struct path_vertex *v, const struct smear_assembler *a,
-                        const struct smear_assembly *d, uint32_t tag)
+static void find_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
 {
     struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
     v->outcodes = 0;
     for (int key = 0; key < KEYS; key++)
-        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu,
-                                                   &a->viewport) << 8 * key;
+        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu, &a->viewport) << 8 * key;
 }
 
 /* ------------------------------------------------------------------ bounds */
@@ -114,8 +112,7 @@ static int32_t curvature_of(const struct smear_screen p[KEYS])
 static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
                         const struct smear_assembly *d, const struct smear_screen *const corner[3])
 {
-    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0,
-            travel = 0, curvature = 0;
+    int32_t x0 = INT32_MAX, x1 = INT32_MIN, y0 = INT32_MAX, y1 = INT32_MIN, depth = 0, overshoot = 0, travel = 0, curvature = 0;
     for (int i = 0; i < 3; i++) {
         const struct smear_screen *p = corner[i];
         for (int key = 0; key < KEYS; key++) {
@@ -152,8 +149,7 @@ static bool find_bounds(struct smear_path_bounds *b, const struct smear_assemble
 
 /* ------------------------------------------------------------------ records */
 
-static void store_path(uint32_t *record, const struct smear_segment *s,
-                       const struct smear_screen screen[KEYS])
+static void store_path(uint32_t *record, const struct smear_segment *s, const struct smear_screen screen[KEYS])
 {
     store_place(record, &screen[MIDDLE]);
     store_place(record + s->motion, &screen[OPEN]);
@@ -223,8 +219,7 @@ static SMEAR_RARE void store_in_space(uint32_t *record, struct path_batch *b, co
     b->a->bins->vertex_words += SCREEN_PATH_WORDS;
 }
 
-static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, uint32_t triangle,
-                                  bool back, bool in_space)
+static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, uint32_t triangle, bool back, bool in_space)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
@@ -241,7 +236,7 @@ static uint32_t store_path_vertex(struct path_batch *b, struct path_vertex *v, u
     else
         store_path(record, s, v->screen);
     if (segment_textured(s))
-        store_uv(record + s->uv, d->mesh->uv[2 * index], d->mesh->uv[2 * index + 1]);
+        store_mesh_uv(record + s->uv, d, index);
     if (segment_colored(s))
         smear_vertex_store_color(record + s->color, d, index, triangle, back);
     if (shares)
@@ -538,8 +533,7 @@ static bool add_seen(struct path_batch *b, struct path_vertex *const v[3], uint3
         }
         if (codes & IN_SPACE) {     /* bounds tell which sides are seen */
             find_places(b, v);
-            return add_triangle(b, v[0], v[d->mirrored ? 1 : 2], v[d->mirrored ? 2 : 1], triangle, false)
-                && (!d->backs
+            return add_triangle(b, v[0], v[d->mirrored ? 1 : 2], v[d->mirrored ? 2 : 1], triangle, false) && (!d->backs
                     || add_triangle(b, v[0], v[d->mirrored ? 2 : 1], v[d->mirrored ? 1 : 2], triangle, true));
         }
     }

@@ -16,10 +16,11 @@ bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct bo
 
 static SMEAR_PRODUCT_CALL uint32_t displaced(int32_t there, int32_t ratio, int32_t now)
 {
-    const int64_t far_out = (1 << 27) - 1;
-    int64_t d = there - (mul_wide(ratio, now) >> 20);
-    return (uint32_t)(int32_t)(d < -far_out ? -far_out : d > far_out ? far_out : d);
+    const int32_t far_out = (1 << 27) - 1;
+    return (uint32_t)clamp_i32(narrow_sat(there - (mul_wide(ratio, now) >> 20)), -far_out, far_out);
 }
+
+static int32_t over_w(int32_t a, int32_t r, int shift) { return scale_sat(mulh_i32(a, r), clamp_i32(shift, -31, 31)); }
 
 /* Stores the words of MOTION_*: the point of the surface that is at `screen`, as far away as w, is at `h` in another pose. */
 static SMEAR_NOINLINE void store_pose(uint32_t *out, const struct smear_assembly *d, int pose, const struct smear_homogeneous *h,
@@ -32,9 +33,8 @@ static SMEAR_NOINLINE void store_pose(uint32_t *out, const struct smear_assembly
     /* Rows stay below 2^30; small meshes leave more room, which the high products need. */
     int up = count_leading_zeros((uint32_t)(abs_i32(h->x) | abs_i32(h->y) | abs_i32(h->w) | 1)) - 1;
     int shift = zeros - 29 + scale - up;
-    int32_t x = scale_sat(mulh_i32(shl_wrap(h->x, up), r), clamp_i32(shift + 8, -31, 31));
-    int32_t y = scale_sat(mulh_i32(shl_wrap(h->y, up), r), clamp_i32(shift + 8, -31, 31));
-    int32_t ratio = scale_sat(mulh_i32(shl_wrap(h->w, up), r), clamp_i32(shift + 20, -31, 31));
+    int32_t x = over_w(shl_wrap(h->x, up), r, shift + 8), y = over_w(shl_wrap(h->y, up), r, shift + 8);
+    int32_t ratio = over_w(shl_wrap(h->w, up), r, shift + 20);
     out[MOTION_DX] = displaced(x, ratio, screen->x - viewport->width * 128);
     out[MOTION_DY] = displaced(y, ratio, screen->y - viewport->height * 128);
     out[MOTION_RATIO] = (uint32_t)ratio;
@@ -60,8 +60,7 @@ struct clipped {
 };
 
 /* Clips the triangle, its vertices shaded as those of c->face, and projects what is left. */
-static void clip_and_project(struct clipped *c, const struct batch *b,
-                             const struct smear_cached_vertex *const corner[3])
+static void clip_and_project(struct clipped *c, const struct batch *b, const struct smear_cached_vertex *const corner[3])
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;

@@ -13,31 +13,21 @@ enum plane { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BO
 static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear_depths *depths, enum plane plane)
 {
     const struct smear_homogeneous *h = &v->now;
-    switch (plane) {
-    case PLANE_NEAR:   return (int64_t)h->distance - depths->near_distance;
-    case PLANE_FAR:    return (int64_t)depths->far_distance - h->distance;
-    case PLANE_LEFT:   return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + h->x;
-    case PLANE_RIGHT:  return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) - h->x;
-    case PLANE_TOP:    return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + h->y;
-    default:           return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) - h->y;
-    }
+    if (plane == PLANE_NEAR)
+        return (int64_t)h->distance - depths->near_distance;
+    if (plane == PLANE_FAR)
+        return (int64_t)depths->far_distance - h->distance;
+    const int32_t at = plane >= PLANE_TOP ? h->y : h->x;
+    return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + (plane == PLANE_LEFT || plane == PLANE_TOP ? at : -at);
 }
 
 /* Tells the sign of the distance: a < -2048 w where floor(a / 2048) < -w. */
 static bool is_outside(const struct smear_clip_vertex *v, const struct smear_depths *depths, enum plane plane)
 {
-    if (SMEAR_ONE_COPY)
+    if (SMEAR_ONE_COPY || plane <= PLANE_FAR)
         return distance_to(v, depths, plane) < 0;
-    const struct smear_homogeneous *h = &v->now;
-    const int guard_log2 = GUARD_LOG2 - depths->coarse;
-    int32_t a = plane >= PLANE_TOP ? h->y : h->x;
-    switch (plane) {
-    case PLANE_NEAR:    return h->distance < depths->near_distance;
-    case PLANE_FAR:     return h->distance > depths->far_distance;
-    case PLANE_LEFT:
-    case PLANE_TOP:     return a >> guard_log2 < -h->w;
-    default:            return -a >> guard_log2 < -h->w;
-    }
+    const int32_t a = plane >= PLANE_TOP ? v->now.y : v->now.x;
+    return (plane == PLANE_LEFT || plane == PLANE_TOP ? a : -a) >> (GUARD_LOG2 - depths->coarse) < -v->now.w;
 }
 
 /* Returns a + (b - a) t to nearest, t in q30. */

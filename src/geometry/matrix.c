@@ -8,6 +8,18 @@
 #include "base/fixmath.h"
 #include "geometry/transform.h"
 
+int smear_mesh_bits(const int16_t *number, uint32_t count)
+{
+    uint32_t all = 1;
+    for (const int16_t *const end = number + count; number != end; number++) {
+        const int32_t n = *number;
+        all |= (uint32_t)(n ^ n >> 15);
+        if (all >> 12 != 0)
+            return 15;
+    }
+    return 32 - count_leading_zeros(all);
+}
+
 /* Returns how many bits |a| has; 0 for 0. */
 static int bit_length(int64_t a)
 {
@@ -33,7 +45,7 @@ static int32_t scale_to_i32(int64_t a, int shift)
 /* Returns the same where it has 31 bits: mostly without shifts of 64 bits, which are calls on small cores. */
 static inline int32_t scale_narrow(int64_t a, int shift)
 {
-    if (SMEAR_HAS_MUL64 || shift > -2 || shift < -32)
+    if (SMEAR_HAS_MUL64 || SMEAR_SMALL_FILE || shift > -2 || shift < -32)
         return scale_to_i32(a, shift);
     const int32_t twice = (int32_t)((uint32_t)((uint64_t)a >> 32) << (33 + shift) | (uint32_t)a >> (-shift - 1));
     return (twice >> 1) + (twice & 1);
@@ -62,8 +74,7 @@ static int normalize_block(int32_t block[3][3], const int64_t in[9])
     return -shift;
 }
 
-void smear_view_compose(struct smear_view *view, const smear_transform *object,
-                        const smear_mesh *mesh, const smear_transform *camera)
+void smear_view_compose(struct smear_view *view, const smear_transform *object, const smear_mesh *mesh, const smear_transform *camera)
 {
     /* Camera space: transpose of the camera's rotation times (world - eye). Its entries are at most 1 and a 64th in
      * magnitude (smear_begin checks), so a product of them and any 32 bits has 56 bits and three fit. */
@@ -117,8 +128,7 @@ static int row_bits(const struct smear_view *view, int row, struct factor by)
 }
 
 /* Fills a row of the projection: the view's row times `by`, scaled by 2^scale, which keeps factors below 2^30. */
-static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign,
-                     int scale)
+static void fill_row(int32_t m[4], const struct smear_view *view, int row, struct factor by, int sign, int scale)
 {
     const int32_t factor = sign < 0 ? -by.mantissa : by.mantissa;
     const int shift = view->basis_exp + by.exponent + scale + 16;
@@ -133,14 +143,12 @@ void smear_depths_make(struct smear_depths *d, const smear_camera *camera, int s
     d->orthographic = camera->half_height > 0;
     /* Rows stay below 2^30, so what lies farther is in front of a plane that is clamped there. */
     d->near_distance = clamp_i32(scale_to_i32(camera->near_plane, scale - 16), 1, 1 << 30);
-    d->far_distance = camera->far_plane == 0 ? INT32_MAX
-                                             : max_i32(d->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
+    d->far_distance = camera->far_plane == 0 ? INT32_MAX : max_i32(d->near_distance + 1, scale_to_i32(camera->far_plane, scale - 16));
     if (depths_are_even(d)) {
         /* units q11 = (far - distance) NEAR 2^11 / (far - near) */
         uint32_t range = (uint32_t)(d->far_distance - d->near_distance);
         int zeros = count_leading_zeros(range);
-        struct factor k = factor_from(mul_wide((int32_t)recip_norm_precise(range << zeros), SMEAR_DEPTH_NEAR),
-                                      zeros - 61 + 11);
+        struct factor k = factor_from(mul_wide((int32_t)recip_norm_precise(range << zeros), SMEAR_DEPTH_NEAR), zeros - 61 + 11);
         d->depth_mantissa = k.mantissa;
         d->depth_shift = (int16_t)(k.exponent + 32);
     } else {
@@ -248,6 +256,13 @@ void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_pr
     transform_inline(out, p, v);
 }
 
+/* Returns a r 2^-down, r being 2^61 / w: a / w in q8 px, as far as it matters. */
+static int32_t divided(int32_t a, uint32_t r, int down)
+{
+    const int32_t far_out = 1 << 24, high = mulh_i32(a, (int32_t)r);
+    return down > 0 ? (high + (1 << (down - 1))) >> down : clamp_i32(scale_sat(high, -down), -far_out, far_out);
+}
+
 void smear_project(struct smear_screen *out, const struct smear_depths *d, const struct smear_homogeneous *in,
                    const struct smear_viewport *viewport)
 {
@@ -256,31 +271,24 @@ void smear_project(struct smear_screen *out, const struct smear_depths *d, const
     uint32_t r = recip_norm((uint32_t)in->w << zeros);      /* 1/w = r 2^(zeros - 61) */
 
     /* x r / 2^32 = x/w 2^(29 - zeros); q8 wants 2^8. */
-    int32_t x = mulh_i32(in->x, (int32_t)r), y = mulh_i32(in->y, (int32_t)r);
-    int down = 21 - zeros - d->coarse;
-    if (down > 0) {
-        int32_t half = 1 << (down - 1);
-        x = (x + half) >> down;
-        y = (y + half) >> down;
-    } else {
-        const int32_t far_out = 1 << 24;
-        x = clamp_i32(scale_sat(x, -down), -far_out, far_out);
-        y = clamp_i32(scale_sat(y, -down), -far_out, far_out);
-    }
-    out->x = (viewport->width << 7) + x;
-    out->y = (viewport->height << 7) + y;
-
-    const int32_t depth = depths_are_even(d) ? depth_even(d, in->distance)
-                                             : times_recip(d->depth_mantissa, r, d->depth_shift + zeros);
+    const int down = 21 - zeros - d->coarse;
+    out->x = (viewport->width << 7) + divided(in->x, r, down);
+    out->y = (viewport->height << 7) + divided(in->y, r, down);
+    const int32_t depth = depths_are_even(d) ? depth_even(d, in->distance) : times_recip(d->depth_mantissa, r, d->depth_shift + zeros);
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
 int smear_outcode_sides(const struct smear_screen *s, const struct smear_viewport *viewport) { return outcode_sides_inline(s, viewport); }
 
+/* Returns 1 where a coordinate lies beyond its first border, 2 beyond its last one. */
+static inline uint32_t beyond(int32_t at, int32_t w, int32_t size)
+{
+    const int64_t twice = (int64_t)at * 2, border = mul_wide(w, size);
+    return (uint32_t)((uint64_t)(border + twice) >> 63) | (uint32_t)((uint64_t)(border - twice) >> 63) << 1;
+}
+
 int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
 {
-    int64_t x = (int64_t)h->x * 2, y = (int64_t)h->y * 2;
-    int64_t right = mul_wide(h->w, viewport->width), bottom = mul_wide(h->w, viewport->height);
-    return (x < -right ? OUT_LEFT : 0) | (x > right ? OUT_RIGHT : 0) | (y < -bottom ? OUT_TOP : 0)
-         | (y > bottom ? OUT_BOTTOM : 0);
+    SMEAR_STATIC_ASSERT(OUT_LEFT == 1 && OUT_RIGHT == 2 && OUT_TOP == 4 && OUT_BOTTOM == 8, "sides");
+    return (int)(beyond(h->x, h->w, viewport->width) | beyond(h->y, h->w, viewport->height) << 2);
 }

@@ -17,6 +17,7 @@ struct smear_depths {
     int16_t depth_shift;
     bool orthographic;
     uint8_t coarse;             /* X / W and Y / W are in units of 2^coarse pixels, up to 2^11 */
+    uint8_t up;                 /* vertices are 2^up times what the mesh has: smear_shot.reach */
 };
 
 /* Whether the camera is orthographic: depths go with distances, not with 1/distance. */
@@ -59,8 +60,10 @@ static inline int projection_coarse(int32_t height_px, bool orthographic)
 /* Fills in the near and far plane and the factor of depth units of a camera, where `distance` has 2^scale per unit. */
 void smear_depths_make(struct smear_depths *depths, const smear_camera *camera, int scale);
 
-void smear_view_compose(struct smear_view *view, const smear_transform *object,
-                        const smear_mesh *mesh, const smear_transform *camera);
+/* Returns how many bits the largest of some numbers has; 15 where it has 13. */
+int smear_mesh_bits(const int16_t *number, uint32_t count);
+
+void smear_view_compose(struct smear_view *view, const smear_transform *object, const smear_mesh *mesh, const smear_transform *camera);
 
 /* Makes the projection of a view for frames of height_px rows. `coarse`: as struct smear_depths has it, projection_coarse or 0. */
 void smear_projection_make(struct smear_projection *projection, const struct smear_view *view,

@@ -23,7 +23,7 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
         p->m, depths->near_distance, depths->far_distance, depths->depth_mantissa, depths->depth_shift, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX,
         b->a->viewport.width << 7, b->a->viewport.height << 7
     };
-    const bool by_fours = !is_orthographic(p) && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
+    const bool by_fours = !is_orthographic(p) && depths->up == 0 && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
     struct place_rows rows;
     uint32_t i = r->first;
     if (by_fours)

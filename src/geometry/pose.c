@@ -38,8 +38,7 @@ bool smear_transform_is_same(const smear_transform *a, const smear_transform *b)
 
 bool smear_camera_is_same(const smear_camera *a, const smear_camera *b)
 {
-    return a == b || (smear_transform_is_same(&a->pose, &b->pose) && a->focal == b->focal
-                      && a->half_height == b->half_height);
+    return a == b || (smear_transform_is_same(&a->pose, &b->pose) && a->focal == b->focal && a->half_height == b->half_height);
 }
 
 /* ------------------------------------------------------------------ attached objects */
@@ -169,8 +168,7 @@ static void object_poses(struct smear_draw_poses *p, const struct smear_shot *sh
         scale_object(p, shot->object_scale, shot_is_curved(shot));
 }
 
-void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d,
-                           const smear_camera *camera)
+void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d, const smear_camera *camera)
 {
     const bool moves = !shot->cut && d->motion != SMEAR_MOTION_NONE && (camera != NULL || shot->camera_moves);
     if (camera == NULL)
@@ -200,13 +198,16 @@ void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *
 static const struct smear_projection *project_pose(struct smear_draw_poses *p, const struct smear_shot *shot, int i,
                                                    const smear_mesh *mesh)
 {
+    struct smear_projection *const projection = &p->projection[i];
     if (!p->projected[i]) {
         struct smear_view view;
+        projection->depths.up = (uint8_t)max_i32(0, 15 - mesh->shift - shot->reach);
         smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-        smear_projection_make(&p->projection[i], &view, p->camera[i], shot->height, p->coarse);
+        view.basis_exp -= projection->depths.up;
+        smear_projection_make(projection, &view, p->camera[i], shot->height, p->coarse);
         p->projected[i] = true;
     }
-    return &p->projection[i];
+    return projection;
 }
 
 static bool deformation_is_scaled(const struct smear_draw_poses *p, int k)
@@ -300,8 +301,7 @@ void smear_draw_poses_add(struct smear_assembly *a, struct smear_draw_poses *p, 
         return;
     const struct smear_projection whole = m->pose[i], *const in[2] = { &whole, &whole };
     struct smear_projection *const both[2] = { &m->pose[i], &m->rest[i] };
-    const int32_t part = curves ? part_at(p, smear_shot_time(shot, k))
-                                : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
+    const int32_t part = curves ? part_at(p, smear_shot_time(shot, k)) : (deformation_is_scaled(p, k) ? p->deform : 256) * 65536;
     const int32_t weight[2] = { part, (1 << 24) - part };
     a->has_rest = a->has_rest || weight[1] != 0;
     smear_projection_weigh(both, in, weight, 2, p->camera[0]);
@@ -351,8 +351,7 @@ bool smear_history_has(const struct smear_history *h, int32_t at, uint32_t id)
     return SMEAR_BLURS && h->kept[at].id == id && h->kept[at].frame == h->frame;
 }
 
-int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const smear_transform *pose, bool cut,
-                       smear_transform past[2])
+int smear_history_keep(struct smear_history *h, int32_t at, uint32_t id, const smear_transform *pose, bool cut, smear_transform past[2])
 {
     struct smear_kept_pose *k = &h->kept[at];
     int count = k->id == id && k->frame + 1u == h->frame;

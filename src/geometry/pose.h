@@ -71,6 +71,15 @@ struct smear_draw_poses {
     smear_transform made[SMEAR_WITH_SCALES || SMEAR_WITH_VIEWS ? 3 : 1];
 };
 
+/* Returns the least smear_shot.reach of a draw's mesh; of one that deforms, as if it had all bits. */
+static inline int draw_reach(const smear_draw *d)
+{
+    const smear_mesh *m = d->mesh;
+    const bool deforms = SMEAR_WITH_DEFORM && (d->open_position != NULL || d->close_position != NULL);
+    const int bits = deforms ? 15 : smear_mesh_bits(m->position, 3u * m->vertex_count);
+    return (SMEAR_WITH_BOUNDS ? max_i32(bits, smear_mesh_bits(m->bounds, 6)) : bits) - m->shift;
+}
+
 /* Finds the poses of a draw, whose `now` is given and whose `open`, if it is not null, is its earlier pose. `camera`: three
  * of its layer's own, or null for the shot's. */
 void smear_draw_poses_make(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *draw,

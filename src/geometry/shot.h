@@ -22,6 +22,9 @@ struct smear_shot {
     uint32_t object_scale;          /* smear_frame.scale.object as it is used */
     int32_t height;                 /* of the frame, px */
     uint32_t turn;                  /* smear_shot_find_turn */
+    /* All vertices lie within 2^reach of their mesh's middle, in units / smear_mesh.scale. Those of coarser steps than 2^-15 of that are
+     * taken for multiples of it: so meshes of few steps fill a projection, and corners that meshes share have the same bits. */
+    int reach;
 };
 
 static inline bool shot_is_curved(const struct smear_shot *shot) { return SMEAR_WITH_CURVES && shot->curved; }

@@ -20,7 +20,7 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
     space->viewport = (struct smear_viewport){ width, height };
     if (segment_flat_depth(s)) {
         /* Distances are what depths lack of the largest. */
-        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX >> EVEN_DEPTH_SHIFT, 1 << 30, 2 + EVEN_DEPTH_SHIFT, true, 0 };
+        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX >> EVEN_DEPTH_SHIFT, 1 << 30, 2 + EVEN_DEPTH_SHIFT, true, 0, 0 };
         return;
     }
     smear_depths_make(&space->depths, &g->shot->camera[0], s->scale);

@@ -44,26 +44,25 @@ struct smear_viewport {
     int32_t width, height;  /* pixels */
 };
 
-/* Returns a row of struct smear_projection for a vertex. Without a wide multiply, the two halves of the factors are
+/* Returns a row of struct smear_projection for a vertex in steps of 2^-up. Without a wide multiply, the two halves of the factors are
  * summed one by one: the lower ones have 14 bits, so three products fit. */
-static inline int32_t transform_row(const int32_t m[4], const int16_t v[3])
+static inline int32_t transform_row(const int32_t m[4], const int16_t v[3], int up)
 {
+    const int32_t x = shl_wrap(v[0], up), y = shl_wrap(v[1], up), z = shl_wrap(v[2], up);
     if (SMEAR_HAS_MUL64)
-        return (int32_t)(((int64_t)v[0] * m[0] + (int64_t)v[1] * m[1] + (int64_t)v[2] * m[2]) >> 16) + m[3];
-    uint32_t high = (uint32_t)(v[0] * (m[0] >> 16)) + (uint32_t)(v[1] * (m[1] >> 16))
-                  + (uint32_t)(v[2] * (m[2] >> 16));
-    int32_t low = v[0] * (int32_t)((uint32_t)m[0] << 16 >> 18) + v[1] * (int32_t)((uint32_t)m[1] << 16 >> 18)
-                + v[2] * (int32_t)((uint32_t)m[2] << 16 >> 18);
+        return (int32_t)(((int64_t)x * m[0] + (int64_t)y * m[1] + (int64_t)z * m[2]) >> 16) + m[3];
+    uint32_t high = (uint32_t)(x * (m[0] >> 16)) + (uint32_t)(y * (m[1] >> 16)) + (uint32_t)(z * (m[2] >> 16));
+    int32_t low = x * (int32_t)((uint32_t)m[0] << 16 >> 18) + y * (int32_t)((uint32_t)m[1] << 16 >> 18)
+                + z * (int32_t)((uint32_t)m[2] << 16 >> 18);
     return (int32_t)(high + (uint32_t)(low >> 14)) + m[3];
 }
 
-static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p,
-                                    const int16_t v[3])
+static inline void transform_inline(struct smear_homogeneous *out, const struct smear_projection *p, const int16_t v[3])
 {
-    out->x = transform_row(p->m[0], v);
-    out->y = transform_row(p->m[1], v);
-    out->w = transform_row(p->m[2], v);
-    out->distance = is_orthographic(p) ? transform_row(p->m[3], v) : out->w;
+    out->x = transform_row(p->m[0], v, p->depths.up);
+    out->y = transform_row(p->m[1], v, p->depths.up);
+    out->w = transform_row(p->m[2], v, p->depths.up);
+    out->distance = is_orthographic(p) ? transform_row(p->m[3], v, p->depths.up) : out->w;
 }
 
 /* Does what transform_inline does, as a call. */
@@ -128,8 +127,7 @@ static inline int outcode_sides_inline(const struct smear_screen *s, const struc
     int32_t right = viewport->width << 8, bottom = viewport->height << 8;
     if ((uint32_t)s->x <= (uint32_t)right && (uint32_t)s->y <= (uint32_t)bottom)
         return 0;
-    int code = (s->x < 0 ? OUT_LEFT : 0) | (s->x > right ? OUT_RIGHT : 0) | (s->y < 0 ? OUT_TOP : 0)
-             | (s->y > bottom ? OUT_BOTTOM : 0);
+    int code = (s->x < 0 ? OUT_LEFT : 0) | (s->x > right ? OUT_RIGHT : 0) | (s->y < 0 ? OUT_TOP : 0) | (s->y > bottom ? OUT_BOTTOM : 0);
     int32_t dx = s->x - (right >> 1), dy = s->y - (bottom >> 1);
     const int32_t guard = SMEAR_GUARD_PX << 8;
     if (dx < -guard || dx > guard || dy < -guard || dy > guard)

@@ -36,8 +36,7 @@ static inline bool even_faces(const struct even_faces *f)
         const uint32_t a = index[0], b = index[1], c = index[2];
         if (max_u32(a, max_u32(b, c)) >= f->vertices)
             return false;
-        if (normal != NULL
-            && !(even_normal(normal + 3 * a, normal + 3 * b) && even_normal(normal + 3 * a, normal + 3 * c)))
+        if (normal != NULL && !(even_normal(normal + 3 * a, normal + 3 * b) && even_normal(normal + 3 * a, normal + 3 * c)))
             return false;
         if (color != NULL && !(even_color(color + 4 * a, color + 4 * b) && even_color(color + 4 * a, color + 4 * c)))
             return false;
@@ -58,8 +57,7 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
 
 /* Returns those of `sides` that all corners of the mesh's bounds lie beyond. All that is between corners does, too:
  * before they are divided by w, its places are sums of theirs. */
-static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport,
-                        int sides)
+static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport, int sides)
 {
     if (p->extra_count != 0 || p->position != m->position)
         return 0;
@@ -93,12 +91,12 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
 #if SMEAR_WITH_DAMAGE
 /* What the corners of the mesh's bounds have of a row of the projection: the least one's, and how much more others have along x, y
  * and z. What is lost by rounding these apart is far below a pixel. */
-static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6])
+static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6], int up)
 {
-    part[0] = transform_row(m, b);
+    part[0] = transform_row(m, b, up);
     for (int i = 0; i < 3; i++) {
         const int16_t other[3] = { b[i == 0 ? 3 : 0], b[i == 1 ? 4 : 1], b[i == 2 ? 5 : 2] };
-        part[1 + i] = transform_row(m, other) - part[0];
+        part[1 + i] = transform_row(m, other, up) - part[0];
     }
 }
 
@@ -114,7 +112,7 @@ static bool find_box(struct smear_screen *least, struct smear_screen *most, cons
     const bool even = is_orthographic(p);
     int32_t row[4][4];
     for (int k = 0; k < (even ? 4 : 3); k++)
-        row_of_bounds(row[k], p->m[k], b);
+        row_of_bounds(row[k], p->m[k], b, p->depths.up);
     *least = (struct smear_screen){ .x = INT32_MAX, .y = INT32_MAX };
     *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
     for (int i = 0; i < 8; i++) {
@@ -154,8 +152,7 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
         return NULL;
     const smear_mesh *mesh = d->mesh;
     const bool textured = assembly_is_textured(d);
-    bool by_vertices = SMEAR_WITH_GOURAUD
-                    && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
+    bool by_vertices = SMEAR_WITH_GOURAUD && ((d->shading.lit && mesh->normal != NULL) || mesh->color != NULL);
     bool per_vertex = by_vertices && !assembly_is_flat(d);
     int at = VERTEX_BASE_WORDS;
     s->draw = d->draw;
@@ -197,14 +194,12 @@ bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 static uint32_t cosine_at(const struct smear_assembly *d, uint32_t index, bool flip)
 {
     const int8_t *n = d->mesh->normal + 3 * index;
-    const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127),
-                             (int8_t)-max_i32(n[2], -127) };
+    const int8_t back[3] = { (int8_t)-max_i32(n[0], -127), (int8_t)-max_i32(n[1], -127), (int8_t)-max_i32(n[2], -127) };
     return smear_light_normal(&d->shading, flip ? back : n);
 }
 
 /* Finds the lit colour of a vertex of the face. */
-SMEAR_INLINE void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index,
-                               const struct smear_face *face)
+SMEAR_INLINE void shade_vertex(struct smear_color *color, const struct smear_assembly *d, uint32_t index, const struct smear_face *face)
 {
     const smear_mesh *mesh = d->mesh;
     uint32_t cosine = face->cosine;
@@ -213,8 +208,7 @@ SMEAR_INLINE void shade_vertex(struct smear_color *color, const struct smear_ass
     smear_shade(color, &d->shading, mesh->color != NULL ? mesh->color + 4 * index : NULL, face->color, cosine);
 }
 
-void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle,
-                              bool back)
+void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle, bool back)
 {
     struct smear_color color;
     const struct smear_face face = smear_face_of(d, triangle, back);
@@ -232,8 +226,9 @@ void smear_vertex_for_clipping(struct smear_clip_vertex *v, const struct smear_a
 {
     __builtin_memset(v->uv, 0, sizeof v->uv + sizeof v->color);
     if (segment_textured(s)) {
-        v->uv[0] = d->mesh->uv[2 * index];
-        v->uv[1] = d->mesh->uv[2 * index + 1];
+        const int16_t *uv = d->mesh->uv + 2 * index;
+        v->uv[0] = shl_wrap(uv[0], d->uv_up);
+        v->uv[1] = shl_wrap(uv[1], d->uv_up);
     }
     if (segment_colored(s)) {
         struct smear_color color;
@@ -279,8 +274,7 @@ static inline uint32_t shaded_face(const struct smear_assembly *d, const struct 
     return smear_color_pack(&color, d->shading.transfer);
 }
 
-uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
-                          const struct smear_face *face)
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s, const struct smear_face *face)
 {
     if (s->shade != SHADE_FLAT)
         return 0xffffffffu;
@@ -305,8 +299,7 @@ static uint32_t channel_code(const struct smear_segment *s, const int32_t *recor
     return code_of_channel((uint32_t)channel_of_vertex(c & 1 ? word >> 16 : word & 0xffffu, transfer), transfer);
 }
 
-bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                             smear_transfer transfer)
+bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], smear_transfer transfer)
 {
     if (s->shade != SHADE_GOURAUD || s->uv != 0)
         return false;
@@ -338,8 +331,7 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
         face.cosine = cosine_at(d, index[0], back);
     } else if (d->shading.lit && d->mesh->normal == NULL) {
         const int16_t *p = d->at.position;
-        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1],
-                                       p + 3 * index[back ? 1 : 2]);
+        face.cosine = smear_light_face(&d->shading, p + 3 * index[0], p + 3 * index[back ? 2 : 1], p + 3 * index[back ? 1 : 2]);
     }
     return face;
 }

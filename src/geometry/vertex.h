@@ -57,8 +57,7 @@ static inline void tile_mark(uint8_t *tile)
 #endif
 }
 
-static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1,
-                                                int32_t y0, int32_t y1)
+static inline struct smear_tile_box tile_box_of(const struct smear_damaged_tiles *d, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     return (struct smear_tile_box){ (uint8_t)(x0 >> d->shift), (uint8_t)((x1 - 1) >> d->shift),
                                     (uint8_t)(y0 >> d->shift), (uint8_t)((y1 - 1) >> d->shift) };
@@ -141,6 +140,7 @@ struct smear_assembly {
     bool has_rest;                      /* part of a deformation: the mesh's own vertices are added by measured.rest */
     bool fixed;                         /* no points: its pixels must know whose they are (smear_raster_draw.fixed, fog) */
     uint8_t moves;                      /* as smear_segment.moves */
+    uint8_t uv_up;                      /* as struct smear_sampler has it */
     struct smear_placement at;          /* the instant that is drawn */
     /* Finds the placement at open (0) or close (1) or the instant that is drawn (2) in units of 2^coarse pixels, for what is cut. */
     void (*place_fine)(struct smear_placement *place, const struct smear_assembly *d, int key, int coarse);
@@ -198,8 +198,7 @@ static inline bool assembly_is_textured(const struct smear_assembly *d)
     return SMEAR_WITH_TEXTURE && d->material->texture != NULL && d->mesh->uv != NULL;
 }
 
-static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p,
-                                       uint32_t index)
+static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
     transform_vertex(h, &p->now, p->position + 3 * index);
     if (SMEAR_WITH_DEFORM && p->extra_count != 0)
@@ -207,8 +206,7 @@ static inline void placement_transform(struct smear_homogeneous *h, const struct
 }
 
 /* Transforms a vertex as it is in a pose of the assembly. */
-static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose,
-                                  uint32_t index)
+static inline void pose_transform(struct smear_homogeneous *h, const struct smear_assembly *d, int pose, uint32_t index)
 {
     const struct smear_measured_poses *m = &d->motion.measured;
     transform_vertex(h, &m->pose[pose], m->position[pose] + 3 * index);
@@ -271,6 +269,12 @@ static inline void store_uv(uint32_t *record, int32_t u, int32_t v)
     *record = ((uint32_t)u & 0xffffu) | (uint32_t)v << 16;
 }
 
+static inline void store_mesh_uv(uint32_t *record, const struct smear_assembly *d, uint32_t index)
+{
+    const int16_t *uv = d->mesh->uv + 2 * index;
+    store_uv(record, shl_wrap(uv[0], d->uv_up), shl_wrap(uv[1], d->uv_up));
+}
+
 /* Whether all three vertices of every triangle have one colour and, where the draw is lit, one normal: so flat faces
  * come out of modelling programs. */
 bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit);
@@ -289,8 +293,7 @@ static inline void assembly_find_flat(struct smear_assembly *d)
 struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d);
 
 /* Shades vertex `index` of a triangle, seen from behind or not, and stores its colour. */
-void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle,
-                              bool back);
+void smear_vertex_store_color(uint32_t *out, const struct smear_assembly *d, uint32_t index, uint32_t triangle, bool back);
 
 struct smear_clip_vertex;
 
@@ -306,19 +309,16 @@ void smear_vertex_take_clipped(struct smear_clip_vertex *v, const struct smear_s
 void smear_vertex_store_clipped(uint32_t *record, const struct smear_segment *s, const struct smear_clip_vertex *v);
 
 /* Finds the colour of three stored vertices. Returns false unless they have one, or nearly, and no texture. */
-bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3],
-                             smear_transfer transfer);
+bool smear_vertex_flat_color(uint32_t *color, const struct smear_segment *s, const int32_t *const record[3], smear_transfer transfer);
 
 /* ------------------------------------------------------------------ faces */
 
 struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangle, bool back);
 
 /* Returns the face's colour, 0xAARRGGBB, where the segment's triangles have SHADE_FLAT, else white. */
-uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s,
-                          const struct smear_face *face);
+uint32_t smear_face_color(const struct smear_assembly *d, const struct smear_segment *s, const struct smear_face *face);
 
-static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b,
-                              const struct smear_screen *c)
+static inline int64_t area_of(const struct smear_screen *a, const struct smear_screen *b, const struct smear_screen *c)
 {
     return edges_area(b->x - a->x, b->y - a->y, c->x - a->x, c->y - a->y);
 }
@@ -356,8 +356,7 @@ static inline void box_span(int32_t *first, int32_t *end, int32_t a, int32_t b, 
     *end = (high + 127) >> 8;
 }
 
-static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b,
-                                const struct smear_screen *c)
+static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b, const struct smear_screen *c)
 {
     struct box box;
     box_span(&box.x0, &box.x1, a->x, b->x, c->x);
@@ -398,8 +397,7 @@ static inline bool is_blend(const struct smear_assembly *d)
 /* Whether faces share their vertices' records: not when a face's own light or colour goes into them. */
 static inline bool shares_vertices(const struct smear_assembly *d, const struct smear_segment *s)
 {
-    return !segment_by_vertices(s)
-        || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
+    return !segment_by_vertices(s) || (d->mesh->face_color == NULL && (!d->shading.lit || d->mesh->normal != NULL));
 }
 
 /* Makes room for `entries` more triangles with three new vertices and `words` besides: returns the segment, or a new one where offsets run

@@ -25,6 +25,7 @@ struct smear_sampler {
     int32_t scale[2];           /* u, v: ratio (q29, of 2^15 mesh units) to
                                  * texels (i32q16): mulh, then shift */
     int8_t shift[2];
+    uint8_t uv_up;              /* records have 2^uv_up times the mesh's coordinates */
 };
 
 void smear_sampler_make(struct smear_sampler *s, const smear_texture *texture, int uv_shift,
