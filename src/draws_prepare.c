@@ -148,8 +148,9 @@ void smear_draws_prepare(struct smear_context *c)
     c->shot.reach = INT8_MIN;
     for (uint32_t i = 0; i < c->draw_count; i++) {
         look_up_material(c, i);
-        c->stats.triangles_in += c->submitted[i].draw.mesh->triangle_count;
-        c->shot.reach = max_i32(c->shot.reach, draw_reach(&c->submitted[i].draw));
+        const smear_draw *d = &c->submitted[i].draw;
+        c->stats.triangles_in += d->mesh->triangle_count;
+        c->shot.reach = max_i32(c->shot.reach, draw_reach(d));
     }
     smear_draws_classify(c);
     draws_begin_exposure(c, -65536, 65536);

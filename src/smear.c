@@ -217,10 +217,9 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     s->draw = *draw;
     copy_pose(&s->draw.now, &s->pose[0]);
     if (s->draw.now == NULL) {
-        s->pose[0] = (smear_transform){ 0 };
-        for (int i = 0; i < 9; i += 4)
-            s->pose[0].basis[i] = 1 << 24;
         s->draw.now = &s->pose[0];
+        s->pose[0] = (smear_transform){ 0 };
+        s->pose[0].basis[0] = s->pose[0].basis[4] = s->pose[0].basis[8] = 1 << 24;
     }
     copy_pose(&s->draw.open, &s->pose[1]);
     copy_pose(&s->draw.close, &s->pose[2]);

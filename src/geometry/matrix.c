@@ -169,6 +169,7 @@ void smear_projection_make(struct smear_projection *p, const struct smear_view *
     const struct factor one = { 1 << 29, -29 };
     p->depths.orthographic = camera->half_height > 0;
     p->depths.coarse = (uint8_t)coarse;
+    p->depths.up = 0;
 
     /* Pixels per unit (times distance): focal height / 2, or height / (2 half_height). */
     struct factor pixels;

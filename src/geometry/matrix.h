@@ -17,7 +17,7 @@ struct smear_depths {
     int16_t depth_shift;
     bool orthographic;
     uint8_t coarse;             /* X / W and Y / W are in units of 2^coarse pixels, up to 2^11 */
-    uint8_t up;                 /* vertices are 2^up times what the mesh has: smear_shot.reach */
+    int32_t up;                 /* vertices are 2^up times what the mesh has: smear_shot.reach */
 };
 
 /* Whether the camera is orthographic: depths go with distances, not with 1/distance. */

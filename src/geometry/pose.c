@@ -201,10 +201,11 @@ static const struct smear_projection *project_pose(struct smear_draw_poses *p, c
     struct smear_projection *const projection = &p->projection[i];
     if (!p->projected[i]) {
         struct smear_view view;
-        projection->depths.up = (uint8_t)max_i32(0, 15 - mesh->shift - shot->reach);
         smear_view_compose(&view, p->object[i], mesh, &p->camera[i]->pose);
-        view.basis_exp -= projection->depths.up;
+        const int up = max_i32(0, 15 - mesh->shift - shot->reach);
+        view.basis_exp -= up;
         smear_projection_make(projection, &view, p->camera[i], shot->height, p->coarse);
+        projection->depths.up = up;
         p->projected[i] = true;
     }
     return projection;
