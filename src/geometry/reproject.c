@@ -14,13 +14,13 @@
 /* ------------------------------------------------------------------ numbers of any size, once per frame */
 
 /* The number m 2^e, |m| < 2^31: m in the lower word, e in the upper one. Structs would be returned in memory. */
-typedef uint64_t number;
+typedef uint64_t big_number;
 
-static inline number number_make(int32_t m, int e) { return (uint64_t)(uint32_t)e << 32 | (uint32_t)m; }
-static inline int32_t mantissa(number a) { return (int32_t)(uint32_t)a; }
-static inline int exponent(number a) { return (int)(int32_t)(uint32_t)(a >> 32); }
+static inline big_number number_make(int32_t m, int e) { return (uint64_t)(uint32_t)e << 32 | (uint32_t)m; }
+static inline int32_t mantissa_of(big_number a) { return (int32_t)(uint32_t)a; }
+static inline int exponent_of(big_number a) { return (int)(int32_t)(uint32_t)(a >> 32); }
 
-static SMEAR_NOINLINE number number_of(int64_t value, int e)
+static SMEAR_NOINLINE big_number number_of(int64_t value, int e)
 {
     if (value == 0)
         return 0;
@@ -28,24 +28,24 @@ static SMEAR_NOINLINE number number_of(int64_t value, int e)
     return number_make((int32_t)(shift < 0 ? value * ((int64_t)1 << -shift) : value >> shift), e + shift);
 }
 
-static SMEAR_NOINLINE number times(number a, number b)
+static SMEAR_NOINLINE big_number times(big_number a, big_number b)
 {
-    return number_of(mul_wide(mantissa(a), mantissa(b)), exponent(a) + exponent(b));
+    return number_of(mul_wide(mantissa_of(a), mantissa_of(b)), exponent_of(a) + exponent_of(b));
 }
 
 /* Returns a / b for b > 0. */
-static SMEAR_NOINLINE number over(number a, number b)
+static SMEAR_NOINLINE big_number over(big_number a, big_number b)
 {
-    const int zeros = count_leading_zeros((uint32_t)mantissa(b));
-    return times(a, number_make((int32_t)recip_norm_precise((uint32_t)mantissa(b) << zeros), zeros - 61 - exponent(b)));
+    const int zeros = count_leading_zeros((uint32_t)mantissa_of(b));
+    return times(a, number_make((int32_t)recip_norm_precise((uint32_t)mantissa_of(b) << zeros), zeros - 61 - exponent_of(b)));
 }
 
 /* Returns a 2^q to nearest, less than 2^bits in magnitude. */
-static SMEAR_NOINLINE int32_t fixed_of(number a, int q, int bits)
+static SMEAR_NOINLINE int32_t fixed_of(big_number a, int q, int bits)
 {
     const int64_t limit = ((int64_t)1 << bits) - 1;
-    int shift = exponent(a) + q;
-    int64_t value = mantissa(a);
+    int shift = exponent_of(a) + q;
+    int64_t value = mantissa_of(a);
     if (shift < 0)
         value = shift < -40 ? 0 : (value + ((int64_t)1 << (-shift - 1))) >> -shift;
     else if (value != 0 && (shift > 31 || magnitude(value) > (uint64_t)limit >> shift))
@@ -56,9 +56,9 @@ static SMEAR_NOINLINE int32_t fixed_of(number a, int q, int bits)
 }
 
 /* Lets *shift grow by as many bits as a 2^q must lose to fit: several values share it. */
-static SMEAR_NOINLINE void keep_room(int *shift, number a, int q)
+static SMEAR_NOINLINE void keep_room(int *shift, big_number a, int q)
 {
-    const int bits = mantissa(a) == 0 ? 0 : 32 - count_leading_zeros(magnitude_i32(mantissa(a))) + exponent(a) + q;
+    const int bits = mantissa_of(a) == 0 ? 0 : 32 - count_leading_zeros(magnitude_i32(mantissa_of(a))) + exponent_of(a) + q;
     *shift = max_i32(*shift, bits - 30);
 }
 
@@ -73,7 +73,7 @@ struct map {
 static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
                                        { 0, 0, 0 } };
 
-static SMEAR_NOINLINE int32_t narrow(int64_t a, int32_t limit) { return clamp_i32(narrow_sat(a), -limit, limit); }
+static SMEAR_NOINLINE int32_t clamp_narrow(int64_t a, int32_t limit) { return clamp_i32(narrow_sat(a), -limit, limit); }
 
 static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
 {
@@ -100,14 +100,14 @@ static void map_make(struct map *m, const smear_camera *now, const smear_camera 
     int32_t a = flat ? now->half_height : camera->focal, b = flat ? camera->half_height : now->focal;
     if (a == b)
         return;
-    number zoom = over(number_of(a, 0), number_of(b, 0));
+    big_number zoom = over(number_of(a, 0), number_of(b, 0));
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 3; j++)
             m->turn[i][j] = fixed_of(times(number_of(m->turn[i][j], 0), zoom), 0, 31);
-        number offset = times(number_of(m->offset[i], 0), zoom);
-        const int up = exponent(offset);
+        big_number offset = times(number_of(m->offset[i], 0), zoom);
+        const int up = exponent_of(offset);
         m->offset[i] = up > 30 || up < -31 ? 0
-                     : up < 0 ? mantissa(offset) >> -up : (int64_t)mantissa(offset) * ((int64_t)1 << up);
+                     : up < 0 ? mantissa_of(offset) >> -up : (int64_t)mantissa_of(offset) * ((int64_t)1 << up);
         m->offset[i] = clamp_i64(m->offset[i], (int64_t)1 << 58);      /* as without a zoom */
     }
 }
@@ -128,7 +128,7 @@ static bool invert(int32_t out[3][3], const int64_t in[3][3])
     int32_t m[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            m[i][j] = narrow(in[i][j], 8 << 27) >> 2;                      /* q25 */
+            m[i][j] = clamp_narrow(in[i][j], 8 << 27) >> 2;                      /* q25 */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
@@ -139,7 +139,7 @@ static bool invert(int32_t out[3][3], const int64_t in[3][3])
         determinant += m[0][j] * (clamp_i64(minor[0][j], (int64_t)1 << 33)) >> 25;     /* q27 */
     if (determinant < 1 << 20)
         return false;
-    number d = number_of(determinant, -27);
+    big_number d = number_of(determinant, -27);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out[i][j] = fixed_of(over(number_of(minor[j][i], -27), d), 27, 31);
@@ -152,14 +152,14 @@ static void map_from_drawn(struct map *m, const int32_t inverse[3][3], const int
     for (int i = 0; i < 3; i++) {
         int32_t turn[3];
         for (int j = 0; j < 3; j++)
-            turn[j] = narrow(m->turn[i][j], 1 << 30);
+            turn[j] = clamp_narrow(m->turn[i][j], 1 << 30);
         for (int j = 0; j < 3; j++) {
             m->turn[i][j] = 0;
             for (int k = 0; k < 3; k++)
                 m->turn[i][j] += mul_wide(turn[k], inverse[k][j]) >> 27;
         }
         for (int j = 0; j < 3; j++)
-            m->offset[i] -= (narrow(m->turn[i][j], 1 << 30) >> 10)
+            m->offset[i] -= (clamp_narrow(m->turn[i][j], 1 << 30) >> 10)
                        * (clamp_i64(offset[j], (int64_t)1 << 55) >> 14) >> 3;
     }
 }
@@ -169,8 +169,8 @@ static void map_from_drawn(struct map *m, const int32_t inverse[3][3], const int
 static void pose_perspective(struct smear_reprojection_pose *p, const struct map *m, const smear_camera *now,
                              int32_t height)
 {
-    number focal = number_of(mul_wide(now->focal, height), -17);
-    number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
+    big_number focal = number_of(mul_wide(now->focal, height), -17);
+    big_number near_units = times(number_of(now->near_plane, -16), number_of(SMEAR_DEPTH_NEAR, 0)), u[3];
     int u_shift = 0, w_shift = 0;
     for (int i = 0; i < 3; i++) {
         u[i] = over(number_of(m->offset[i], -40), near_units);
@@ -184,7 +184,7 @@ static void pose_perspective(struct smear_reprojection_pose *p, const struct map
     }
     p->w_x = fixed_of(over(number_of(m->turn[2][0], -27), focal), 30, 31);
     p->w_y = fixed_of(over(number_of(m->turn[2][1], -27), focal), 30, 31);
-    p->w_1 = narrow(m->turn[2][2], 1 << 29);
+    p->w_1 = clamp_narrow(m->turn[2][2], 1 << 29);
     p->w_u = fixed_of(u[2], 48 - w_shift, 31);
     p->u_shift = (uint8_t)min_i32(u_shift, 31);
     p->w_shift = (uint8_t)min_i32(w_shift, 31);
@@ -194,14 +194,14 @@ static void pose_orthographic(struct smear_reprojection_pose *p, const struct ma
                               int32_t height)
 {
     /* Distance is far less range times units over NEAR. */
-    number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
-    number far_plane = number_of(now->far_plane, -16);
-    number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
-                       number_of(SMEAR_DEPTH_NEAR, 0));
-    number u[2];
+    big_number unit_px = over(number_of(height, 0), number_of(now->half_height, -15));
+    big_number far_plane = number_of(now->far_plane, -16);
+    big_number step = over(number_of((int64_t)now->far_plane - now->near_plane, -16),
+                           number_of(SMEAR_DEPTH_NEAR, 0));
+    big_number u[2];
     int u_shift = 0;
     for (int i = 0; i < 2; i++) {
-        number across = times(number_of(-m->turn[i][2], -27), unit_px);
+        big_number across = times(number_of(-m->turn[i][2], -27), unit_px);
         int64_t one = fixed_of(times(number_of(m->offset[i], -40), unit_px), 16, 30);
         p->one[i] = (int32_t)(one - fixed_of(times(across, far_plane), 16, 30));
         u[i] = times(across, step);
@@ -234,8 +234,8 @@ void smear_reproject_make(struct smear_reprojection *r, const smear_camera *now,
         const struct map *m = &map[i == 0 ? 1 : to_close ? 2 : 0];
         struct smear_reprojection_pose *p = &r->pose[i];
         for (int j = 0; j < 2; j++) {
-            p->x[j] = narrow(m->turn[0][j], 1 << 30);
-            p->y[j] = narrow(m->turn[1][j], 1 << 30);
+            p->x[j] = clamp_narrow(m->turn[0][j], 1 << 30);
+            p->y[j] = clamp_narrow(m->turn[1][j], 1 << 30);
         }
         if (now->half_height > 0)
             pose_orthographic(p, m, now, height);
@@ -298,23 +298,23 @@ static int64_t scale_up(int32_t a, int shift) { return (int64_t)((uint64_t)(int6
 /* How a term changes from the first pose to the second, over the exposure. */
 struct change {
     const struct smear_reprojection *r;
-    number exposure;
+    big_number exposure;
 };
 
 /* Returns the change of a term 2^-q; without a second pose it ends where nothing moves. */
-static number change_of(const struct change *c, int64_t first, int64_t second, int q)
+static big_number change_of(const struct change *c, int64_t first, int64_t second, int q)
 {
     return times(number_of((c->r->poses == 2 ? second : 0) - first, -q), c->exposure);
 }
 
 /* Makes terms per unit of 11 bits. Returns by how many they are to be shifted down. */
-static uint8_t take_units(int32_t out[], const number term[], int count)
+static uint8_t take_units(int32_t out[], const big_number term[], int count)
 {
     enum { BITS = 11 };
     int up = 47;
     for (int i = 0; i < count; i++)
-        if (mantissa(term[i]) != 0)
-            up = min_i32(up, BITS - (32 - count_leading_zeros(magnitude_i32(mantissa(term[i])))) - exponent(term[i]));
+        if (mantissa_of(term[i]) != 0)
+            up = min_i32(up, BITS - (32 - count_leading_zeros(magnitude_i32(mantissa_of(term[i])))) - exponent_of(term[i]));
     up = clamp_i32(up, 16, 47);
     for (int i = 0; i < count; i++)
         out[i] = fixed_of(term[i], up, BITS);
@@ -326,8 +326,8 @@ void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, i
     enum { MOST = 28 };         /* bits of a sum's terms: 4096 px */
     const struct smear_reprojection_pose *p = &r->pose[0], *q = &r->pose[1];
     const struct change c = { r, number_of(exposure, -16) };
-    const number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
-    number aside[2];
+    const big_number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
+    big_number aside[2];
     *f = (struct smear_flow){ .width = r->width, .height = r->height };
     f->turn_x = fixed_of(change_of(&c, -(int64_t)p->w_x, -(int64_t)q->w_x, 30), 22, 19);
     f->turn_y = fixed_of(change_of(&c, -(int64_t)p->w_y, -(int64_t)q->w_y, 30), 22, 19);
