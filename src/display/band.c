@@ -194,8 +194,7 @@ static bool convert_at_once(const struct row_job *r, const struct smear_raster_t
     return true;
 }
 
-void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0,
-                             int32_t x1)
+void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1)
 {
     const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
     if (rows_have_points(r->rows))

@@ -52,8 +52,7 @@ static inline bool reaches(const struct smear_bins *g, const struct smear_triang
     return r->y[t->vertex[0]] > end || r->y[t->vertex[1]] > end || r->y[t->vertex[2]] > end;
 }
 
-uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
-                          int32_t y)
+uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row, int32_t y)
 {
     struct smear_triangle *const top = bins_triangle(g, 0);
     struct reach reach = { NULL, SMEAR_NO_TRIANGLE, false };

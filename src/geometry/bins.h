@@ -169,14 +169,12 @@ static inline struct smear_triangle *bins_triangle(const struct smear_bins *g, u
     return (struct smear_triangle *)(void *)(g->pool + g->pool_words) - (i + 1);
 }
 
-static inline const int32_t *bins_vertex(const struct smear_bins *g,
-                                         const struct smear_segment *s, uint16_t offset)
+static inline const int32_t *bins_vertex(const struct smear_bins *g, const struct smear_segment *s, uint16_t offset)
 {
     return (const int32_t *)(const void *)(g->pool + s->base + offset);
 }
 
-static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_words,
-                                 uint32_t triangles)
+static inline bool bins_has_room(const struct smear_bins *g, uint32_t vertex_words, uint32_t triangles)
 {
     uint32_t triangle_words = (g->triangle_count + triangles) * (sizeof(struct smear_triangle) / 4);
     return g->vertex_words + vertex_words + triangle_words <= g->pool_words;
@@ -263,8 +261,7 @@ static inline const struct smear_path_bounds *bins_bounds(const struct smear_bin
 uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row);
 
 /* Moves a list on like smear_bins_advance, for who looks further up: drops only what ends above pixel row y. */
-uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row,
-                          int32_t y);
+uint32_t smear_bins_merge(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row, int32_t y);
 
 /* Returns twice the signed area between two edges; of pixels q8 positive where the second is clockwise of the first on the screen (y down).
  * Short edges take products of 32 bits where others are calls. */

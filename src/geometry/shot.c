@@ -122,8 +122,7 @@ bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b)
 }
 
 /* Between a perspective and an orthographic view there is no path, as after a cut. */
-void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last,
-                    const smear_camera *older)
+void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last, const smear_camera *older)
 {
     if (!SMEAR_BLURS) {
         shot->camera[0] = *frame->camera;

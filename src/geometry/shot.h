@@ -76,8 +76,7 @@ void smear_shot_find_turn(struct smear_shot *shot);
 bool smear_camera_is_of_kind(const smear_camera *a, const smear_camera *b);
 
 /* Fills in the cameras of a frame. `last` and `older`: the cameras of the frame before and of that before it, or null. */
-void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last,
-                    const smear_camera *older);
+void smear_shot_aim(struct smear_shot *shot, const smear_frame *frame, const smear_camera *last, const smear_camera *older);
 
 /* Where something is now, a frame ago and, with has_older, two frames ago. */
 struct smear_track {

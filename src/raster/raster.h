@@ -12,8 +12,7 @@ struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, in
 struct smear_raster_cache smear_raster_cache_of(const struct smear_raster_cache *first, int i);
 
 /* Draws the list that starts with triangle `head`, in order. */
-void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,
-                       uint32_t head);
+void smear_raster_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t head);
 
 /* What else is done meanwhile: before every sixteenth triangle. */
 struct smear_between {

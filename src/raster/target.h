@@ -73,8 +73,7 @@ static inline void target_put(const struct smear_raster_target *t, int32_t at, u
 }
 
 /* Index of column 0 of the frame in row y of a plane. */
-static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t,
-                                 int32_t y)
+static inline int32_t target_row(const struct smear_plane_rows *rows, const struct smear_raster_target *t, int32_t y)
 {
     int32_t ring_row = rows->ring_row + (y - t->y0);
     return (ring_row >= rows->ring ? ring_row - rows->ring : ring_row) * rows->stride - rows->x0;

@@ -194,8 +194,7 @@ static void sample_wrapped(uint32_t *out, const struct smear_sampler *s, const s
     }
 }
 
-void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
-                  int first, int n)
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
 {
     if (SMEAR_SMALL_FILE) {
         sample_run(out, s, run, first, n, s->turns, s->format);

@@ -54,7 +54,6 @@ static inline uint32_t sampler_index(const struct smear_sampler *s, uint32_t u, 
 uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v);
 
 /* Texels of pixels [first, first + n) of a block, as 0xAARRGGBB. Any format, size, wrap. */
-void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run,
-                  int first, int n);
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n);
 
 #endif

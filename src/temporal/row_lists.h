@@ -24,8 +24,7 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *bin
                         uint32_t head, int32_t top, int32_t first, int32_t end);
 
 /* Lists the moving triangles from `head` on. */
-void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
-                       uint32_t head);
+void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w, uint32_t head);
 
 /* Marks the tiles of blended draws, from `head` on. */
 void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
