@@ -344,7 +344,7 @@ static void write_file(FILE *out, int file, bool renames)
     }
 }
 
-/* The first two comments stay: the licence, and what the file is. Columns inside of lines go, indentation stays. */
+/* The first two comments stay: the licence, and what the file is. Columns inside of lines go, indentation is of tabs. */
 static void write_bare(FILE *out, const char *p)
 {
     int kept = 2;
@@ -359,7 +359,11 @@ static void write_bare(FILE *out, const char *p)
         } else if (is_comment(t) && kept-- <= 0) {
             blanks += blanks == 0;
         } else {
-            fprintf(out, "%s%*s%.*s", line ? "\n" : "", (int)blanks, "", (int)t.length, t.at);
+            if (line)
+                fputc('\n', out);
+            for (; line && blanks >= 4; blanks -= 4)
+                fputc('\t', out);
+            fprintf(out, "%*s%.*s", (int)blanks, "", (int)t.length, t.at);
             line = blanks = 0;
         }
     }
