@@ -218,7 +218,7 @@ int smear_submit(smear_context *c, const smear_draw *draw)
     copy_pose(&s->draw.now, &s->pose[0]);
     if (s->draw.now == NULL) {
         s->draw.now = &s->pose[0];
-        s->pose[0] = (smear_transform){ 0 };
+        s->pose[0] = (smear_transform){ { 0 }, { 0 } };
         s->pose[0].basis[0] = s->pose[0].basis[4] = s->pose[0].basis[8] = 1 << 24;
     }
     copy_pose(&s->draw.open, &s->pose[1]);
