@@ -383,7 +383,7 @@ enum { THIRD = 3 };             /* the mean of so many is a product by 85 and a 
 SMEAR_INLINE uint32_t mixed_codes(uint32_t mean, uint32_t more, uint32_t k, uint32_t part)
 {
     const uint32_t pair = 0xff00ffu, red_blue = k * (mean & pair) + (more & pair), green = (k * mean + more - red_blue) >> 8;
-    const uint32_t rest = k + 1 == THIRD ? red_blue >> 2 & pair : 0, green_rest = k + 1 == THIRD ? green >> 2 : 0;
+    const uint32_t rest = k + 1 == THIRD ? red_blue >> 2 & pair : 0, green_rest = k + 1 == THIRD ? green >> 2 & 255u : 0;
     return ((red_blue * part + rest + 0x800080u) >> 8 & pair) | ((green * part + green_rest + 128u) & 0xff00u);
 }
 

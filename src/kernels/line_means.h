@@ -13,7 +13,7 @@ struct line_block {
     uint32_t *out;              /* rows `out_stride` apart */
     int32_t in_stride, out_stride;
     int32_t columns, rows;
-    int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX, fast but for 1: */
+    int32_t log;                /* 2^log taps, log 0 .. LINE_TAPS_LOG_MAX, but 1, which no line has: */
     int32_t offset[LINE_TAPS_MAX];      /* from a pixel to each */
     bool sparse;                /* of most taps; rows have a multiple of LINE_SPARSE columns, and their ends have taps: means are taken of
                                  * every fourth pixel, and what lies between two is theirs */
@@ -25,11 +25,11 @@ enum { LINE_SPARSE = 4 };
 static inline uint32_t line_between(uint32_t a, uint32_t b) { return (a | b) - ((a ^ b) >> 1 & 0x7f7f7fu); }
 
 /* Writes the mean of each pixel's taps; with `linear` that of their light, for which the squares of codes stand, as a code. The fourth
- * channel of all is 0. */
+ * channel may be anything: texels are copied with theirs. */
 void smear_line_means(const struct line_block *b, bool linear);
 
 /* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. Their upper eight
- * bits are 0. */
+ * bits may be anything. */
 void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
 
 /* What all variants give. */

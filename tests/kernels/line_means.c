@@ -17,16 +17,24 @@ static int32_t rows_of(const struct kernel_call *c) { return 1 + (int32_t)(c->wo
 static int32_t in_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_IN] % 5u); }
 static int32_t out_stride(const struct kernel_call *c) { return c->n + (int32_t)(c->word[GAP_OUT] % 5u); }
 
-/* Lines cross pixels that are often alike; the fourth channel of a window's pixels is 0. */
+/* Lines cross pixels that are often alike; their fourth channel is whatever texels had. */
 static void prepare(struct kernel_call *c)
 {
     uint32_t *in = c->plane[IN];
     const int32_t rows = rows_of(c), pixels = (rows - 1) * in_stride(c) + c->n + 1 + 2 * REACH;
     const uint32_t alike = kernel_random() % 4u;
     for (int32_t i = 0; i < pixels; i++)
-        in[i] = i > 0 && kernel_random() % 4u < alike ? in[i - 1] : in[i] & 0xffffffu;
+        in[i] = i > 0 && kernel_random() % 4u < alike ? in[i - 1] : in[i];
     c->bytes[IN] = pixels * 4;
     c->bytes[OUT] = ((rows - 1) * out_stride(c) + c->n) * 4;
+}
+
+/* What a fourth channel becomes is nobody's matter. */
+static void forget_fourth(struct kernel_call *c)
+{
+    uint32_t *out = c->plane[OUT];
+    for (int32_t i = 0; i < c->bytes[OUT] / 4; i++)
+        out[i] &= 0xffffffu;
 }
 
 static void call(struct kernel_call *c, void (*means)(const struct line_block *b, bool linear), bool linear)
@@ -39,6 +47,7 @@ static void call(struct kernel_call *c, void (*means)(const struct line_block *b
     for (int k = 0; k < LINE_TAPS_MAX; k++)
         b.offset[k] = (int32_t)(c->word[OFFSET + k] % (2 * REACH + 1u)) - REACH;
     means(&b, linear);
+    forget_fourth(c);
 }
 
 /* The code whose square comes next to one of such a size, as near as a table of 1024 roots tells it. */
@@ -123,14 +132,13 @@ static void prepare_mix(struct kernel_call *c)
     for (int32_t i = 0; i < c->n; i++) {
         const uint32_t near = out[i] ^ (kernel_random() & 0x0f0f0fu);
         in[i] = kernel_random() % 4u < alike ? out[i] : kernel_random() % 2u != 0 ? near : in[i];
-        in[i] &= 0xffffffu;
-        out[i] &= 0xffffffu;
     }
 }
 
 static void mix(struct kernel_call *c, void (*mixes)(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear), bool linear)
 {
     mixes(c->plane[OUT], c->plane[IN], c->n, 1 + (int32_t)(c->word[LOG] % 3u), linear);
+    forget_fourth(c);
 }
 
 /* Each channel by itself; a third is 85 and a quarter of 256. Words that are the same stay. */
