@@ -241,7 +241,7 @@ void smear_draws_end_damage(struct smear_context *c, int result)
 static void begin_damage(struct smear_context *c, bool with_static)
 {
     struct smear_damage *d = c->damage;
-    const uint8_t kind = (uint8_t)(c->frame.light_space | c->frame.edges << 1 | (c->shot.reach & 31) << 2 | damage_compares(d) << 7);
+    const uint16_t kind = (uint16_t)(c->frame.light_space | c->frame.edges << 1 | damage_compares(d) << 2 | (c->shot.reach & 127) << 3);
     smear_damage_begin(d, &c->shot.camera[0], c->frame.clear, kind, &c->sun);
     for (uint32_t i = 0; with_static && i < c->draw_count; i++)
         if (!c->raster_draw[i].moves)

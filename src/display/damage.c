@@ -81,11 +81,10 @@ static void mix_material(uint32_t h[2], const smear_material *m)
 
 /* ------------------------------------------------------------------ frames */
 
-void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint8_t kind,
+void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint16_t kind,
                         const struct smear_sun *sun)
 {
-    const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane,
-                             (int32_t)(clear << 8 | kind) };
+    const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane, (int32_t)clear, kind };
     d->next[0] = d->next[1] = 0;
     mix_transform(d->next, &camera->pose);
     mix(d->next, word, (int)(sizeof word / sizeof *word));

@@ -36,10 +36,10 @@ static inline uint32_t turn_angle(const struct smear_turn *turn, int32_t time)
     return (uint32_t)((int64_t)turn->angle * time >> 24);
 }
 
-/* Returns now + (now - before) time, time in q24. */
+/* Returns now + (now - before) time, time in q24; saturates. */
 int32_t smear_arc_number(int32_t before, int32_t now, int32_t time);
 
-/* Returns now + (other - now) scale, scale in q8. */
+/* Returns now + (other - now) scale, scale in q8; saturates. */
 int32_t smear_arc_scaled(int32_t now, int32_t other, uint32_t scale);
 
 /* Finds the pose at a time, q24, -64 to 64: 0 is `now`, -1 is `before`; both are met exactly. In

@@ -210,7 +210,8 @@ static SMEAR_NOINLINE enum depth_slope slope_of_rows(const struct setup *s, cons
     const int32_t x0 = min_i32(top->left, bottom->left), x1 = max_i32(top->right, bottom->right), end = r->y + r->count - 1;
     const enum depth_slope slope = slope_at(s, x0, r->y);
     const bool same = slope == slope_at(s, x1, r->y) && slope == slope_at(s, x0, end) && slope == slope_at(s, x1, end);
-    return same && magnitude_i32(s->depth.dx) < 1u << 18 ? slope : SLOPE_BOTH;      /* planes do not wrap in a frame */
+    const uint32_t steep = magnitude_i32(s->depth.dx) | magnitude_i32(s->depth.dy);
+    return same && steep < 1u << 18 ? slope : SLOPE_BOTH;       /* planes do not wrap in a frame */
 }
 
 static inline void gather_draw(struct gather *g, const struct setup *s, smear_rows_fn *draw)
