@@ -1082,6 +1082,11 @@ static void test_lights_are_as_bright_as_a_picture_can_show(void)
         { LIT("[{'type':'point','intensity':5000}]", SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 36 },
         { LIT("[{'type':'point','intensity':5000,'range':10}]", SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 10 },
         { LIT("[{'type':'point','intensity':0}]", SIX("{" SHINES(0) "}")), 0, 0 },
+        /* A lamp in the midst of the model; a cone without a soft border; a light that is hidden. */
+        { LIT("[{'type':'point','intensity':5000}]", SIX("{'translation':[0.5,0.5,0]," SHINES(0) "}")), 0, 2 * sqrt(2) },
+        { LIT("[{'type':'spot','intensity':0.25,'spot':{'innerConeAngle':0.5,'outerConeAngle':0.5}}]",
+              SIX("{'translation':[0.5,0.5,9]," SHINES(0) "}")), 0, 2 },
+        { LIT("[{'type':'directional','intensity':0}]", SIX("{'scale':[0,0,0]," SHINES(0) "}")), 0, 0 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct model m;
@@ -1091,7 +1096,7 @@ static void test_lights_are_as_bright_as_a_picture_can_show(void)
             say("    %s\n", f.text);
             continue;
         }
-        CHECK(m.warning[0] == '\0');
+        CHECK((m.warning[0] != '\0') == (strstr(cases[i].file, "spot") != NULL));
         CHECK(model_find_lights(&m, &lights, &f));
         CHECK_CLOSE(lights.color[MODEL_SUN][0], cases[i].sun, 1e-9);
         CHECK_CLOSE(lights.reach, cases[i].reach, 1e-9);

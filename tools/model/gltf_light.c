@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_light.c - KHR_lights_punctual: the lights of a file, and which of them a frame has: the first two directional ones and the first
- * point of the nodes that are drawn. All are checked; what is left out is named. */
+ * point or spot of the nodes that are drawn. All are checked; what is left out is named. */
 #include "tools/model/gltf.h"
 
 #include <stdlib.h>
@@ -55,7 +55,7 @@ static bool check_spot(struct gltf *g, int object)
         return json_fail(&g->json, object, "spot", g->f, "a spot light has a cone");
     return json_get_number(&g->json, spot, "innerConeAngle", &inner, g->f)
         && json_get_number(&g->json, spot, "outerConeAngle", &outer, g->f)
-        && ((inner >= 0 && inner < outer && outer <= right + 1e-6)
+        && ((inner >= 0 && inner <= outer && outer <= right + 1e-6)
             || json_fail(&g->json, spot, NULL, g->f, "angles from %g to %g are no cone", inner, outer));
 }
 

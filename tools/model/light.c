@@ -2,7 +2,7 @@
 /* light.c - the lights of a file as a frame has them.
  *
  * Files say lux and candela, and nothing of an exposure. So light is dimmed until the brightest, in the middle of the model at rest, is
- * one; what is fainter stays as it is. A point of I candela is as bright as a directional light of I / d^2 lux at a distance of d. The
+ * one (of a lamp that is nearer to it than half of the model, as far away as that); what is fainter stays as it is. A point of I candela is as bright as a directional light of I / d^2 lux at a distance of d. The
  * library's lamp has all of its colour at a quarter of its reach: that is where the point has come down to one. */
 #include "tools/model/model.h"
 
@@ -31,16 +31,21 @@ static void place_node(const struct model *model, int node, double out[16])
     }
 }
 
-/* Returns the square of the distance of a place from the middle of what is drawn, at rest; 0: nothing is. */
+/* Finds the square of the distance of a place from the middle of what is drawn, at rest, but of half of that at least: a light among
+ * what is drawn is as far from most of it. 0: nothing is drawn. */
 static bool find_distance(const struct model *model, const double place[3], double *square, struct failure *f)
 {
     struct model_pose pose = { 0 };
     double low[3], high[3];
     const bool ok = model_pose(model, MODEL_CLIP_NONE, 0, false, &pose, f);
+    double least = 0;
     *square = 0;
     if (ok && model_pose_bounds(&pose, low, high))
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
             *square += (place[i] - (low[i] + high[i]) / 2) * (place[i] - (low[i] + high[i]) / 2);
+            least += (high[i] - low[i]) * (high[i] - low[i]) / 4;
+        }
+    *square = fmax(*square, least);
     model_pose_free(&pose);
     return ok;
 }
@@ -65,7 +70,7 @@ bool model_find_lights(const struct model *model, struct model_lights *out, stru
     *out = (struct model_lights){ .reach = 0 };
     for (int i = 0; i < MODEL_LIGHTS; i++) {
         const struct model_light *light = &model->light[i];
-        if (!light->is_there)
+        if (!light->is_there || !(brightest_of(light) > 0))
             continue;
         place_node(model, light->node, world);
         const double length = sqrt(world[8] * world[8] + world[9] * world[9] + world[10] * world[10]);
@@ -77,7 +82,7 @@ bool model_find_lights(const struct model *model, struct model_lights *out, stru
         }
         if (i != MODEL_LAMP && !(length > 0))
             return fail(f, "a light's node has no direction (scale of zero, nodes[%d])", light->node);
-        out->has[i] = brightest_of(light) > 0;
+        out->has[i] = true;
     }
     if (!find_exposure(model, out, &exposure, f))
         return false;
