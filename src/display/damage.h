@@ -66,7 +66,7 @@ static inline void damage_forget(struct smear_damage *d)
 }
 
 /* Before anything is drawn: takes in the camera and what else a frame's picture of static draws depends on (`kind`: bits of
- * light space, edges, and whether draws are compared), then each static draw, in order, then finds out whether it is the last
+ * light space, edges, whether draws are compared, and reach), then each static draw, in order, then finds out whether it is the last
  * frame's scene (is_same). Of frames that compare, draws are none of it. */
 void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint32_t clear, uint16_t kind,
                         const struct smear_sun *sun);

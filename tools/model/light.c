@@ -2,8 +2,9 @@
 /* light.c - the lights of a file as a frame has them.
  *
  * Files say lux and candela, and nothing of an exposure. So light is dimmed until the brightest, in the middle of the model at rest, is
- * one (of a lamp that is nearer to it than half of the model, as far away as that); what is fainter stays as it is. A point of I candela is as bright as a directional light of I / d^2 lux at a distance of d. The
- * library's lamp has all of its colour at a quarter of its reach: that is where the point has come down to one. */
+ * one (of a lamp that is nearer to it than half of the model: as far away as that); what is fainter stays as it is. A point of I candela
+ * is as bright as a directional light of I / d^2 lux at a distance of d. The library's lamp has all of its colour at a quarter of its
+ * reach: that is where the point has come down to one. */
 #include "tools/model/model.h"
 
 #include "tools/model/matrix.h"
