@@ -524,7 +524,7 @@ static void check_tiles(struct presenter *p, const struct present_options *o, bo
     desc.max_triangles *= 4;
     if (!sharp)
         desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
-    present_tiles(&desc);
+    present_tiles(&desc, false);
     desc.flush = note_band;
     desc.user = &n;
     size_t bytes = smear_memory_size(&desc);

@@ -390,7 +390,7 @@ static bool draw(struct visitor *v, const struct spec *spec, int index,
     smear_stats stats;
     if (index == 0) {
         smear_desc desc = spec->desc;
-        present_tiles(&desc);
+        present_tiles(&desc, false);
         desc.flush = add_to_crc;
         desc.user = v;
         v->desc = desc;
@@ -454,7 +454,7 @@ static bool write_tapes(const char *path, const char *golden_path, size_t limit,
         (golden_path != NULL ? complete_golden : complete_bench)(&spec);
         *file = spec.name;
         smear_desc desc = spec.desc;
-        present_tiles(&desc);
+        present_tiles(&desc, false);
         desc.flush = add_to_crc;
         if (limit == 0 || (smear_memory_size(&desc) <= limit && !(spec.has_large_textures || spec.has_large_meshes)))
             ok = visit(&spec, &visitor, f);

@@ -82,7 +82,7 @@ static bool add_tape(struct tape_writer *writer, const char *scene_name, int m, 
         desc.format = SMEAR_RGB565;
         desc.reach = 8;
         desc.max_triangles = TRIANGLES;
-        present_tiles(&desc);
+        present_tiles(&desc, false);
         desc.flush = throw_away;
         snprintf(name, sizeof name, "%.5s-%d-%s", strchr(scene_name, '/') + 1, size[0],
                  methods[m].name);

@@ -53,7 +53,7 @@ static bool start_library(struct rig *rig, struct failure *f)
     desc.methods |= (uint16_t)(t->windowed ? SMEAR_SET(SMEAR_RECONSTRUCT) : 0u);
     desc.methods |= (uint16_t)(t->method == SMEAR_AUTO && t->target >= SMEAR_DRAFT ? SMEAR_SET_SKETCH : 0u);
     if (!t->plain_context)
-        present_tiles(&desc);
+        present_tiles(&desc, true);
     desc.workers = (uint8_t)(t->workers > 1 ? t->workers : 1);
     desc.band_rows = t->windowed ? 0 : (int16_t)t->band_rows;
     if (t->instant_only)        /* other instants may show more draws */

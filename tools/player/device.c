@@ -85,7 +85,7 @@ static smear_desc full_desc(struct device *device, const struct presented *prese
     if ((s->methods & SMEAR_SET_FILTERS) == 0)
         desc.filter.passes = 0;
     desc.filter.scatter = s->scatter;
-    present_tiles(&desc);
+    present_tiles(&desc, s->arena == 0);
     desc.reuse.cache_static = s->cache_static;
     desc.reuse.buffer_age = s->keep_display;
     desc.debug.crc = 1;

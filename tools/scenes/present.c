@@ -800,7 +800,7 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
                          .max_triangles = triangles };
 }
 
-void present_tiles(smear_desc *desc)
+void present_tiles(smear_desc *desc, bool wide)
 {
     enum { STRIP = 256 };
     const bool has_reach = (desc->methods & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH)) != 0;
@@ -812,7 +812,7 @@ void present_tiles(smear_desc *desc)
         desc->tile = least <= 8 ? 8 : least <= 16 ? 16 : least <= 32 ? 32 : 64;
     const int strips = (desc->width + STRIP - 1) / STRIP;
     if (desc->strip == 0 && is_temporal && strips > 0)
-        desc->strip = (int16_t)((desc->width + strips * desc->tile - 1) / (strips * desc->tile) * desc->tile);
+        desc->strip = (int16_t)(wide ? (desc->width + strips * desc->tile - 1) / (strips * desc->tile) * desc->tile : 128);
 }
 
 double presented_depth(const struct presented *presented, uint16_t code)
@@ -872,7 +872,7 @@ static bool room_for(struct room *room, const struct presented *presented, int w
     desc.format = SMEAR_XRGB8888;
     desc.methods = SMEAR_SET(SMEAR_NONE);
     desc.filter.passes = 0;
-    present_tiles(&desc);
+    present_tiles(&desc, true);
     desc.flush = add_band;
     desc.user = mean;
     size_t bytes = smear_memory_size(&desc);

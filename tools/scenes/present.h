@@ -136,9 +136,9 @@ int presented_submit(const struct presented *presented, smear_context *ctx);
 smear_desc presented_desc(const struct presented *presented, int width, int height);
 
 /* Gives a desc whose tile or strip is 0 the one that pictures of the command line are drawn with, whatever the library's own defaults
- * are: pictures depend on them a little. A row is cut into as few strips as there are of 256 px, all of one width: what lies across
- * their border is made ready in both. */
-void present_tiles(smear_desc *desc);
+ * are: pictures depend on them a little. `wide`: a row is cut into as few strips as there are of 256 px, all of one width, as what lies
+ * across their border is made ready in both. Else strips are of 128 px, as boards have the memory for; golden frames are drawn so. */
+void present_tiles(smear_desc *desc, bool wide);
 
 /* Distance along the view in scene units of a depth code; infinity for the background. */
 double presented_depth(const struct presented *presented, uint16_t code);

@@ -318,9 +318,7 @@ static int desc_object(struct tape_writer *w, const smear_desc *given)
 {
     struct buffer text = { 0 };
     smear_desc d = *given;
-    if (d.strip == 0 && (d.methods & SMEAR_SET_TEMPORAL) != 0)
-        d.strip = 128;      /* golden frames are drawn by boards, too */
-    present_tiles(&d);
+    present_tiles(&d, false);
     buffer_print(&text, "{ ");
     add_field(&text, "width", d.width);
     add_field(&text, "height", d.height);
