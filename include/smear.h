@@ -76,7 +76,7 @@ typedef struct smear_transform {
 
 /* Vertices and triangles; all of it may stay in flash. Object coordinates are (position + offset) x scale / 2^shift. */
 typedef struct smear_mesh {
-    const int16_t *position;    /* x y z of each vertex, exact where they fill 16 bits; required */
+    const int16_t *position;    /* x y z of each vertex; required */
     const int8_t  *normal;      /* x y z of each vertex, 127 is one; null: flat, from the triangle */
     const int16_t *uv;          /* u v of each vertex, in 1/2^uv_shift of the texture; null: none */
     const uint8_t *color;       /* r g b a of each vertex, r g b sRGB-encoded; null: white */
