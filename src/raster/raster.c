@@ -180,7 +180,10 @@ static inline bool is_beyond_edge(const struct smear_raster_target *t, const int
         const int32_t *const a = v[i], *const b = v[i == 2 ? 0 : i + 1];
         const int32_t dx = (b[VERTEX_X] - a[VERTEX_X]) >> 8, dy = (b[VERTEX_Y] - a[VERTEX_Y]) >> 8;
         const int32_t x = (dy >= 0 ? t->x0 : t->x1) - (a[VERTEX_X] >> 8), y = (dx >= 0 ? bottom : top) - (a[VERTEX_Y] >> 8);
-        if (cross_wide(dx, dy, x, y) + abs_i32(dx) + abs_i32(dy) + abs_i32(x) + abs_i32(y) + 2 < 0)
+        const int32_t apart = abs_i32(dx) + abs_i32(dy), off = abs_i32(x) + abs_i32(y);
+        if (max_i32(apart, off) >= 1 << 15)         /* far beyond the guard band: products would not fit */
+            return false;
+        if (dx * y - dy * x + apart + off + 2 < 0)
             return true;
     }
     return false;
