@@ -18,7 +18,7 @@ static int64_t distance_to(const struct smear_clip_vertex *v, const struct smear
     if (plane == PLANE_FAR)
         return (int64_t)depths->far_distance - h->distance;
     const int32_t at = plane >= PLANE_TOP ? h->y : h->x;
-    return mul_wide(h->w, SMEAR_GUARD_PX >> depths->coarse) + (plane == PLANE_LEFT || plane == PLANE_TOP ? at : -at);
+    return (int64_t)h->w * (SMEAR_GUARD_PX >> depths->coarse) + (plane == PLANE_LEFT || plane == PLANE_TOP ? at : -at);
 }
 
 /* Tells the sign of the distance: a < -2048 w where floor(a / 2048) < -w. */
