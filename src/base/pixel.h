@@ -232,4 +232,11 @@ typedef uint32_t __attribute__((may_alias)) pixel_word;
 typedef uint32_t pixel_word;
 #endif
 
+/* Returns the square by which two colours differ. */
+static inline uint32_t pixel_square_between(uint32_t a, uint32_t b)
+{
+    const uint32_t red = pixel_red(a) - pixel_red(b), green = pixel_green(a) - pixel_green(b), blue = pixel_blue(a) - pixel_blue(b);
+    return red * red + green * green + blue * blue;
+}
+
 #endif

@@ -157,13 +157,6 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     return k;
 }
 
-/* Returns the square by which two colours differ. */
-static uint32_t square_between(uint32_t a, uint32_t b)
-{
-    const uint32_t red = pixel_red(a) - pixel_red(b), green = pixel_green(a) - pixel_green(b), blue = pixel_blue(a) - pixel_blue(b);
-    return red * red + green * green + blue * blue;
-}
-
 /* Adds the contrast of one pixel of each block of columns [x0, x1), `in` from its left, with those beside and below it. */
 static void add_contrast(struct smear_line_seen *seen, const uint32_t *row, const uint32_t *below, int32_t in, int32_t x0, int32_t x1)
 {
@@ -171,7 +164,7 @@ static void add_contrast(struct smear_line_seen *seen, const uint32_t *row, cons
         const int32_t at = min_i32(x + in, x1 - 2);
         if (at < x || ((row[at] ^ row[at + 1]) | (row[at] ^ below[at])) == 0)
             continue;
-        const uint32_t square = square_between(row[at], row[at + 1]) + square_between(row[at], below[at]);
+        const uint32_t square = pixel_square_between(row[at], row[at + 1]) + pixel_square_between(row[at], below[at]);
         seen->contrast = (uint16_t)(seen->contrast + (square >> 4));
     }
 }

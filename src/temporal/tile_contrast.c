@@ -15,13 +15,6 @@ struct difference_rows {
                                          * depth, and in behind and deep */
 };
 
-static inline uint32_t difference_squared(uint32_t a, uint32_t b)
-{
-    const int32_t r = (int32_t)pixel_red(a) - (int32_t)pixel_red(b), g = (int32_t)pixel_green(a) - (int32_t)pixel_green(b),
-                  u = (int32_t)pixel_blue(a) - (int32_t)pixel_blue(b);
-    return (uint32_t)(r * r + g * g + u * u);
-}
-
 /* Returns the squared differences of n >= 1 pixels, and adds to *moving how many of them are not as what is static. An edge
  * between two pixels counts where it moves: what is static must lie behind, else it hides the edge. Upper eight bits of
  * pixels may be anything: they tell pixels apart, but are no difference. */
@@ -42,7 +35,7 @@ static inline uint32_t differences_reference(const struct difference_rows *r, in
         } else if (!moves) {
             continue;
         }
-        sum += difference_squared(here, next);
+        sum += pixel_square_between(here, next);
     }
     *moving += count;
     return sum;
@@ -352,7 +345,7 @@ void smear_note_changes(const struct subframes *f, bool is_first)
             continue;
         const uint32_t here = f->work.color[row * t->pitch + column - s->x0];
         if (!is_first)
-            c->sum = add_saturated(c->sum, difference_squared(here, c->shown[i]));
+            c->sum = add_saturated(c->sum, pixel_square_between(here, c->shown[i]));
         c->shown[i] = here;
     }
 }
