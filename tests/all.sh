@@ -156,7 +156,7 @@ gba() {
     needs arm-none-eabi-gcc "gcc-arm-none-eabi" || return 0
     on gba symbols
     if [ -e /usr/include/mgba/flags.h ] || lacks libmgba "libmgba-dev"; then
-        on gba target demo game stack
+        on gba target demo game stack lessons
         suite gba-cartridge $calls sh tests/shell/gba_cartridge.sh
     fi
 }
