@@ -187,14 +187,19 @@ static inline smear_v4u weighted4(smear_v4u sum, uint32_t weight)
     return v4u_mul16(sum, (smear_v4u){ 0, 0, 0, 0 } + weight * 0x10001u);
 }
 
-static inline void mean4(uint32_t *color, smear_v4u rb, smear_v4u gn, const struct packed_mean *m)
+/* Adds the background to the sums of four pixels, as often as they have not all instants. */
+static inline struct gap_sums4 before4(struct gap_sums4 sum, smear_v4u background, const struct packed_mean *m)
 {
-    const smear_v4u zero = { 0, 0, 0, 0 }, half = zero + m->halves, factor = zero + m->factor * 0x10001u;
-    const smear_v4u background = v4u_load(color), rest = (zero + m->n) - (gn >> 16);
-    rb += v4u_mul16(background & 0xff00ffu, rest | rest << 16);
-    const smear_v4u g = (gn & 0xffffu) + v4u_mul16(background >> 8 & 0xffu, rest);
-    const smear_v4u rb_mean = v4u_mulh16(rb + half, factor), g_mean = v4u_mulh16(g + (half & 0xffffu), factor);
-    v4u_store(color, (rb_mean >> m->shift & 0xff00ffu) | g_mean >> m->shift << 8);
+    const smear_v4u rest = v4u_all(m->n) - (sum.gn >> 16);
+    return (struct gap_sums4){ sum.rb + v4u_mul16(background & 0xff00ffu, rest | rest << 16),
+                               sum.gn + v4u_mul16(background >> 8 & 0xffu, rest) };
+}
+
+static inline void mean4(uint32_t *color, struct gap_sums4 sum, const struct packed_mean *m)
+{
+    const smear_v4u half = v4u_all(m->halves), factor = v4u_all(m->factor * 0x10001u);
+    const smear_v4u rb = v4u_mulh16(sum.rb + half, factor) >> m->shift, g = v4u_mulh16(sum.gn + half, factor) >> m->shift;
+    v4u_store(color, (rb & 0xff00ffu) | (g & 0xffu) << 8);
 }
 
 /* The sums of four pixels whose taps all count what is there. */
@@ -233,31 +238,33 @@ static struct gap_sums4 covered4(const struct gap_planes *p, int32_t at, const s
                                v4u_choose(c.hides, weighted4(c.own.gn, all), gn) };
 }
 
-static inline void mean_uncovered4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps)
-{
-    const struct gap_sums4 sum = uncovered4(p->sums.rb + at, p->sums.gn + at, taps);
-    mean4(p->color + at, sum.rb, sum.gn, taps->mean);
-}
-
-static inline void mean_seen4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps, enum gap_cover cover)
+SMEAR_INLINE void means4(const struct gap_planes *p, int32_t at, const struct gap_taps *taps, const struct packed_mean *mean,
+                         enum gap_cover cover)
 {
     struct gap_sums4 sum = uncovered4(p->sums.rb + at, p->sums.gn + at, taps);
-    if (!v4u_any(sum.gn >> 16))
-        return;
-    if (gap_may_hide4(p, at, &taps->at, sum.gn >> 16, taps->mean->n, cover))
-        sum = gap_choose4(sum, taps->mean->n, covered4(p, at, taps));
-    mean4(p->color + at, sum.rb, sum.gn, taps->mean);
+    const smear_v4u times = sum.gn >> 16;
+    if (!v4u_all_set((smear_v4u)(times == v4u_all(mean->n)))) {
+        if (cover != COVER_NONE && !v4u_any(times))
+            return;
+        if (cover != COVER_NONE && gap_may_hide4(p, at, &taps->at, times, mean->n, cover))
+            sum = gap_choose4(sum, mean->n, covered4(p, at, taps));
+        sum = before4(sum, v4u_load(p->color + at), mean);
+    }
+    mean4(p->color + at, sum, mean);
 }
 
 void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
                             enum gap_cover cover)
 {
     const int32_t end = at + n;
-    if (cover == COVER_NONE)
+    const struct gap_planes planes = *p;
+    const struct gap_taps all = *taps;
+    const struct packed_mean mean = *taps->mean;
+    if (all.at.pairs == 0)
         for (; at + 4 <= end; at += 4)
-            mean_uncovered4(p, at, taps);
+            means4(&planes, at, &(struct gap_taps){ { NULL, 0, 1 }, all.unit_log2, 0, &mean }, &mean, COVER_NONE);
     for (; at + 4 <= end; at += 4)
-        mean_seen4(p, at, taps, cover);
+        means4(&planes, at, &all, &mean, cover);
     const struct gap_rows rest = { at, end - at, 1, 0 };
     smear_gap_means_two_passes(p, &rest, taps, cover);
 }

@@ -23,25 +23,25 @@ void smear_packed_add_reference(uint32_t *color, const uint32_t *background, str
 
 #if SMEAR_VECTORS
 /* Takes four pixels without a branch: what looks like the background adds nothing. */
-SMEAR_INLINE void add4(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, smear_v4u every)
+SMEAR_INLINE void add4(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, smear_v4u may_skip)
 {
     smear_v4u c = v4u_load(color);
-    const smear_v4u behind = v4u_load(background), counts = (smear_v4u)(c != behind) | every;
+    const smear_v4u behind = v4u_load(background), skips = (smear_v4u)(c == behind) & may_skip;
     v4u_store(color, behind);
-    c &= counts;
+    c = ((c & 0xffffffu) | 0x1000000u) & ~skips;
     v4u_store(rb, v4u_load(rb) + (c & 0xff00ffu));
-    v4u_store(gn, v4u_load(gn) + ((c >> 8 & 0xffu) | (counts & 0x10000u)));
+    v4u_store(gn, v4u_load(gn) + v4u_right16(c, 8));
 }
 
 /* The last round may take some pixels again: they look like the background by then. */
 static void add_vector(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, int32_t n, bool all)
 {
     int32_t i = 0;
-    const smear_v4u every = (smear_v4u){ 0, 0, 0, 0 } + (0u - all);
+    const smear_v4u may_skip = v4u_all(all ? 0 : UINT32_MAX);
     for (; i + 4 <= n; i += 4)
-        add4(color + i, background + i, rb + i, gn + i, every);
+        add4(color + i, background + i, rb + i, gn + i, may_skip);
     if (i < n && n >= 4 && !all) {
-        add4(color + n - 4, background + n - 4, rb + n - 4, gn + n - 4, every);
+        add4(color + n - 4, background + n - 4, rb + n - 4, gn + n - 4, may_skip);
         return;
     }
     for (; i < n; i++) {
