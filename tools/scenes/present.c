@@ -802,7 +802,7 @@ smear_desc presented_desc(const struct presented *presented, int width, int heig
 
 void present_tiles(smear_desc *desc, bool wide)
 {
-    enum { STRIP = 256 };
+    enum { STRIP = 320 };
     const bool has_reach = (desc->methods & (SMEAR_SET_FILTERS | SMEAR_SET_LAYERS | SMEAR_SET_SKETCH)) != 0;
     const bool is_temporal = (desc->methods & SMEAR_SET_TEMPORAL) != 0;
     const int share = desc->height * 5 / 100, usual = share < 1 ? 1 : share > 64 ? 64 : share;
