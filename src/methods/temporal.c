@@ -101,6 +101,7 @@ static struct smear_tile_run tiles_of(const struct smear_finish *f, int first, i
     const int32_t pitch = smear_strip_columns(self->strip, rows->window.width);
     struct smear_tile_run t = {
         .frame = &rows->raster, .shutter = &self->shutter, .background = f->background,
+        .is_bare = rows->refill == NULL && rows->opaque == SMEAR_NO_TRIANGLE && self->damage == NULL,
         .moving = self->moving.moving, .moving_count = self->moving.count,
         .column = first, .last_column = end - 1, .blend = rows->blend,
         .out = rows->scratch + worker * pitch * rows->window.tile, .pitch = pitch, .tile = rows->window.tile,

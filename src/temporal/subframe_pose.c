@@ -93,11 +93,9 @@ static inline void complete(struct posed *p, const struct smear_bins *g, const s
         clamp_depths(p);
     if (s->motion == VERTEX_BASE_WORDS)
         return;
-    for (int i = 0; i < 3; i++) {
-        const int32_t *v = bins_vertex(g, s, t->vertex[i]);
-        for (int k = VERTEX_BASE_WORDS; k < s->motion; k++)
-            p->record[i].word[k] = v[k];
-    }
+    for (int i = 0; i < 3; i++)         /* all that there may be: the path behind it has as many words */
+        __builtin_memcpy(p->record[i].word + VERTEX_BASE_WORDS, bins_vertex(g, s, t->vertex[i]) + VERTEX_BASE_WORDS,
+                         sizeof p->record[i].word - VERTEX_BASE_WORDS * sizeof p->record[i].word[0]);
 }
 
 static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int32_t *c)

@@ -63,7 +63,7 @@ static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
 
 static void begin_list(struct subframes *f, const struct subframe_box *whole)
 {
-    const struct depth_range depths = f->closes ? smear_subframe_depths(f, whole, 0) : (struct depth_range){ 0, 0 };
+    const struct depth_range depths = f->closes && !f->t->is_bare ? smear_subframe_depths(f, whole, 0) : (struct depth_range){ 0, 0 };
     f->lowest = depths.least;
     f->highest = depths.most;
     f->nearest = f->moving_seen = 0;

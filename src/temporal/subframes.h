@@ -20,6 +20,7 @@ struct smear_tile_run {
     const struct smear_shutter_times *shutter;
     struct smear_raster_target background;      /* what does not move, drawn; only read. Its y0, y1 are the tiles', its
                                                  * x0, x1, too, or a little beyond */
+    bool is_bare;                               /* it is known that nothing stands still there: depths are 0 */
     int32_t x0, x1;                             /* columns of pixels of the tiles */
     const struct smear_moving_triangle *moving; /* of the row: those whose columns meet these are seen here */
     uint32_t moving_count;
