@@ -357,7 +357,7 @@ void smear_add_changes(struct smear_contrast *c, const struct subframes *f, cons
     uint32_t seen = 0;
     for (int k = 0; k < CLOSING_CLASSES; k++)
         seen = add_saturated(seen, c->plain[k]);
-    c->changed = all > seen ? all - seen : 0;
+    c->changed = all - all / 3 > seen ? all - seen : 0;         /* few pixels tell: half as much more may be chance */
 }
 
 /* ------------------------------------------------------------------ all */
