@@ -21,6 +21,7 @@ union gap_mean {
  * shifted. */
 struct gap {
     int32_t pairs;
+    bool stops;                                 /* at edges that stand still */
     int8_t x[GAP_PAIRS_MAX], y[GAP_PAIRS_MAX];
     int32_t offset[GAP_PAIRS_MAX];              /* the same in the planes */
     uint32_t unit, last;                        /* weights: of the pixel and all pairs (1 .. 16, a power of two), but
@@ -192,7 +193,7 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     struct gap_rows r = { .pitch = f->t->pitch };
     for (int32_t y = b->y0; y < b->y1; y += r.rows) {
         const int32_t row_pairs = pairs_of_row(gap, s, y), reach = row_pairs > 0 ? abs_i32(gap->x[row_pairs - 1]) : 0;
-        for (r.rows = 1; GAP_ROWS && !f->passing.in_space && y + r.rows < b->y1 && pairs_of_row(gap, s, y + r.rows) == row_pairs;)
+        for (r.rows = 1; GAP_ROWS && !gap->stops && y + r.rows < b->y1 && pairs_of_row(gap, s, y + r.rows) == row_pairs;)
             r.rows++;
         r.at = work_row(f, b, y);
         for (int32_t x = b->x0; x < b->x1; x += r.n, r.at += r.n) {
@@ -203,7 +204,7 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
                 r.n = 1;
                 pairs = pairs_within(row_pairs, gap->x, near);
             }
-            if (f->passing.in_space && pairs != 0) {
+            if (gap->stops && pairs != 0) {
                 const int32_t most = r.n, all = pairs;
                 for (r.n = 0; r.n < most; r.n++) {
                     const int32_t own = pairs_before_edge(f, gap, r.at + r.n, all);
@@ -223,6 +224,11 @@ static void average_tile(const struct subframes *f, const struct subframe_box *b
     }
 }
 
+static const struct smear_tile_travel *tile_at(const struct smear_tile_run *t, const struct smear_tile_plan *plan, int32_t x)
+{
+    return &plan->travel[(x - t->x0) / t->tile];
+}
+
 /* Returns how what is seen in the block at a pixel goes on from one instant to the next, if gaps are closed there. */
 static struct smear_step step_at(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
 {
@@ -235,7 +241,7 @@ static struct smear_step step_at(const struct subframes *f, const struct smear_t
         return (struct smear_step){ 0, 0 };
     if (b->depth != 0)
         return (struct smear_step){ (int16_t)(b->x / instants), (int16_t)(b->y / instants) };
-    const struct smear_tile_travel *tile = &plan->travel[(x - t->x0) / t->tile];
+    const struct smear_tile_travel *tile = tile_at(t, plan, x);
     return (struct smear_step){ (int16_t)(tile->x / instants), (int16_t)(tile->y / instants) };
 }
 
@@ -265,6 +271,8 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
             const struct subframe_box b = { max_i32(x, all->x0 - gap.pairs), max_i32(y, all->y0 - gap.pairs),
                                             min_i32(min_i32(end, t->x1), all->x1 + gap.pairs),
                                             min_i32(min_i32(y + high, s->y1), all->y1 + gap.pairs) };
+            gap.stops = f->passing.in_space
+                     && ((tile_at(t, plan, x)->flags | tile_at(t, plan, end - 1)->flags) & PATH_SPACE) != 0;
             if (!subframe_box_is_empty(&b))
                 average_tile(f, &b, &gap);
         }

@@ -7,59 +7,34 @@
 #include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
-/* Pixels of a row at an instant, what is static behind them, and depth codes of both: larger is nearer. */
-struct difference_rows {
+/* Some rows of n pixels at an instant, what is static behind them, and depth codes of both: larger is nearer. */
+struct difference_block {
     const uint32_t *color, *behind;
     const uint16_t *depth, *deep;
     int32_t there, there_behind;        /* where the pixels lie that they are compared with, in pixels from these: in color and
                                          * depth, and in behind and deep */
+    int32_t pitch, pitch_behind, rows, n;       /* pitches: from one row to the next */
 };
 
-/* Returns the squared differences of n >= 1 pixels, and adds to *moving how many of them are not as what is static. An edge
- * between two pixels counts where it moves: what is static must lie behind, else it hides the edge. Upper eight bits of
- * pixels may be anything: they tell pixels apart, but are no difference. */
-static inline uint32_t differences_reference(const struct difference_rows *r, int32_t n, uint32_t *moving)
+/* Returns the squared differences of every other pixel, twice, and adds to *moving how many of them are not as what is static: of a row
+ * those that lie between those of the row before. An edge between two pixels counts where it moves: what is static must lie behind,
+ * else it hides the edge. Upper eight bits of pixels may be anything: they tell pixels apart, but are no difference. */
+static uint32_t differences(struct difference_block b, uint32_t *moving)
 {
-    const uint32_t *color_there = r->color + r->there, *behind_there = r->behind + r->there_behind;
-    const uint16_t *depth_there = r->depth + r->there, *deep_there = r->deep + r->there_behind;
     uint32_t sum = 0, count = 0;
-    for (int32_t i = 0; i < n; i++) {
-        const uint32_t here = r->color[i], next = color_there[i], depth = r->depth[i];
-        const bool moves = depth != r->deep[i] || here != r->behind[i];
-        count += moves;
-        if (here == next)
-            continue;
-        if (moves ? depth_there[i] > depth : depth_there[i] >= depth) {
-            if (depth_there[i] == deep_there[i] && next == behind_there[i])
+    for (int32_t row = 0; row < b.rows; row++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
+        for (int32_t i = row & 1; i < b.n; i += 2) {
+            const uint32_t here = b.color[i], next = b.color[b.there + i], depth = b.depth[i], depth_there = b.depth[b.there + i];
+            const bool moves = depth != b.deep[i] || here != b.behind[i];
+            count += moves;
+            if (here == next || (!moves && depth_there < depth))
                 continue;
-        } else if (!moves) {
-            continue;
+            if (depth_there + !moves > depth && depth_there == b.deep[b.there_behind + i] && next == b.behind[b.there_behind + i])
+                continue;
+            sum += pixel_square_between(here, next);
         }
-        sum += pixel_square_between(here, next);
-    }
     *moving += count;
-    return sum;
-}
-
-/* Some rows of n pixels; so far from one to the next are color and depth, and behind and deep. */
-struct difference_block {
-    struct difference_rows first;
-    int32_t pitch, pitch_behind, rows, n;
-};
-
-/* For up to 8 pixels in a row. */
-static inline uint32_t difference_block(const struct difference_block *b, uint32_t *moving)
-{
-    struct difference_rows r = b->first;
-    uint32_t sum = 0;
-    for (int32_t i = 0; i < b->rows; i++) {
-        sum += differences_reference(&r, b->n, moving);
-        r.color += b->pitch;
-        r.depth += b->pitch;
-        r.behind += b->pitch_behind;
-        r.deep += b->pitch_behind;
-    }
-    return sum;
+    return 2 * sum;
 }
 
 /* A block [x, x1) x [y, y1) of pixels of a tile, its displacement, and the same to the next pixels that are looked at: 2 px. */
@@ -101,10 +76,10 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
         if (way == 0 || n <= 0)
             continue;
         const int32_t at = (y - s->y0) * pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
-        const struct difference_block block = { { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
-                                                  down * pitch + x, target_row(c, s, y + down) - row + x },
-                                                2 * pitch, 2 * c->stride, (end - y) >> 1, n };
-        sum += difference_block(&block, moving);
+        const struct difference_block block = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
+                                                down * pitch + x, target_row(c, s, y + down) - row + x, 2 * pitch, 2 * c->stride,
+                                                (end - y) >> 1, n };
+        sum += differences(block, moving);
     }
     return sum;
 }
