@@ -109,23 +109,10 @@ static SMEAR_RARE void draw_blocks(const struct setup *s, const struct row_run *
     }
 }
 
-/* Returns how many of n >= 0 pixels are hidden before the first that is seen: pixel i has the depth code
- * (z + i dz) >> 16, modulo 2^16, and is seen where that is greater than depth[i]. */
-static int32_t hidden_run(const uint16_t *depth, int32_t n, uint32_t z, uint32_t dz)
-{
-    int32_t i = 0;
-    for (; i < n && z >> 16 <= depth[i]; i++)
-        z += dz;
-    return i;
-}
-
-/* Pixels [p->a, p->b) from the first that is seen on: those of rows that are hidden need no colours. */
-static void draw_run(const struct setup *s, struct row_run *p, int32_t at, int32_t y, const struct span_side *side)
+/* Pixels [p->a, p->b). */
+static void draw_run(const struct setup *s, const struct row_run *p, int32_t at, int32_t y, const struct span_side *side)
 {
     struct shade k;
-    p->a += hidden_run(s->target->depth + (at + p->a), p->b - p->a, p->z + p->dz * (uint32_t)p->a, p->dz);
-    if (p->a == p->b)
-        return;
     if (s->perspective_color || fog_of(s) != FOG_NONE) {
         if (SMEAR_WITH_FOG && fog_row_is_even(s, side->left, side->right))
             draw_flat(s, p->z + p->dz * (uint32_t)p->a, p->dz, at + p->a, p->b - p->a,
@@ -148,19 +135,18 @@ void smear_rows_shade(const struct setup *s, const struct span_rows *r)
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
         const struct span_side *side = &r->side[row];
         const int32_t y = r->y + row;
-        struct row_run p = { side->left, side->right, 0, 0 };
+        struct row_run p = { side->left, side->right, 0, 0, side->left };
         if (p.a >= p.b)
             continue;
         if (whole) {
             p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
             p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
-            draw_run(s, &p, at, y, side);
+            if (smear_row_run_seen(&p, s->target->depth + at))      /* rows that are hidden need no colours */
+                draw_run(s, &p, at, y, side);
             continue;
         }
-        while (smear_row_run_next(&p, s, r, row, p.a)) {
+        while (smear_row_run_next(&p, s, r, row))
             draw_run(s, &p, at, y, side);
-            p.a = p.b;
-        }
     }
 }
 #endif

@@ -90,15 +90,18 @@ static inline bool rows_are_whole(const struct setup *s, const struct span_rows 
     return r->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
-/* Pixels [a, b) of a row, and depth codes 16.16 from pixel 0 on. */
+/* Pixels [a, b) of a row, depth codes 16.16 from pixel 0 on, and where the next run may begin. */
 struct row_run {
     int32_t a, b;
     uint32_t z, dz;
+    int32_t next;
 };
 
-/* Finds the next run of a row after pixel a: within the target's columns and one slope of the depth
- * code. False when there is none. Writes its velocities. */
-bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row,
-                        int32_t a);
+/* Finds the next run of a row: within the target's columns and one slope of the depth code, from the first pixel that is seen to the
+ * last one. False when there is none. Writes its velocities. */
+bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row);
+
+/* Makes a run that of the pixels from the first one that is seen to the last one, `depth` being of column 0; false where there are none. */
+bool smear_row_run_seen(struct row_run *p, const uint16_t *depth);
 
 #endif

@@ -124,32 +124,56 @@ static bool fog_has_no_rows(const struct setup *s)
 
 /* ------------------------------------------------------------------ runs of a row */
 
-SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r,
-                                       int32_t row, int32_t a)
+/* Depths are linear: what hides the nearer one of both ends hides all. */
+bool smear_row_run_seen(struct row_run *p, const uint16_t *depth)
 {
-    int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx;
-    enum depth_slope slope = r->slope;
-    p->a = max_i32(a, s->target->x0);
-    p->b = min_i32(r->side[row].right, s->target->x1);
-    if (p->a >= p->b)
-        return false;
-    if (slope == SLOPE_BOTH) {
-        int32_t here = add_wrap(units, mul_wrap(dx, p->a)), last = add_wrap(units, mul_wrap(dx, p->b - 1));
-        slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
-        if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK))
-            p->b = p->a + pixels_to_break(here, dx, p->b - p->a);
-    }
-    p->z = code_from_units(units, slope);
-    p->dz = (uint32_t)step_from_units(dx, slope);
-    if (setup_writes_velocity(s)) {
-        const int32_t at = r->at + row * s->target->window_rows.stride + p->a;
-        const struct span span = {
-            .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y,
-            .depth = s->target->depth + at, .at = at,
-            .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
-        };
-        smear_span_velocity(s, &span);
-    }
+    const uint16_t *a = depth + p->a, *b = depth + p->b;
+    uint32_t first = p->z + p->dz * (uint32_t)p->a, last = p->z + p->dz * (uint32_t)(p->b - 1);
+    const uint32_t nearest = max_u32(first, last) >> 16;
+    if (first >> 16 > a[0] && last >> 16 > b[-1])
+        return true;
+    while (b - a >= 4 && a[0] >= nearest && a[1] >= nearest && a[2] >= nearest && a[3] >= nearest)
+        a += 4;
+    first += p->dz * (uint32_t)(a - depth - p->a);
+    for (; a != b && first >> 16 <= *a; a++)
+        first += p->dz;
+    p->a = (int32_t)(a - depth);
+    while (b - a >= 4 && b[-1] >= nearest && b[-2] >= nearest && b[-3] >= nearest && b[-4] >= nearest)
+        b -= 4;
+    last -= p->dz * (uint32_t)(p->b - (b - depth));
+    for (; a != b && last >> 16 <= b[-1]; b--)
+        last -= p->dz;
+    p->b = (int32_t)(b - depth);
+    return a != b;
+}
+
+SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row)
+{
+    const int32_t y = r->y + row, units = plane_at(&s->depth, 0, y), dx = s->depth.dx, at = r->at + row * s->target->window_rows.stride;
+    do {
+        enum depth_slope slope = r->slope;
+        p->a = max_i32(p->next, s->target->x0);
+        p->b = min_i32(r->side[row].right, s->target->x1);
+        if (p->a >= p->b)
+            return false;
+        if (slope == SLOPE_BOTH) {
+            int32_t here = add_wrap(units, mul_wrap(dx, p->a)), last = add_wrap(units, mul_wrap(dx, p->b - 1));
+            slope = here < SLOPE_BREAK ? SLOPE_FAR : SLOPE_NEAR;
+            if ((last < SLOPE_BREAK) != (here < SLOPE_BREAK))
+                p->b = p->a + pixels_to_break(here, dx, p->b - p->a);
+        }
+        p->next = p->b;
+        p->z = code_from_units(units, slope);
+        p->dz = (uint32_t)step_from_units(dx, slope);
+        if (setup_writes_velocity(s)) {
+            const struct span span = {
+                .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y,
+                .depth = s->target->depth + (at + p->a), .at = at + p->a,
+                .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
+            };
+            smear_span_velocity(s, &span);
+        }
+    } while (!smear_row_run_seen(p, s->target->depth + at));
     return true;
 }
 
@@ -192,7 +216,7 @@ static SMEAR_NOINLINE bool draw_row_runs(const struct setup *s, const struct spa
         draw_part(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
         if (p->b >= end)
             return true;
-        if (!smear_row_run_next(p, s, r, row, p->b))
+        if (!smear_row_run_next(p, s, r, row))
             return false;
         run->dz = p->dz;
         run->z = p->z + p->dz * (uint32_t)p->a;
@@ -226,7 +250,8 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
         p.a = r->side[row].left;
         p.b = r->side[row].right;
         p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
-        if (!whole && !smear_row_run_next(&p, s, r, row, p.a))
+        p.next = p.a;
+        if (!whole && !smear_row_run_next(&p, s, r, row))
             continue;
         if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
             light_in_fog(light, s, &r->side[row], p.a, 0, y);
@@ -249,23 +274,25 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 u = add_wrap(u, t->uv[0].dx);
                 v = add_wrap(v, t->uv[1].dx);
             }
-        } while (!whole && smear_row_run_next(&p, s, r, row, p.b));
+        } while (!whole && smear_row_run_next(&p, s, r, row));
     }
 }
 
-/* A block goes on behind the end of a row's run, of which `count` pixels were drawn: `more` pixels, of which those of the next run are
- * the next `count`. False when no more of the row are to be drawn. */
+/* A block goes on behind the end of a row's run, of which `count` pixels were drawn: `more` pixels, of which those of the next run that
+ * are seen are the next `count`. False when no more of the row are to be drawn. */
 static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, int32_t *more, const struct setup *s,
                                        const struct span_rows *r, int32_t row, struct row_run *p)
 {
-    const int32_t end = p->b + *more;
-    if (!smear_row_run_next(p, s, r, row, p->b))
+    const int32_t from = p->b, end = from + *more;
+    if (!smear_row_run_next(p, s, r, row))
         return false;
-    texel_run_skip(run, (uint32_t)*count);
+    const int32_t first = min_i32(p->a, end) - from;
+    texel_run_skip(run, (uint32_t)(*count + first));
+    texel_run_advance(run, first, target_is_direct(s->target));
     run->dz = p->dz;
-    run->z = p->z + p->dz * (uint32_t)p->a;
+    run->z = p->z + p->dz * (uint32_t)(from + first);
     *more = max_i32(end - p->b, 0);
-    *count = end - p->a - *more;
+    *count = end - (from + first) - *more;
     return true;
 }
 
@@ -334,8 +361,8 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
     row_start(k, s, r, row, p, x, narrow);
     int32_t rest = right - 1 - x;                       /* behind the block, but for the last pixel */
     int32_t least = divided ? max_i32(right - 1 - p->b, 1) : INT32_MAX - BLOCK_LONGEST;
-    bool is_in_run = p->a == x;
     do {
+        const bool is_in_run = p->a <= right - 1 - rest;
         int32_t count = block, more = 0;
         if (TEXEL_BLOCKS && !texels_are_lit(kind) && SMEAR_IS_CONSTANT(log2_width) && is_in_run && rest >= least) {
             const int32_t before = rest;
@@ -359,7 +386,6 @@ SMEAR_INLINE void draw_row_blocks(struct texel_track *k, const struct setup *s, 
                 run_skip(&k->run, first, narrow);
             more = max_i32(end - p->b, 0);
             count -= first + more;
-            is_in_run = p->a <= end;
         }
         for (;;) {
             if (count != 0)
@@ -396,13 +422,12 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             next_quotient += left < right;
             continue;
         }
-        if (whole) {
-            p.a = left;
-            p.b = right;
+        p.a = p.next = left;
+        p.b = right;
+        if (whole)
             p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
-        } else if (!smear_row_run_next(&p, s, r, row, left)) {
+        else if (!smear_row_run_next(&p, s, r, row))
             continue;
-        }
         if (divided && p.a == left && p.b == right) {
             row_start(&k, s, r, row, &p, left, texels_are_narrow(kind));
             draw_divided_row(&k, right - 1 - left, log2_width, log2_height, kind);
@@ -434,27 +459,20 @@ SMEAR_INLINE void draw_whole_curves(const struct setup *s, const struct span_row
     texel_curve_rows_draw(&rows, log2_width, log2_height, kind);
 }
 
-/* A row, in pieces of one light. p: its first run, where that is not all of it; else null. */
-SMEAR_INLINE void draw_curve(const struct setup *s, const struct span_rows *r, int32_t row, struct texel_run *run,
-                             struct row_run *p, int log2_width, int log2_height, enum texel_kind kind)
+/* A row in fog, in pieces of one light. p: its first run, where that is not all of it; else null. */
+static SMEAR_RARE void draw_curve_in_fog(const struct setup *s, const struct span_rows *r, int32_t row, struct texel_run *run,
+                                         struct row_run *p, int log2_width, int log2_height, enum texel_kind kind)
 {
     const struct span_side *side = &r->side[row];
-    struct texel_light *const light = run->light;
-    for (int32_t rest = side->right - side->left;;) {
-        const int32_t n = light_is_in_fog(light, s) ? part_in_fog(light, s, side, rest, r->y + row) : rest;
-        if (p != NULL) {
-            struct texel_run part = *run;       /* that one stays in registers */
-            if (!draw_row_runs(s, r, row, &part, p, side->right - rest, side->right - rest + n))
-                return;
-            *run = part;
-        } else {
+    for (int32_t rest = side->right - side->left; rest > 0;) {
+        const int32_t n = part_in_fog(run->light, s, side, rest, r->y + row);
+        if (p == NULL) {
             texels_draw(run, n, log2_width, log2_height, kind);
+            texel_run_skip(run, (uint32_t)n);
+        } else if (!draw_row_runs(s, r, row, run, p, side->right - rest, side->right - rest + n)) {
+            return;
         }
         rest -= n;
-        if (light == NULL || rest == 0)
-            return;
-        if (p == NULL)
-            texel_run_skip(run, (uint32_t)n);
     }
 }
 
@@ -465,8 +483,8 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     const bool narrow = texels_are_narrow(kind);
     const struct smear_raster_target *target = s->target;
     const struct texture_setup *t = texture_of(s);
-    const bool whole = rows_are_whole(s, r);
-    const uint32_t dz_down = (uint32_t)step_from_units(s->depth.dy, r->slope);
+    const bool whole = rows_are_whole(s, r), in_fog = light_is_in_fog(light, s);
+    const uint32_t dz = (uint32_t)step_from_units(s->depth.dx, r->slope), dz_down = (uint32_t)step_from_units(s->depth.dy, r->slope);
     const uintptr_t to_color = narrow ? (uintptr_t)target->direct - (uintptr_t)target->depth
                                       : (uintptr_t)target->color - 2 * (uintptr_t)target->depth;
     const int32_t x0 = t->x0, y = r->y - t->y0, stride = target->window_rows.stride;
@@ -476,25 +494,27 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     struct texel_run run;
     run.texels = s->draw->sampler.texels;
     run.light = light;
-    run.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
     texel_run_start(&run, log2_width, log2_height);
     curves_start(&curves, &t->curve[0], &t->curve[1], &run);
     const int32_t rows = r->count;
     const struct span_side *side = r->side;
     for (int32_t row = 0; row < rows; row++, side++, depth += stride, z += dz_down) {
         const int32_t left = side->left, n = side->right - left;
-        struct row_run p;
-        if (n <= 0 || !(whole || smear_row_run_next(&p, s, r, row, left)))
+        struct row_run p = { left, left + n, z, dz, left };
+        if (n <= 0 || !(whole || smear_row_run_next(&p, s, r, row)))
             continue;
-        curves_run(&curves, left - x0, y + row, &run);
-        run.depth = depth + left;
-        run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
-        run.z = z + run.dz * (uint32_t)left;
-        if (!whole) {
+        do {
+            const int32_t from = in_fog ? left : p.a;
+            curves_run(&curves, from - x0, y + row, &run);
+            run.depth = depth + from;
+            run.color = (void *)((narrow ? 1u : 2u) * (uintptr_t)run.depth + to_color);
             run.dz = p.dz;
-            run.z = p.z + p.dz * (uint32_t)left;
-        }
-        draw_curve(s, r, row, &run, !whole && (p.a != left || p.b != left + n) ? &p : NULL, log2_width, log2_height, kind);
+            run.z = p.z + p.dz * (uint32_t)from;
+            if (!in_fog)
+                texels_draw(&run, p.b - p.a, log2_width, log2_height, kind);
+            else
+                draw_curve_in_fog(s, r, row, &run, p.a != left || p.b != left + n ? &p : NULL, log2_width, log2_height, kind);
+        } while (!whole && !in_fog && smear_row_run_next(&p, s, r, row));
     }
 }
 
