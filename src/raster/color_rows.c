@@ -135,7 +135,7 @@ void smear_rows_shade(const struct setup *s, const struct span_rows *r)
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
         const struct span_side *side = &r->side[row];
         const int32_t y = r->y + row;
-        struct row_run p = { side->left, side->right, 0, 0, side->left };
+        struct row_run p = { side->left, side->right, side->left, 0, 0 };
         if (p.a >= p.b)
             continue;
         if (whole) {
@@ -145,7 +145,7 @@ void smear_rows_shade(const struct setup *s, const struct span_rows *r)
                 draw_run(s, &p, at, y, side);
             continue;
         }
-        while (smear_row_run_next(&p, s, r, row))
+        while (row_run_next(&p, s, r, row))
             draw_run(s, &p, at, y, side);
     }
 }

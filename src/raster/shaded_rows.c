@@ -88,7 +88,7 @@ SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, 
     curves_start(&curves, &s->texture.curve[0], &s->texture.curve[1], &run);
     for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
         const int32_t y = r->y + row;
-        struct row_run p = { r->side[row].left, r->side[row].right, 0, 0, r->side[row].left };
+        struct row_run p = { r->side[row].left, r->side[row].right, r->side[row].left, 0, 0 };
         if (p.a >= p.b)
             continue;
         if (whole) {
@@ -97,7 +97,7 @@ SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, 
             shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
             continue;
         }
-        while (smear_row_run_next(&p, s, r, row))
+        while (row_run_next(&p, s, r, row))
             shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
     }
 }

@@ -90,16 +90,19 @@ static inline bool rows_are_whole(const struct setup *s, const struct span_rows 
     return r->slope != SLOPE_BOTH && !s->writes_velocity && !r->cut;
 }
 
-/* Pixels [a, b) of a row, depth codes 16.16 from pixel 0 on, and where the next run may begin. */
+/* Pixels [a, b) of a row, where the next run may begin, and depth codes 16.16 from pixel 0 on. */
 struct row_run {
-    int32_t a, b;
+    int32_t a, b, next;
     uint32_t z, dz;
-    int32_t next;
 };
 
 /* Finds the next run of a row: within the target's columns and one slope of the depth code, from the first pixel that is seen to the
- * last one. False when there is none. Writes its velocities. */
+ * last one. False when there is none. Writes its velocities. smear_row_run_next does so where there are pixels from p->next on. */
 bool smear_row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row);
+static inline bool row_run_next(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row)
+{
+    return p->next < r->side[row].right && smear_row_run_next(p, s, r, row);
+}
 
 /* Makes a run that of the pixels from the first one that is seen to the last one, `depth` being of column 0; false where there are none. */
 bool smear_row_run_seen(struct row_run *p, const uint16_t *depth);

@@ -166,11 +166,8 @@ SMEAR_NOINLINE bool smear_row_run_next(struct row_run *p, const struct setup *s,
         p->z = code_from_units(units, slope);
         p->dz = (uint32_t)step_from_units(dx, slope);
         if (setup_writes_velocity(s)) {
-            const struct span span = {
-                .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y,
-                .depth = s->target->depth + (at + p->a), .at = at + p->a,
-                .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz
-            };
+            const struct span span = { .a = p->a, .b = p->b, .right = r->side[row].edge, .y = y, .depth = s->target->depth + (at + p->a),
+                                       .at = at + p->a, .z = p->z + p->dz * (uint32_t)p->a, .dz = (int32_t)p->dz };
             smear_span_velocity(s, &span);
         }
     } while (!smear_row_run_seen(p, s->target->depth + at));
@@ -216,7 +213,7 @@ static SMEAR_NOINLINE bool draw_row_runs(const struct setup *s, const struct spa
         draw_part(s, run, x - from, p->a - from, min_i32(p->b, end) - from);
         if (p->b >= end)
             return true;
-        if (!smear_row_run_next(p, s, r, row))
+        if (!row_run_next(p, s, r, row))
             return false;
         run->dz = p->dz;
         run->z = p->z + p->dz * (uint32_t)p->a;
@@ -251,7 +248,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
         p.b = r->side[row].right;
         p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
         p.next = p.a;
-        if (!whole && !smear_row_run_next(&p, s, r, row))
+        if (!whole && !row_run_next(&p, s, r, row))
             continue;
         if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
             light_in_fog(light, s, &r->side[row], p.a, 0, y);
@@ -274,7 +271,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
                 u = add_wrap(u, t->uv[0].dx);
                 v = add_wrap(v, t->uv[1].dx);
             }
-        } while (!whole && smear_row_run_next(&p, s, r, row));
+        } while (!whole && row_run_next(&p, s, r, row));
     }
 }
 
@@ -284,7 +281,7 @@ static SMEAR_NOINLINE bool run_goes_on(struct texel_run *run, int32_t *count, in
                                        const struct span_rows *r, int32_t row, struct row_run *p)
 {
     const int32_t from = p->b, end = from + *more;
-    if (!smear_row_run_next(p, s, r, row))
+    if (!row_run_next(p, s, r, row))
         return false;
     const int32_t first = min_i32(p->a, end) - from;
     texel_run_skip(run, (uint32_t)(*count + first));
@@ -426,7 +423,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
         p.b = right;
         if (whole)
             p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
-        else if (!smear_row_run_next(&p, s, r, row))
+        else if (!row_run_next(&p, s, r, row))
             continue;
         if (divided && p.a == left && p.b == right) {
             row_start(&k, s, r, row, &p, left, texels_are_narrow(kind));
@@ -500,8 +497,8 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     const struct span_side *side = r->side;
     for (int32_t row = 0; row < rows; row++, side++, depth += stride, z += dz_down) {
         const int32_t left = side->left, n = side->right - left;
-        struct row_run p = { left, left + n, z, dz, left };
-        if (n <= 0 || !(whole || smear_row_run_next(&p, s, r, row)))
+        struct row_run p = { left, left + n, left, z, dz };
+        if (n <= 0 || !(whole || row_run_next(&p, s, r, row)))
             continue;
         do {
             const int32_t from = in_fog ? left : p.a;
@@ -514,7 +511,7 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
                 texels_draw(&run, p.b - p.a, log2_width, log2_height, kind);
             else
                 draw_curve_in_fog(s, r, row, &run, p.a != left || p.b != left + n ? &p : NULL, log2_width, log2_height, kind);
-        } while (!whole && !in_fog && smear_row_run_next(&p, s, r, row));
+        } while (!whole && !in_fog && row_run_next(&p, s, r, row));
     }
 }
 
