@@ -36,7 +36,7 @@ SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z
             *depth = (uint16_t)code;
             if (narrow)
                 *thin = (uint16_t)shade_pixel(r, g, b, linear, true);
-            else if (SMEAR_ON_ARMV6M && !linear) {
+            else if (SMEAR_ON_ARMV6M && !SMEAR_BIG_ENDIAN && !linear) {
                 uint8_t *const byte = (uint8_t *)wide;
                 byte[0] = (uint8_t)(b >> 16);
                 byte[1] = (uint8_t)(g >> 16);
