@@ -85,8 +85,8 @@ typedef struct smear_filter_room {
 /* What blurs within SMEAR_CAMERA and SMEAR_HALF. */
 typedef enum smear_filter_kind {
     SMEAR_FILTER_DEFAULT,       /* MEAN in SMEAR_CAMERA, RECONSTRUCT in SMEAR_HALF */
-    SMEAR_FILTER_MEAN,          /* `samples` taps along each pixel's own velocity, all alike, of tiles that motion
-                                 * reaches */
+    SMEAR_FILTER_MEAN,          /* `samples` taps, all alike, along each pixel's own velocity; in SMEAR_CAMERA along that
+                                 * of 8 x 8 pixels (4, 8 or 16 taps) where nothing stays before the moving camera */
     SMEAR_FILTER_RECONSTRUCT,   /* as SMEAR_RECONSTRUCT, with its options */
     SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG, which desc.methods must have */
 } smear_filter_kind;

@@ -83,6 +83,13 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
                             const struct smear_row_table *rows, int32_t row, int32_t column,
                             const struct smear_blur_settings *settings);
 
+/* Finds the velocity of each block of tile `column` of a row that is drawn, and whether any moves. */
+void smear_line_look(const struct smear_window *w, const struct smear_flow *flow, int32_t row, int32_t column);
+
+/* Takes the mean along each block's line. */
+uint32_t smear_blur_line(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column,
+                         const struct smear_blur_settings *settings);
+
 /* Gathers with the weights of other filters (settings->weights). */
 uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,
                             int32_t row, int32_t column, const struct smear_blur_settings *settings);

@@ -66,7 +66,9 @@ static void reduce_job(void *argument, int column, int worker)
     const struct filter_job *r = (const struct filter_job *)argument;
     const struct smear_window *w = r->filtered->window;
     (void)worker;
-    if (r->row.rows->window.moving[column])
+    if (SMEAR_WITH_FILTERS && r->filtered->lines)
+        smear_line_look(w, &r->filtered->plan.flow, r->row.row, column);
+    else if (r->row.rows->window.moving[column])
         smear_tilemax(w, r->row.row, column);
     else
         window_motion(w, r->row.row)[column] = (struct smear_tile_motion){ 0, 0, 0, 0, 0, 0 };
@@ -101,9 +103,11 @@ static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int 
         smear_blur_copy(tile, w, &rows, column);
         return 0;
     }
+    if (SMEAR_WITH_FILTERS && f->lines)
+        return smear_blur_line(tile, w, &rows, column, &f->blur);
     if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG) {
         const int last = f->passes - 1;
-        return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->pass[last], row, column, y0, y1,
+        return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->plan.pass[last], row, column, y0, y1,
                                    &f->blur);
     }
     if ((SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_MEAN) || (kind == TILE_UNIFORM && (f->blur.flags & SMEAR_UNIFORM)))
@@ -175,7 +179,7 @@ static void pass_tile_job(void *argument, int column, int worker)
     const struct smear_filtered *f = r->filtered;
     const struct smear_row_table table = row_table(f, r->row, r->y0, r->y1);
     r->rows->samples[worker] += smear_pingpong_pass(f->pass_plane[r->pass], 0, pass_input(f, r->pass), f->window,
-                                                    &table, &f->pass[r->pass], r->row, column, r->y0, r->y1,
+                                                    &table, &f->plan.pass[r->pass], r->row, column, r->y0, r->y1,
                                                     &f->blur);
 }
 
@@ -187,7 +191,7 @@ static int32_t run_passes(struct smear_filtered *f, struct smear_rows *rows, int
     for (int i = 0; i < f->passes - 1; i++) {
         const int32_t input_end = end;
         if (known != rows->window.rows - 1)
-            end = max_i32(end - f->pass[i].reach, 0);
+            end = max_i32(end - f->plan.pass[i].reach, 0);
         for (int32_t y = f->pass_end[i]; y < end;) {
             const int row = y >> f->window->tile_shift;
             struct pass_job job = { f, rows, i, row, y, min_i32(end, filtered_bottom(f, row)) };
@@ -220,8 +224,9 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
 {
     const struct smear_window *w = f->window;
     const bool corner = f->blur.flags & SMEAR_CORNER;
-    smear_neighbormax_row(w, row, known, corner);
-    if (known > row)        /* looked at by the pixels of this row, and by passes that are ahead */
+    if (!f->lines)
+        smear_neighbormax_row(w, row, known, corner);
+    if (!f->lines && known > row)       /* looked at by the pixels of this row, and by passes that are ahead */
         smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(f, rows, row);
     int32_t end = w->height;
@@ -271,14 +276,14 @@ static void draw_job(void *argument, int job, int worker)
     struct smear_rows *rows = r->row.rows;
     const struct smear_filtered *f = r->filtered;
     const struct smear_window *w = &rows->window;
-    const bool by_depth = frame_has_depth_velocity(&rows->raster);
+    const bool by_depth = frame_has_depth_velocity(&rows->raster), velocities = !f->lines || rows->inspect != NULL;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(rows, r->row.row, &t);
-    t.velocity8 = w->velocity8;
-    t.velocity16 = w->velocity16;
+    t.velocity8 = velocities ? w->velocity8 : NULL;
+    t.velocity16 = velocities ? w->velocity16 : NULL;
     t.inspect = rows->inspect;
-    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth
+    if (!smear_row_draw_opaque(&r->row, job, &t, by_depth ? SMEAR_VELOCITY_UNKNOWN8 : 0) || !by_depth || !velocities
         || !(r->row.steps & ROW_FINISH))
         return;
     const struct smear_camera_store store = { rows->raster.velocity_scale, rows->raster.inspect_scale,
@@ -325,7 +330,7 @@ static void begin_filter(struct smear_filtered *f, const struct smear_rows *rows
     if (!SMEAR_WITH_FILTERS)
         return;
     f->camera_step = frame->filter.camera_step;
-    f->passes = smear_pingpong_plan(f->pass, &frame->filter.pingpong, f->window->reach);
+    f->passes = smear_pingpong_plan(f->plan.pass, &frame->filter.pingpong, f->window->reach);
     for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
         f->pass_end[i] = 0;
 }
@@ -351,6 +356,8 @@ int smear_filtered_render(struct smear_context *c)
     const int rows = c->rows.window.rows, late = c->rows.blends ? f->window->lag : 0;
     int result = SMEAR_OK;
     f->blur.held = c->has_fixed;
+    f->lines = SMEAR_WITH_FILTERS && frame_has_depth_velocity(&c->rows.raster) && c->frame.method == SMEAR_CAMERA
+            && f->kind == SMEAR_FILTER_MEAN && !c->has_fixed;
     if (frame_has_depth_velocity(&c->rows.raster)) {
         const struct smear_shutter_order at = smear_shot_order(&c->shot);
         const bool spans = shot_spans_exposure(&c->shot);
@@ -358,6 +365,8 @@ int smear_filtered_render(struct smear_context *c)
         smear_reproject_make(&f->reprojection, &camera[at.middle], &camera[at.open],
                              &camera[at.close], spans ? smear_instant_now.weight : middle.weight, spans,
                              c->rows.window.width, c->rows.window.height);
+        if (f->lines)
+            smear_flow_make(&f->plan.flow, &f->reprojection, spans ? 65536 : c->shot.half_exposure >> 7);
     }
     for (int row = 0, end; row < rows && result == SMEAR_OK;) {
         struct smear_refill refill;

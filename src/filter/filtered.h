@@ -17,11 +17,15 @@ struct smear_filtered {
     struct smear_blur_settings blur;
     uint8_t method;                         /* smear_method */
     uint8_t kind;                           /* smear_filter_kind */
+    bool lines;                             /* the camera's motion alone is blurred, along a line for each block (line.c) */
     int32_t row;                            /* rows taken by smear_filter_row */
     /* Velocities of what does not move itself, from depth and two cameras, where raster.velocity_from_depth. */
     struct smear_reprojection reprojection;
     int32_t camera_step;                    /* smear_filter.camera_step */
-    struct smear_pass pass[PINGPONG_PASSES_MAX];
+    union {
+        struct smear_flow flow;             /* of `lines` */
+        struct smear_pass pass[PINGPONG_PASSES_MAX];
+    } plan;
     int passes;
     uint32_t *pass_plane[PINGPONG_PASSES_MAX - 1];      /* what each but the last leaves: planes like the window's */
     int32_t pass_end[PINGPONG_PASSES_MAX - 1];          /* rows done of this frame */

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+/* line.c - the mean along the line on which the camera's motion takes each block of 8 x 8 pixels, told from its depth: the plain form of
+ * [GPUGems3] chapter 27. What is seen there moves alike, so that a block has one displacement, which is kept as the velocity of its first
+ * pixel: no other is looked at. */
+#include "filter/filter.h"
+
+#include "base/fixmath.h"
+#include "kernels/line_means.h"
+
+enum { TILE_MOST = 64 };                /* px wide */
+
+/* Returns the edge of a block, px: tiles may be smaller than one usually is. */
+static inline int32_t block_edge(const struct smear_window *w) { return min_i32(w->tile, 8); }
+
+/* Pixels that share a displacement: rows [y0, y1) of the table, columns [x0, x1). */
+struct block_run {
+    int32_t x0, x1, y0, y1;
+    int32_t taps, log;          /* twice as many as a mean takes, 2^log, where the way is long */
+    int32_t x[2 * LINE_TAPS_MAX], y[2 * LINE_TAPS_MAX];         /* distances from a pixel to its taps, px */
+    int32_t left, right;        /* how far they reach */
+};
+
+/* Returns the nearest depth code of the outer pixels of a block. */
+static uint32_t nearest_of(const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    uint32_t nearest = 0;
+    for (int32_t y = y0; y < y1; y += y + 1 < y1 ? y1 - 1 - y0 : 1) {
+        const uint16_t *depth = w->depth + window_ring_row(w, y) * w->width;
+        nearest = max_u32(nearest, max_u32(depth[x0], depth[x1 - 1]));
+    }
+    return nearest;
+}
+
+/* Finds half the displacement of what is seen at a place, 1/8 px. It is no longer than the reach along either axis, the direction is
+ * kept. */
+static struct smear_pixel_velocity block_velocity(const struct smear_window *w, const struct smear_flow *flow, int32_t x, int32_t y,
+                                                  uint32_t code)
+{
+    const int32_t most = w->reach * 512;
+    int32_t d[2];
+    smear_flow_at(flow, min_i32(x, w->width - 1), min_i32(y, w->height - 1), smear_depth_units((uint16_t)code), d);
+    const int32_t length = max_i32(abs_i32(d[0]), abs_i32(d[1]));
+    for (int i = 0; i < 2 && length > most; i++)
+        d[i] = mul_shift(d[i], ratio_q30(most, length), 30);
+    return (struct smear_pixel_velocity){ (d[0] + 32) >> 6, (d[1] + 32) >> 6 };
+}
+
+void smear_line_look(const struct smear_window *w, const struct smear_flow *flow, int32_t row, int32_t column)
+{
+    const int32_t x0 = column << w->tile_shift, x1 = min_i32(x0 + w->tile, w->width);
+    const int32_t y0 = row << w->tile_shift, y1 = min_i32(y0 + w->tile, w->height);
+    const int32_t block = block_edge(w);
+    bool moves = false;
+    for (int32_t y = y0; y < y1; y += block)
+        for (int32_t x = x0; x < x1; x += block) {
+            const uint32_t code = nearest_of(w, x, min_i32(x + block, x1), y, min_i32(y + block, y1));
+            const struct smear_pixel_velocity v = block_velocity(w, flow, x + block / 2, y + block / 2, code);
+            window_velocity_store(w, window_ring_row(w, y) * w->width + x, v.x, v.y);
+            moves = moves || (v.x | v.y) != 0;
+        }
+    window_around(w, row)[column].kind = moves ? TILE_UNIFORM : TILE_STATIC;
+}
+
+/* Places taps evenly on the way. */
+static void block_taps(struct block_run *b, struct smear_pixel_velocity v, int32_t samples)
+{
+    enum { SHORT = 4, LONG = 8 * 4 };           /* quarters of a displacement's pixels: shorter ones do not leave the pixel */
+    const int32_t length = max_i32(abs_i32(v.x), abs_i32(v.y));
+    const int32_t log = length < SHORT ? 0 : samples < 8 ? 2 : samples < 16 || length < LONG ? 3 : 4, n = 1 << log, half = 4 << log;
+    for (int32_t k = 0; k < n; k++) {
+        b->x[k] = (v.x * (2 * k + 1 - n) + half) >> (log + 3);
+        b->y[k] = (v.y * (2 * k + 1 - n) + half) >> (log + 3);
+    }
+    b->left = min_i32(b->x[0], b->x[n - 1]);
+    b->right = max_i32(b->x[0], b->x[n - 1]);
+    b->taps = n;
+    b->log = min_i32(log, LINE_TAPS_LOG_MAX);
+}
+
+/* Returns how many rows of a block from y on, all or one, lie at even distances in the table, as those of all taps do. */
+static int32_t rows_alike(const struct block_run *b, const uint32_t *row, int32_t y, int32_t width)
+{
+    const uint32_t apart = (uint32_t)((b->y1 - 1 - y) * width);
+    bool alike = row[b->y1 - 1] - row[y] == apart;
+    for (int k = 0; k < b->taps; k++)
+        alike = alike && row[b->y1 - 1 + b->y[k]] - row[y + b->y[k]] == apart;
+    return alike ? b->y1 - y : 1;
+}
+
+/* Finds where taps from number `first` on lie from a pixel of columns [x, x + m->columns) in row y; within the frame. */
+static void find_offsets(struct line_block *m, const struct block_run *b, const struct smear_window *w, const uint32_t *row, int32_t x,
+                         int32_t y, int first)
+{
+    for (int k = 0; k < 1 << b->log; k++)
+        m->offset[k] = (int32_t)(row[y + b->y[first + k]] - row[y]) + clamp_i32(b->x[first + k], -x, w->width - x - m->columns);
+}
+
+/* Blurs a block; columns whose taps lie beside the frame one by one. */
+static void blur_block(uint32_t *out, const struct smear_window *w, const uint32_t *row, const struct block_run *b, bool linear)
+{
+    struct line_block m = { .in_stride = w->width, .out_stride = w->tile, .log = b->log };
+    const int32_t inside = clamp_i32(w->width - b->right, b->x0, b->x1);
+    for (int32_t y = b->y0; y < b->y1; y += m.rows, out += m.rows * w->tile) {
+        m.rows = b->taps > LINE_TAPS_MAX ? 1 : rows_alike(b, row, y, w->width);
+        for (int32_t x = b->x0; x < b->x1; x += m.columns) {
+            m.columns = x + b->left >= 0 && x < inside ? inside - x : 1;
+            m.in = w->color + row[y] + (uint32_t)x;
+            m.out = out + (x - b->x0);
+            find_offsets(&m, b, w, row, x, y, 0);
+            smear_line_means(&m, linear);
+            if (b->taps > LINE_TAPS_MAX) {
+                uint32_t more[TILE_MOST];
+                uint32_t *const mean = m.out;
+                find_offsets(&m, b, w, row, x, y, LINE_TAPS_MAX);
+                m.out = more;
+                smear_line_means(&m, linear);
+                smear_line_mix(mean, more, m.columns, 1, linear);
+            }
+        }
+    }
+}
+
+uint32_t smear_blur_line(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column,
+                         const struct smear_blur_settings *settings)
+{
+    const int32_t left = column << w->tile_shift, right = min_i32(left + w->tile, w->width), block = block_edge(w);
+    uint32_t taken = 0;
+    for (int32_t y = rows->y0, next; y < rows->y1; y = next) {
+        next = min_i32((y & -block) + block, rows->y1);
+        const int32_t at = window_ring_row(w, y & -block) * w->width;
+        struct smear_pixel_velocity v = window_velocity(w, (uint32_t)(at + left)), last;
+        for (int32_t x = left, end; x < right; x = end) {
+            last = v;
+            end = x;
+            do {
+                end += block;
+                if (end < right)
+                    v = window_velocity(w, (uint32_t)(at + end));
+            } while (end < right && v.x == last.x && v.y == last.y);
+            struct block_run b = { .x0 = x, .x1 = min_i32(end, right), .y0 = y - rows->first, .y1 = next - rows->first };
+            block_taps(&b, last, settings->samples);
+            blur_block(out + (y - rows->y0) * w->tile + (x - left), w, rows->offset, &b, transfer_is_linear(settings->transfer));
+            taken += (uint32_t)((b.x1 - b.x0) * (b.y1 - b.y0) * b.taps);
+        }
+    }
+    return taken;
+}
