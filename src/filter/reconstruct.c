@@ -16,6 +16,16 @@
 
 #include "filter/gather.h"
 
+/* What follows from a pixel's velocity in a neighbourhood. */
+struct own_motion {
+    bool known;
+    uint32_t word;              /* that velocity */
+    struct vector second;       /* the second direction, as long as the first */
+    int32_t background;         /* speed that taps not in front start with, q8 */
+    uint32_t over;              /* its inverse_speed */
+    bool slow;                  /* at most 1/2 px */
+};
+
 /* The direction of a neighbourhood. */
 struct direction {
     struct vector v;
@@ -23,16 +33,7 @@ struct direction {
     int32_t pairs;              /* 0: shorter than 2 px, nothing is gathered */
     int32_t spacing;            /* 2^12 / pairs: distance of pairs in units of v */
     uint32_t center;            /* the centre's weight times its speed: 1.2 / (2 pairs), q12 */
-};
-
-/* What follows from a pixel's velocity in a neighbourhood. */
-struct own_motion {
-    const struct direction *around;     /* the neighbourhood it is valid for; null at first */
-    uint32_t word;
-    struct vector second;       /* the second direction, as long as the first */
-    int32_t background;         /* speed that taps not in front start with, q8 */
-    uint32_t over;              /* its inverse_speed */
-    bool slow;                  /* at most 1/2 px */
+    struct own_motion own;      /* of the last pixel that took it */
 };
 
 /* What follows from a pixel's depth: where taps are fully in front and fully behind. */
@@ -53,7 +54,6 @@ struct gathering {
     const uint32_t *color;      /* the window's planes from the tile's first column on */
     const uint16_t *depth_code;
     int32_t x0;                 /* that column */
-    struct own_motion motion;
     struct own_depth depth;
     uint32_t front_word;        /* velocity of the last tap in front */
     int32_t front_speed;        /* q8 */
@@ -102,6 +102,7 @@ static void direction_make(struct direction *d, const struct gathering *g,
                            const struct smear_tile_neighborhood *around)
 {
     d->v = (struct vector){ around->x, around->y };
+    d->own.known = false;
     d->length = length_of(around->x, around->y);
     /* All taps lie in the table of rows: the reach is passed by less than the half pixel from a centre to the
      * border. */
@@ -136,18 +137,26 @@ static struct vector second_direction(struct vector own, int32_t speed, const st
     return stretch(mixed, top->length, max_i32(length_of(mixed.x, mixed.y), 32));
 }
 
-static SMEAR_RARE void own_motion_make(struct gathering *g, const struct direction *around, uint32_t at,
-                                       uint32_t word)
+static SMEAR_RARE void own_motion_make(struct direction *d, const struct gathering *g, uint32_t at, uint32_t word)
 {
-    struct own_motion *m = &g->motion;
+    struct own_motion *m = &d->own;
     struct smear_pixel_velocity v = window_velocity(g->w, at);
     int32_t speed = speed_of(v);
-    m->around = around;
+    m->known = true;
     m->word = word;
-    m->second = second_direction((struct vector){ v.x * 32, v.y * 32 }, speed, around, g->guertin);
+    m->second = second_direction((struct vector){ v.x * 32, v.y * 32 }, speed, d, g->guertin);
     m->background = max_i32(speed, 256);
     m->over = inverse_speed(m->background);
     m->slow = speed <= 128;
+}
+
+/* Returns what follows from the velocity of pixel `at` of the window. */
+static inline const struct own_motion *own_motion_of(struct direction *d, const struct gathering *g, uint32_t at)
+{
+    const uint32_t word = window_velocity_word(g->w, at);
+    if (!d->own.known || word != d->own.word)
+        own_motion_make(d, g, at, word);
+    return &d->own;
 }
 
 /* Returns 2^30 / x for 0 < x < 2^20. */
@@ -201,23 +210,31 @@ static inline uint32_t weight_of(uint32_t inverse, uint32_t shape, int32_t cover
     return ((inverse >> 6) * shape >> 10) * (uint32_t)min_i32(cover, 256) >> 12;
 }
 
-static SMEAR_RARE void front_speed_update(struct gathering *g, uint32_t at, uint32_t word)
+/* Returns the speed of a tap that is in front, q8. `at` counts from the window's first column. */
+static inline int32_t front_speed(struct gathering *g, uint32_t at)
 {
-    g->front_word = word;
-    g->front_speed = speed_of(window_velocity(g->w, at));
+    const uint32_t word = window_velocity_word(g->w, at);
+    if (word != g->front_word) {
+        g->front_word = word;
+        g->front_speed = speed_of(window_velocity(g->w, at));
+    }
+    return g->front_speed;
 }
 
-/* Returns the weight of a tap that is in front, at least in part: its own speed decides, and raises the
- * background's. */
-static SMEAR_RARE uint32_t front_weight(struct gathering *g, uint32_t code, uint32_t shape,
-                                        int32_t distance)
+/* Returns the weight of a tap that is in front, at least in part: its own speed decides, and raises the background's. One that
+ * goes as fast as that weighs like any other. */
+static SMEAR_RARE uint32_t front_weight(struct gathering *g, int32_t speed, uint32_t code, uint32_t shape, int32_t distance)
 {
-    int32_t speed = g->front_speed;
+    int32_t cover = g->background - (distance >> 12);
+    if (cover <= 0 && speed <= g->background)
+        return 0;
+    if (speed == g->background)
+        return weight_of(g->over, shape, cover);
     uint32_t front = front_share(g, code);
     if (front != 256u)
         speed = g->background + ((speed - g->background) * (int32_t)front >> 8);
     speed = max_i32(speed, 16);
-    int32_t cover = speed - (distance >> 12);
+    cover = speed - (distance >> 12);
     if (speed <= g->background)
         return cover > 0 ? weight_of(inverse_speed(speed), shape, cover) : 0;
     g->background = speed;
@@ -242,12 +259,7 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
     uint32_t code = g->depth_code[at], weight;
     int32_t cover = g->background - (distance >> 12);           /* q8 */
     if (code > f->own_code) {
-        uint32_t word = window_velocity_word(g->w, (uint32_t)(g->x0 + at));
-        if (word != g->front_word)
-            front_speed_update(g, (uint32_t)(g->x0 + at), word);
-        if (cover <= 0 && g->front_speed <= g->background)
-            return;
-        weight = front_weight(g, code, shape, distance);
+        weight = front_weight(g, front_speed(g, (uint32_t)(g->x0 + at)), code, shape, distance);
         if (weight == 0)
             return;
     } else {
@@ -261,10 +273,9 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
 }
 
 /* Filters the pixel in column x of the tile and row y of the table. */
-static uint32_t gather(struct gathering *g, int32_t here, int32_t x, int32_t y, uint32_t noise)
+static uint32_t gather(struct gathering *g, struct direction *top, int32_t here, int32_t x, int32_t y, uint32_t noise)
 {
-    const struct own_motion *m = &g->motion;
-    const struct direction *top = m->around;
+    const struct own_motion *m = own_motion_of(top, g, (uint32_t)(g->x0 + here));
     const struct tap_frame f = { g->rows->offset, g->depth.code, g->fence && m->slow, -g->x0,
                                  g->w->width - 1 - g->x0 };
     struct weighed_sum sum = { 0, 0, 0, 0 };
@@ -311,8 +322,8 @@ static bool directions_make(struct direction direction[9], const struct gatherin
 }
 
 /* Finds the direction of a pixel of the tile. */
-static const struct direction *choose(const struct direction direction[9], const struct smear_window *w, int32_t x, int32_t y,
-                                      uint32_t inner)
+static struct direction *choose(struct direction direction[9], const struct smear_window *w, int32_t x, int32_t y,
+                                uint32_t inner)
 {
     const uint32_t angle = (noise_of(inner + 2u * (uint32_t)w->width * NOISE_X) + 128u) >> 8;
     return &direction[4 + tile_jump(x, smear_sine[(angle + 64u) & 255u], w->tile_shift)
@@ -340,17 +351,14 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, con
     for (int32_t y = rows->y0; y < rows->y1; y++, out += w->tile) {
         uint32_t at = rows->offset[y - rows->first] + (uint32_t)x0, inner = (uint32_t)x0 * NOISE_X + (uint32_t)y * NOISE_Y;
         for (int32_t x = 0; x < n; x++, at++, inner += NOISE_X) {
-            const struct direction *top = choose(direction, w, x, y - y0, inner);
+            struct direction *top = choose(direction, w, x, y - y0, inner);
             if (top->pairs == 0) {
                 out[x] = w->color[at];
                 continue;
             }
-            const uint32_t word = window_velocity_word(w, at);
-            if (word != g.motion.word || top != g.motion.around)
-                own_motion_make(&g, top, at, word);
             if (w->depth[at] != g.depth.code)
                 own_depth_make(&g, w->depth[at]);
-            out[x] = gather(&g, (int32_t)at - x0, x, y - rows->first, noise_of(inner));
+            out[x] = gather(&g, top, (int32_t)at - x0, x, y - rows->first, noise_of(inner));
             taps += 2u * (uint32_t)top->pairs + 1u;
         }
     }

@@ -27,7 +27,12 @@ void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
         uint32_t at = (uint32_t)(window_ring_row(w, y) * w->width + x0), end = at + (uint32_t)n;
         uint32_t above = (uint32_t)(window_ring_row(w, max_i32(y - 1, 0)) * w->width + x0);
         struct smear_pixel_velocity last = window_velocity(w, x0 > 0 ? at - 1 : at);
+        uint32_t last_word = ~window_velocity_word(w, at);
         for (; at < end; at++, above++) {
+            const uint32_t word = window_velocity_word(w, at);
+            if (word == last_word && word == window_velocity_word(w, above))       /* as most: what is known of the last one holds */
+                continue;
+            last_word = word;
             const struct smear_pixel_velocity v = window_velocity(w, at);
             const int32_t square = v.x * v.x + v.y * v.y;
             if (square > longest) {
