@@ -55,6 +55,9 @@ struct smear_layer_rows {
     int16_t *row_first, *row_end;       /* the columns of each row within which something is drawn */
     void *work;                         /* work_bytes per worker: layer.h */
     uint32_t work_bytes;
+    /* What was drawn last, of which the next tile row of the same group needs the lower part again. */
+    const struct smear_group *drawn;    /* null: none that is of use */
+    int32_t x0, y0, x1, y1;             /* columns, and rows of the layer's frame */
 };
 
 #define SMEAR_UNCOVERED 0xff000000u

@@ -26,8 +26,13 @@ void smear_gather_cells(const struct smear_layer_area *a)
     for (int32_t i = 0; i < count; i++) {
         struct smear_pixel_velocity longest = { 0, 0 };
         const int32_t x0 = max_i32(i << a->tile_shift, a->group->x0), x1 = min_i32((i + 1) << a->tile_shift, a->group->x1);
+        uint32_t last = 0;                  /* of nothing that moves */
         for (int32_t y = 0; y < a->rows; y++)
             for (int32_t x = x0; x < x1; x++) {
+                const uint32_t word = velocity_word(l->velocity8, l->velocity16, (uint32_t)(y * l->width + x));
+                if (word == last)
+                    continue;
+                last = word;
                 const struct smear_pixel_velocity v = velocity_at(l, y * l->width + x);
                 if (square_of(v) > square_of(longest))
                     longest = v;
@@ -57,7 +62,8 @@ static inline void sum_add(struct weighed_sum *s, uint32_t p, uint32_t weight, s
 static uint32_t sum_mean(const struct weighed_sum *s, smear_transfer transfer)
 {
     const int zeros = count_leading_zeros(s->weight);
-    uint32_t r = recip_norm_precise(s->weight << zeros);            /* 2^(61 - zeros) / weight */
+    /* 2^(61 - zeros) / weight, which is that less one of most pixels. */
+    const uint32_t r = s->weight == WHOLE ? (1u << 30) - 1u : recip_norm_precise(s->weight << zeros);
     uint32_t half = s->weight >> 1, c[3] = { s->r + half, s->g + half, s->b + half };
     for (int i = 0; i < 3; i++)
         c[i] = code_of_short(mulh_u32(c[i], r) >> (29 - zeros), transfer);
@@ -282,12 +288,13 @@ static void merge_pixel(struct gathering *g, int32_t here, uint32_t background_d
         passed = (coverage + (((255u - coverage) * part + WHOLE / 2) >> 12)) << 24
                | mixed_pixel(passed & 0xffffffu, whole, part, a->transfer);
     }
-    if (front != 0) {
-        passed = over_passed(passed, sum_mean(&seen.sum, a->transfer), front, a->transfer);
+    const struct weighed_sum sum = seen.sum;
+    if (front != 0)
         a->background[at] = sum_pixel(&seen.sum, a->background[at], a->transfer);
-    }
-    if (!mixed || !a->group->marks || (seen.sum.weight | seen.behind.weight) == 0)
+    if (!mixed || !a->group->marks || (front | seen.behind.weight) == 0)
         return;
+    if (front != 0)
+        passed = over_passed(passed, sum_mean(&sum, a->transfer), front, a->transfer);
     const uint32_t depth = of >= 0 ? g->depth[of] : 0;
     a->layer->over_depth[at] = (uint16_t)max_u32(depth, seen.passed_depth);
     a->layer->over[at] = passed;

@@ -84,7 +84,7 @@ static void draw_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     if (r->row.steps & ROW_CLEAR)
-        for (int32_t row = 0; row < r->area.rows; row++)
+        for (int32_t row = t.window_rows.ring_row; row < r->area.rows; row++)
             clear_columns(&t, row, t.x0, t.x1);
     t.over = r->row.rows->refill != NULL;
     if (r->row.steps & ROW_DRAW)
@@ -149,8 +149,34 @@ static void draw_listed(struct layers_row *r)
     tail->next = after;
 }
 
+/* Moves what was drawn of the group for the tile row before to where the area has it; the target begins below that. */
+static void keep_drawn(struct layers_row *r)
+{
+    struct smear_layer_rows *l = &r->layers->rows;
+    struct smear_raster_target *t = &r->target;
+    if (l->drawn == r->group && l->x0 <= t->x0 && l->x1 >= t->x1 && l->y0 <= t->y0 && l->y1 > t->y0 && r->row.rows->refill == NULL) {
+        const size_t n = (size_t)l->width, kept = (size_t)(l->y1 - t->y0), from = (size_t)(t->y0 - l->y0);
+        for (size_t i = 0; from != 0 && i < kept; i++) {
+            __builtin_memcpy(l->color + i * n, l->color + (i + from) * n, n * sizeof *l->color);
+            __builtin_memcpy(l->depth + i * n, l->depth + (i + from) * n, n * sizeof *l->depth);
+            if (t->velocity8 != NULL)
+                __builtin_memcpy(l->velocity8 + 2 * i * n, l->velocity8 + 2 * (i + from) * n, 2 * n);
+            if (t->velocity16 != NULL)
+                __builtin_memcpy(l->velocity16 + 2 * i * n, l->velocity16 + 2 * (i + from) * n, 4 * n);
+        }
+        t->y0 = l->y1;
+        t->window_rows.ring_row = t->color_rows.ring_row = (int32_t)kept;
+    }
+    l->drawn = r->group;
+    l->x0 = t->x0;
+    l->x1 = t->x1;
+    l->y0 = t->y0 - t->window_rows.ring_row;
+    l->y1 = t->y1;
+}
+
 static void draw_group(struct layers_row *r)
 {
+    keep_drawn(r);
     if (r->row.rows->refill != NULL)
         draw_refilled(r);
     else
@@ -363,6 +389,7 @@ static int finish_row(struct smear_layers *l, struct smear_rows *rows, int32_t s
 
 int smear_layered_rows(struct smear_layers *l, struct smear_rows *rows, int32_t samples, int first, int end)
 {
+    l->rows.drawn = NULL;
     for (int row = first; row < end; row++) {
         int result = finish_row(l, rows, samples, row, row == first);
         if (result != SMEAR_OK)
