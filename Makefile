@@ -168,7 +168,6 @@ chart-picture: $(BIN)/smear-bench
 	@mkdir -p tools/bench/pictures
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
 	cp build/chart/marks.svg build/chart/chart.svg tools/bench/pictures/
-	cp build/chart/study-chart.svg tools/bench/pictures/study.svg
 	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) $(addprefix tools/options/,arguments.c say.c) $(TOOL_SRC)) $(LIB)

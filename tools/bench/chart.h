@@ -6,7 +6,7 @@
  *     chart_csv.c        chart.csv, written and read
  *     chart_means.c      means over groups of scenes; which points lie on the frontier
  *     chart_bars.c       the bars, met or missed
- *     chart_tables.c     tables for the terminal and in Markdown
+ *     chart_tables.c     tables for the terminal
  *     chart_plot.c       pictures, made of chart_panel.c (svg.c draws, labels.c finds room)
  *     chart_command.c    options and progress
  *
@@ -224,10 +224,9 @@ void chart_print_scene(FILE *out, const struct chart *chart, int condition, int 
 /* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
 void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
                       struct chart_verdict *verdict);
-bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f);
 
-/* marks.svg: what is plain, in two planes. chart.svg: four planes of means as users get it; scenes.svg: each scene for
- * itself. The two with "study-" before their names for the study's conditions. Those for which nothing is known are left out. */
+/* marks.svg: what is plain, in two planes. chart.svg: four planes of means as users get it. One for which nothing is known is left
+ * out. */
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f);
 
 /* The command `chart`, arguments behind its name. */

@@ -202,8 +202,7 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
     snprintf(path, sizeof path, "%s/chart.csv", o->out);
     if (o->from == NULL && !chart_write_csv(chart, NULL, number, path, f))
         return false;
-    snprintf(path, sizeof path, "%s/tables.md", o->out);
-    if (!chart_write_tables(chart, path, f) || !chart_write_pictures(chart, o->out, f))
+    if (!chart_write_pictures(chart, o->out, f))
         return false;
     for (int k = 0; k < ALL_KINDS && o->few_scenes; k++)
         if (o->choice.kind[k])
@@ -216,7 +215,7 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
             printf("\n");
         }
     chart_print_bars(stdout, chart, !o->is_part, 10, verdict);
-    printf("\n%d bars met, %d missed, %d not measured. Tables and pictures: %s\n", verdict->met,
+    printf("\n%d bars met, %d missed, %d not measured. Numbers and pictures: %s\n", verdict->met,
            verdict->missed, verdict->unknown, o->out);
     return true;
 }

@@ -21,12 +21,11 @@ static const double ticks[] = { 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10,
                                 100, 200 };
 enum { TICKS = sizeof ticks / sizeof *ticks };
 
-/* Powers of ten always, twos and fives where that is not `crowded`; the others where there is room. */
-static bool is_labelled(const struct axis *axis, int tick, double room, bool crowded)
+/* Powers of ten, twos and fives always; the others where there is room. */
+static bool is_labelled(const struct axis *axis, int tick, double room)
 {
     double digit = ticks[tick] / pow(10.0, floor(log10(ticks[tick] * 1.001)));
-    bool main = fabs(digit - 1.0) < 0.1 || (!crowded && (fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1));
-    if (main)
+    if (fabs(digit - 1.0) < 0.1 || fabs(digit - 2.0) < 0.1 || fabs(digit - 5.0) < 0.1)
         return true;
     double before = fabs(at(axis, ticks[tick]) - at(axis, ticks[tick - 1]));
     double after = fabs(at(axis, ticks[tick + 1]) - at(axis, ticks[tick]));
@@ -77,12 +76,12 @@ static void draw_grid(struct svg *svg, const struct panel *p)
     }
     for (int i = 0; i < TICKS; i++) {
         snprintf(text, sizeof text, "%g\u00d7", ticks[i]);
-        if (is_on(&p->x, ticks[i]) && is_labelled(&p->x, i, 2.6 * p->tick_size, p->name_size == 0.0))
+        if (is_on(&p->x, ticks[i]) && is_labelled(&p->x, i, 2.6 * p->tick_size))
             svg_text(svg, at(&p->x, ticks[i]), b->y + b->height + 1.3 * p->tick_size, ANCHOR_MIDDLE, font, text);
     }
     for (int i = 0; i < TICKS; i++) {
         snprintf(text, sizeof text, "%g", ticks[i]);
-        if (is_on(&p->y, ticks[i]) && is_labelled(&p->y, i, 1.4 * p->tick_size, false))
+        if (is_on(&p->y, ticks[i]) && is_labelled(&p->y, i, 1.4 * p->tick_size))
             svg_text(svg, b->x - 6.0, at(&p->y, ticks[i]) + 0.35 * p->tick_size, ANCHOR_END, font, text);
     }
 }
@@ -178,9 +177,7 @@ static void draw_frontier(struct svg *svg, const struct panel *p, bool area)
         y[n] = p->box.y;
         svg_area(svg, x, y, n + 1, shade);
     } else {
-        bool large = p->name_size > 0.0;
-        svg_polyline(svg, x, y, n, (struct svg_style){ edge, large ? 1.6 : 1.0,
-                                                       large ? "5,4" : "3,2", 0.0 });
+        svg_polyline(svg, x, y, n, (struct svg_style){ edge, 1.6, "5,4", 0.0 });
     }
 }
 
@@ -206,8 +203,7 @@ static double mark_size(const struct panel *p, const struct chart_point *point)
 {
     const struct chart_setting *setting = &chart_settings[point->setting];
     double size = setting->label != NULL ? p->mark : 0.45 * p->mark;
-    return chart_curves[setting->curve].bold && setting->label != NULL && p->name_size > 0.0
-             ? 1.25 * size : size;
+    return chart_curves[setting->curve].bold && setting->label != NULL ? 1.25 * size : size;
 }
 
 /* Bold curves last, so that they lie on top. */
@@ -227,7 +223,7 @@ static void draw_curves(struct svg *svg, const struct panel *p)
                 if (chart_settings[p->point[i].setting].curve == c)
                     svg_mark(svg, curve->mark, at(&p->x, p->point[i].cost),
                              at(&p->y, p->point[i].error), mark_size(p, &p->point[i]),
-                             curve->color, p->point[i].on_frontier || p->mark < 3.0
+                             curve->color, p->point[i].on_frontier
                                  || chart_settings[p->point[i].setting].label == NULL);
         }
 }
@@ -384,5 +380,5 @@ bool chart_panel_draw(struct svg *svg, const struct panel *p, struct failure *f)
     draw_frontier(svg, p, false);
     draw_peer_marks(svg, p);
     draw_curves(svg, p);
-    return p->name_size == 0.0 || draw_labels(svg, p, f);
+    return draw_labels(svg, p, f);
 }

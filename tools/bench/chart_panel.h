@@ -27,7 +27,7 @@ struct panel {
     struct axis x, y;
     double mark;                /* size of marks */
     double tick_size;           /* of fonts */
-    double name_size;           /* 0: neither names nor labels */
+    double name_size;
     bool plain;                 /* names of curves are plain ones */
 };
 

@@ -45,25 +45,21 @@ static const struct part {
 };
 enum { PARTS = sizeof parts / sizeof *parts, PLAIN_PARTS = 2 };
 
-/* Pictures of means, and, with the same prefix, of all scenes. */
 static const struct plot {
-    int condition;
     bool plain;
-    const char *prefix, *title, *what;
+    const char *name, *title, *what;
 } plots[] = {
-    { CHART_DEFAULT, true, "", "What motion blur costs, and how far it is from the truth", NULL },
-    { CHART_DEFAULT, false, "", "Motion blur on a CPU: accuracy and its price",
+    { true, "marks", "What motion blur costs, and how far it is from the truth", NULL },
+    { false, "chart", "Motion blur on a CPU: accuracy and its price",
       "As it comes: linear light, poses of frames ago, RGB565 with dither" },
-    { CHART_MAIN, false, "study-", "Motion blur on a CPU: accuracy and its price",
-      "As in studies: encoded light, poses at shutter open and close, 8 bits per channel" },
 };
 enum { PLOTS = sizeof plots / sizeof *plots };
 
 /* Where there are no models, the demo alone. */
-static struct part shown_part(const struct chart *chart, const struct plot *plot, int i)
+static struct part shown_part(const struct chart *chart, int i)
 {
     struct part part = parts[i];
-    if (part.set == SET_FIELD && !chart_mean_of(chart, plot->condition, SET_FIELD, chart_none).known)
+    if (part.set == SET_FIELD && !chart_mean_of(chart, CHART_DEFAULT, SET_FIELD, chart_none).known)
         part = (struct part){ SET_DEMO, "4 frames of the demo" };
     return part;
 }
@@ -90,16 +86,16 @@ static void leave_out_mixing(struct chart_point *point, int count)
 static void fill_panel(struct panel *p, const struct chart *chart, const struct plot *plot, enum chart_set set)
 {
     p->plain = plot->plain;
-    p->points = chart_points_of_set(chart, plot->condition, set, p->point);
+    p->points = chart_points_of_set(chart, CHART_DEFAULT, set, p->point);
     if (plot->plain)
         leave_out_mixing(p->point, p->points);
     p->points = keep_shown(p->point, p->points, plot->plain);
-    p->none = plot->plain ? 0.0 : chart_mean_of(chart, plot->condition, set, chart_none).instructions;
+    p->none = plot->plain ? 0.0 : chart_mean_of(chart, CHART_DEFAULT, set, chart_none).instructions;
     p->peer_errors = set == SET_PEER;
     for (int s = 0; s < PEER_SETTINGS && !plot->plain && set != SET_FIELD && set != SET_DEMO; s++) {    /* one frame is no mean */
         struct chart_point *peer = &p->peer[p->peers];
         peer->setting = s;
-        p->peers += chart_peer_mean(chart, plot->condition, set, s, &peer->cost, &peer->error);
+        p->peers += chart_peer_mean(chart, CHART_DEFAULT, set, s, &peer->cost, &peer->error);
     }
 }
 
@@ -116,7 +112,7 @@ static bool draw_all_parts(const struct chart *chart, const struct plot *plot, c
     int n = 0;
     for (int i = 0; i < parts_of; i++) {
         struct panel *p = &panel[n];
-        part[n] = shown_part(chart, plot, i);
+        part[n] = shown_part(chart, i);
         *p = (struct panel){ .box = { LEFT + n % COLUMNS * (PLOT_W + GAP), top + n / COLUMNS * step, PLOT_W, tall },
                              .mark = 4.2, .tick_size = 12.5, .name_size = 13.0 };
         fill_panel(p, chart, plot, part[n].set);
@@ -142,70 +138,6 @@ static bool draw_all_parts(const struct chart *chart, const struct plot *plot, c
     return svg_end(&svg, path, f) && ok;
 }
 
-/* ------------------------------------------------------------------ scene by scene */
-
-static void draw_legend(struct svg *svg, double left, double right, double y)
-{
-    const struct svg_font font = { .size = 12.5, .color = PANEL_INK };
-    double x = left;
-    for (int c = 0; c < chart_curve_count; c++) {
-        double width = 1.1 * svg_text_width(font, chart_curves[c].name) + 34.0;
-        if (x + width > right) {
-            x = left;
-            y += 18.0;
-        }
-        svg_mark(svg, chart_curves[c].mark, x + 6.0, y - 4.0, 4.5, chart_curves[c].color, true);
-        svg_text(svg, x + 16.0, y, ANCHOR_START, font, chart_curves[c].name);
-        x += width;
-    }
-}
-
-/* All scenes on planes of one scale. */
-static bool draw_scenes(const struct chart *chart, const struct plot *plot, const char *path, struct failure *f)
-{
-    enum { COLUMNS = 4, WIDTH = 800, LEFT = 52, TOP = 172, CELL_W = 186, CELL_H = 176,
-           PLOT_W = 158, PLOT_H = 134, FOOT = 28 };
-    static struct panel panel[ALL_KINDS];
-    static int kind[ALL_KINDS];
-    static const char title[] = "Scene by scene: accuracy of motion blur and its price";
-    struct svg svg;
-    int n = 0;
-    for (int k = 0; k < ALL_KINDS; k++) {
-        struct panel *p = &panel[n];
-        if (kinds[k].group == GROUP_STILL)
-            continue;
-        *p = (struct panel){ .box = { LEFT + n % COLUMNS * CELL_W, TOP + n / COLUMNS * CELL_H,
-                                      PLOT_W, PLOT_H }, .mark = 2.6, .tick_size = 11.0 };
-        p->points = keep_shown(p->point, chart_points_of_kind(chart, plot->condition, k, p->point), false);
-        kind[n] = k;
-        n += p->points > 0;
-    }
-    int rows = (n + COLUMNS - 1) / COLUMNS, height = TOP + rows * CELL_H + FOOT;
-    if (n == 0)
-        return true;
-    chart_panel_fit(panel, n);
-    if (!svg_begin(&svg, WIDTH, height, title, f))
-        return false;
-    svg_text(&svg, 20, 28, ANCHOR_START, title_font, title);
-    svg_text(&svg, 20, 48, ANCHOR_START, what_font, plot->what);
-    draw_legend(&svg, 20, WIDTH - 8, 72);
-    bool ok = true;
-    for (int i = 0; i < n; i++) {
-        const struct chart_value *none = &chart->value[plot->condition][kind[i]][chart_none];
-        char text[64];
-        ok = ok && chart_panel_draw(&svg, &panel[i], f);
-        svg_text(&svg, panel[i].box.x, panel[i].box.y - 5.0, ANCHOR_START,
-                 (struct svg_font){ .size = 13.0, .color = PANEL_INK, .bold = true },
-                 kinds[kind[i]].name);
-        snprintf(text, sizeof text, "1\u00d7 = %.1f M", none->instructions / 1e6);
-        svg_text(&svg, panel[i].box.x + PLOT_W, panel[i].box.y - 5.0, ANCHOR_END, note_font, text);
-    }
-    svg_text(&svg, WIDTH / 2.0, height - 12, ANCHOR_MIDDLE, axis_font,
-             "cost: instructions of a frame in parts of the sharp one");
-    svg_text_up(&svg, 16, TOP + (rows * CELL_H - CELL_H + PLOT_H) / 2.0, axis_font, error_axis);
-    return svg_end(&svg, path, f) && ok;
-}
-
 /* ------------------------------------------------------------------ all */
 
 bool chart_write_pictures(const struct chart *chart, const char *folder, struct failure *f)
@@ -213,10 +145,8 @@ bool chart_write_pictures(const struct chart *chart, const char *folder, struct 
     char path[512];
     bool ok = true;
     for (int k = 0; k < PLOTS && ok; k++) {
-        snprintf(path, sizeof path, "%s/%s%s.svg", folder, plots[k].prefix, plots[k].plain ? "marks" : "chart");
+        snprintf(path, sizeof path, "%s/%s.svg", folder, plots[k].name);
         ok = draw_all_parts(chart, &plots[k], path, f);
-        snprintf(path, sizeof path, "%s/%sscenes.svg", folder, plots[k].prefix);
-        ok = ok && (plots[k].plain || draw_scenes(chart, &plots[k], path, f));
     }
     return ok;
 }

@@ -1,14 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* chart_tables.c - means for the terminal; means and every scene in Markdown. */
+/* chart_tables.c - means, and one scene after the other, for the terminal. */
 #include "tools/bench/chart.h"
 
-#include "tools/image/image.h"
 #include "tools/bench/sheet.h"
-#include "tools/bench/truth.h"
-
-#include <stdlib.h>
-
-/* ------------------------------------------------------------------ terminal */
 
 static void print_mean(FILE *out, const struct chart_mean *mean)
 {
@@ -125,41 +119,4 @@ void chart_print_scene(FILE *out, const struct chart *chart, int condition, int 
         fprintf(out, "%s\n", point[i].on_frontier ? "  frontier" : "");
     }
     fprintf(out, "\n");
-}
-
-/* ------------------------------------------------------------------ Markdown */
-
-static void write_tables(FILE *out, const struct chart *chart)
-{
-    struct chart_verdict verdict;
-    fprintf(out, "# Speed against accuracy\n\n"
-            "Written by `make chart`. M: millions of instructions of one thread (callgrind). Cost, wall and cpu are relative to\n"
-            "the sharp frame (`none`) of the same scene: in instructions and in time (medians; what else the machine does shows\n"
-            "in wall). RMSE and flicker are in codes of 1/255, against the mean of %d exact instants of a centred shutter of 180\n"
-            "degrees, rounded to 8 bits; exact: before rounding. Means are geometric. FLIP at 67 pixels per degree. \"frontier\":\n"
-            "no other setting is as cheap and as right.\n\n```\n", (int)TRUTH_INSTANTS);
-    chart_print_bars(out, chart, true, ALL_KINDS * CHART_MAX_SETTINGS, &verdict);
-    fprintf(out, "```\n");
-    for (int c = 0; c < CHART_CONDITIONS; c++) {
-        fprintf(out, "\n## %s\n\n```\n", chart_conditions[c].what);
-        chart_print_means(out, chart, c);
-        fprintf(out, "\n");
-        for (int k = 0; k < ALL_KINDS; k++)
-            chart_print_scene(out, chart, c, k);
-        fprintf(out, "```\n");
-    }
-}
-
-bool chart_write_tables(const struct chart *chart, const char *path, struct failure *f)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return fail(f, "out of memory");
-    write_tables(out, chart);
-    bool ok = fclose(out) == 0 || fail(f, "out of memory");
-    ok = ok && file_write(path, (const uint8_t *)text, size, f);
-    free(text);
-    return ok;
 }
