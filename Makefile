@@ -83,7 +83,7 @@ CLI_SRC   := $(wildcard tools/player/*.c tools/options/*.c tools/cli/*.c)
 VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
-DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c picture.c) $(addprefix tools/options/,say.c sink.c) \
+DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,say.c sink.c) \
     $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c output.c palette.c pfm.c place.c \
         png_read.c png_write.c ppm.c) \
     $(addprefix tools/scenes/,backdrop.c build.c demo.c demo_car.c demo_drone.c demo_track.c present.c present_surface.c scene.c stage.c)
@@ -170,7 +170,7 @@ chart-picture: $(BIN)/smear-bench
 	cp build/chart/marks.svg build/chart/chart.svg tools/bench/pictures/
 	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 
-$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c picture.c) $(addprefix tools/options/,arguments.c say.c) $(TOOL_SRC)) $(LIB)
+$(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,arguments.c say.c) $(TOOL_SRC)) $(LIB)
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
@@ -353,7 +353,7 @@ TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
 VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c \
     x11.c x11_auth.c)
-TEST_SRC += $(VIEW_PARTS) tools/player/picture.c tools/player/crew.c $(addprefix tools/options/,apart.c say.c)
+TEST_SRC += $(VIEW_PARTS) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,apart.c say.c)
 
 # What runs the tests of a file, which its last line includes; and the model of tests/data/arm.gltf, as a header and in words, low byte
 # first.

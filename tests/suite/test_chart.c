@@ -4,6 +4,7 @@
 #include "tools/bench/chart.h"
 #include "tools/bench/labels.h"
 #include "tools/bench/truth.h"
+#include "tools/player/exact.h"
 
 #include "tests/host.h"
 
@@ -380,7 +381,7 @@ static void test_pictures_are_well_formed_and_show_every_method_once(void)
 /* ------------------------------------------------------------------ truth */
 
 /* The frame that stands for a scene, as the program draws it with --exact. */
-static bool exact_picture(const char *name, struct image *out, struct failure *f)
+static bool picture_of(const char *name, struct image *out, struct failure *f)
 {
     struct scene scene OWNED(scene_free) = { 0 };
     if (!scene_builtin(name, &scene, f))
@@ -389,8 +390,8 @@ static bool exact_picture(const char *name, struct image *out, struct failure *f
     const struct present_options options = { .fps = scene.fps, .shutter_degrees = 180,
                                              .light = SMEAR_LIGHT_ENCODED, .clear = scene.clear };
     bool ok = presenter != NULL
-           && presenter_exact(presenter, scene.time, &options, scene.width, scene.height,
-                              TRUTH_INSTANTS, out, f);
+           && exact_picture(presenter, scene.time, &options, scene.width, scene.height,
+                            TRUTH_INSTANTS, out, f);
     presenter_free(presenter);
     return ok;
 }
@@ -402,7 +403,7 @@ static void test_the_truth_is_that_of_the_command_line(void)
     struct image rounded, exact OWNED(image_free) = { 0 };
     struct image_distance distance = { .rmse = 99.0 };
     const struct take take = { .scene = "suite/teleport", .frame = -1 };
-    if (!make_folder() || !CHECK(exact_picture("suite/teleport", &exact, &f)))
+    if (!make_folder() || !CHECK(picture_of("suite/teleport", &exact, &f)))
         return;
     if (CHECK(truth_of_take(&take, FOLDER, &truth, &f))) {
         /* From the file this time: the same, but for halves that a float rounds the other way. */

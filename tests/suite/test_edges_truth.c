@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* test_edges_truth.c - smooth edges against the truth over pixel and exposure. Host only. */
 #include "tests/host.h"
+#include "tools/player/exact.h"
 #include "tools/player/picture.h"
-#include "tools/scenes/present.h"
 
 enum { SIZE = 120, INSTANTS = 24 };
 
@@ -87,7 +87,7 @@ static void check_scene(const struct seen *seen)
         .fps = scene.fps, .shutter_degrees = 180, .method = SMEAR_AUTO, .light = SMEAR_LIGHT_LINEAR, .clear = scene.clear,
         .edges = SMEAR_EDGES_SMOOTH, .shutter_poses = true
     };
-    if (CHECK(presenter != NULL) && CHECK(presenter_exact(presenter, scene.time, &options, SIZE, SIZE, INSTANTS, &truth, &f))) {
+    if (CHECK(presenter != NULL) && CHECK(exact_picture(presenter, scene.time, &options, SIZE, SIZE, INSTANTS, &truth, &f))) {
         if (seen->format != SMEAR_XRGB8888)
             make_grey(&truth);
         if (draw(presenter, &scene, &options, seen->format, &smooth)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_present.c - what the presenter hands over is the scene: tests convert the integers back to
  * floats by the definitions of smear.h and compare them with the floats that went in. */
-#include "tools/scenes/present.h"
+#include "tools/player/exact.h"
 
 #include "tools/scenes/tape.h"
 #include "tests/host.h"
@@ -640,7 +640,7 @@ static void check_mean(smear_light_space light, int want)
     struct present_options options = plain;
     struct image image OWNED(image_free) = { 0 };
     options.light = light;
-    if (CHECK(presenter_exact(presenter, 0.0, &options, 24, 24, 2, &image, &f))) {
+    if (CHECK(exact_picture(presenter, 0.0, &options, 24, 24, 2, &image, &f))) {
         int wrong = 0;
         for (int i = 0; i < 24 * 24 * 4; i++)
             wrong += image.rgba[i] != (i % 4 == 3 ? 255 : want);

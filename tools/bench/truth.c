@@ -3,6 +3,7 @@
 #include "tools/bench/truth.h"
 
 #include "tools/bench/take.h"
+#include "tools/player/exact.h"
 #include "tools/scenes/color.h"
 
 #include <errno.h>
@@ -70,7 +71,7 @@ static bool mean_of(struct rig *rig, int instants, double *mean, struct failure 
     const struct present_options options = { .fps = scene->fps, .shutter_degrees = TAKE_SHUTTER_DEGREES, .clear = scene->clear,
                                              .light = take->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED };
     const double time = take->frame < 0 ? scene->time : take->frame / scene->fps;
-    return presenter_mean(rig->presenter, time + take->later / scene->fps, &options, take->width, take->height, instants, mean, f);
+    return exact_mean(rig->presenter, time + take->later / scene->fps, &options, take->width, take->height, instants, mean, f);
 }
 
 /* Reads what is kept under the number of a mean of few instants, which changes with scene and rasterizer; else draws and keeps it. */

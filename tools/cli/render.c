@@ -42,7 +42,7 @@ static bool open_devices(struct render *r, struct failure *f)
     const int width = r->setup.width, height = r->setup.height;
     struct device_setup setup = setup_device(&r->setup, o);
     if (o->exact) {
-        const int places = present_places(&r->setup.present, width, height);
+        const int places = exact_places(&r->setup.present, width, height);
         if (!exact_open(&r->exact, width, height, places, o->format, o->dither, o->doubled, f))
             return false;
         setup.format = SMEAR_XRGB8888;

@@ -2,6 +2,7 @@
 /* film.c - see film.h. */
 #include "tools/demo/film.h"
 
+#include "tools/player/exact.h"
 #include "tools/player/picture.h"
 
 /* Half of each frame's time, as film cameras have it. The scenes are functions of time, so the
@@ -39,8 +40,8 @@ bool film_take(struct film *film, double time, enum film_look look, struct image
     const struct present_options options = options_of(film->scene, look);
     *out = (struct image){ .rgba = NULL };
     if (look == FILM_EXACT)
-        return presenter_exact(film->presenter, time, &options, setup->width, setup->height,
-                               FILM_INSTANTS, out, f);
+        return exact_picture(film->presenter, time, &options, setup->width, setup->height,
+                             FILM_INSTANTS, out, f);
     const struct presented *presented = presenter_frame(film->presenter, time, &options, f);
     if (presented == NULL || !device_fit(&film->device, presented, f) ||
         !device_draw(&film->device, presented, f))

@@ -76,21 +76,56 @@ static void add_counts(smear_stats *sum, const smear_stats *counts)
 
 /* ------------------------------------------------------------------ the mean */
 
-static void add_picture(const struct exact *exact, const uint32_t *picture, const double value[256])
+int exact_places(const struct present_options *options, int width, int height)
 {
-    const int places = exact->places, width = exact->width * places;
-    for (int y = 0; y < exact->height * places; y++)
+    int places = options->edges == SMEAR_EDGES_SMOOTH ? 16 : 1;
+    while (places > 1 && (width * places > 2048 || height * places > 2048))
+        places /= 2;
+    return places;
+}
+
+/* A pixel is as many of the device's along x and y as there are places in it. */
+static void add_picture(double *sum, const struct device *device, int places, const double value[256])
+{
+    const uint32_t *picture = (const uint32_t *)(const void *)device->pixels;
+    const int width = device->setup.width;
+    for (int y = 0; y < device->setup.height; y++)
         for (int x = 0; x < width; x++, picture++) {
-            double *sum = exact->sum + 3 * ((size_t)(y / places) * (size_t)exact->width + (size_t)(x / places));
-            sum[0] += value[*picture >> 16 & 255];
-            sum[1] += value[*picture >> 8 & 255];
-            sum[2] += value[*picture & 255];
+            double *to = sum + 3 * ((size_t)(y / places) * (size_t)(width / places) + (size_t)(x / places));
+            to[0] += value[*picture >> 16 & 255];
+            to[1] += value[*picture >> 8 & 255];
+            to[2] += value[*picture & 255];
         }
 }
 
-static uint32_t code_of(double mean, bool is_linear)
+static uint8_t code_of(double mean, bool is_linear)
 {
-    return is_linear ? present_srgb_encode(mean) : (uint32_t)floor(mean * 255.0 + 0.5);
+    return is_linear ? present_srgb_encode(mean) : (uint8_t)floor(mean * 255.0 + 0.5);
+}
+
+/* The mean of an exposure, drawn by `device`. */
+static bool draw_mean(double *mean, struct presenter *presenter, struct device *device, const struct exposure *e, int places,
+                      smear_stats *counts, struct failure *f)
+{
+    const size_t values = 3 * (size_t)(device->setup.width / places) * (size_t)(device->setup.height / places);
+    double value[256];
+    for (int code = 0; code < 256; code++)
+        value[code] = e->options.light == SMEAR_LIGHT_LINEAR ? present_srgb_decode((uint8_t)code) : code / 255.0;
+    for (size_t i = 0; i < values; i++)
+        mean[i] = 0.0;
+    *counts = (smear_stats){ 0 };
+    for (int i = 0; i < e->instants; i++) {
+        smear_stats instant;
+        const struct presented *presented = pose_instant(presenter, e, i, device, f);
+        if (presented == NULL || !device_draw(device, presented, f))
+            return false;
+        smear_get_stats(device->ctx, &instant);
+        add_counts(counts, &instant);
+        add_picture(mean, device, places, value);
+    }
+    for (size_t i = 0; i < values; i++)
+        mean[i] /= (double)e->instants * places * places;
+    return true;
 }
 
 bool exact_draw(struct exact *exact, struct presenter *presenter, struct device *device,
@@ -100,27 +135,12 @@ bool exact_draw(struct exact *exact, struct presenter *presenter, struct device 
     const struct exposure e = exposure_of(time, options, instants);
     const bool is_linear = options->light == SMEAR_LIGHT_LINEAR;
     const size_t pixels = (size_t)exact->width * (size_t)exact->height;
-    const double all = (double)e.instants * exact->places * exact->places;
-    double value[256];
-    for (int code = 0; code < 256; code++)
-        value[code] = is_linear ? present_srgb_decode((uint8_t)code) : code / 255.0;
-    for (size_t i = 0; i < pixels * 3; i++)
-        exact->sum[i] = 0.0;
-    *counts = (smear_stats){ 0 };
-    for (int i = 0; i < e.instants; i++) {
-        smear_stats instant;
-        const struct presented *presented = pose_instant(presenter, &e, i, device, f);
-        if (presented == NULL || !device_draw(device, presented, f))
-            return false;
-        smear_get_stats(device->ctx, &instant);
-        add_counts(counts, &instant);
-        add_picture(exact, (const uint32_t *)(const void *)device->pixels, value);
-    }
+    if (!draw_mean(exact->sum, presenter, device, &e, exact->places, counts, f))
+        return false;
     for (size_t i = 0; i < pixels; i++) {
-        const double *sum = exact->sum + 3 * i;
-        exact->mean[i] = code_of(sum[0] / all, is_linear) << 16 |
-                         code_of(sum[1] / all, is_linear) << 8 |
-                         code_of(sum[2] / all, is_linear);
+        const double *mean = exact->sum + 3 * i;
+        exact->mean[i] = (uint32_t)code_of(mean[0], is_linear) << 16 | (uint32_t)code_of(mean[1], is_linear) << 8
+                       | code_of(mean[2], is_linear);
     }
     if (!device_show(&exact->display, exact->mean, f))
         return false;
@@ -128,6 +148,34 @@ bool exact_draw(struct exact *exact, struct presenter *presenter, struct device 
     smear_get_stats(exact->display.ctx, &shown);
     counts->crc32 = shown.crc32;
     return true;
+}
+
+bool exact_mean(struct presenter *presenter, double time, const struct present_options *options, int width, int height, int instants,
+                double *mean, struct failure *f)
+{
+    const int places = exact_places(options, width, height);
+    const struct exposure e = exposure_of(time, options, instants);
+    const struct device_setup setup = { .width = width * places, .height = height * places, .threads = 1,
+                                        .methods = SMEAR_SET(SMEAR_NONE), .format = SMEAR_XRGB8888, .dither = SMEAR_DITHER_NONE };
+    struct device device;
+    smear_stats counts;
+    const bool ok = device_open(&device, &setup, f) && draw_mean(mean, presenter, &device, &e, places, &counts, f);
+    device_close(&device);
+    return ok;
+}
+
+bool exact_picture(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
+                   int instants, struct image *out, struct failure *f)
+{
+    const size_t values = 3 * (size_t)width * (size_t)height;
+    double *mean = calloc(values, sizeof *mean);
+    *out = (struct image){ .rgba = NULL };
+    bool ok = mean != NULL || fail(f, "out of memory");
+    ok = ok && exact_mean(presenter, time, options, width, height, instants, mean, f) && image_alloc(out, width, height, f);
+    for (size_t i = 0; i < values && ok; i++)
+        out->rgba[i / 3 * 4 + i % 3] = code_of(mean[i], options->light == SMEAR_LIGHT_LINEAR);
+    free(mean);
+    return ok;
 }
 
 bool exact_time(struct presenter *presenter, struct device *device, double time,

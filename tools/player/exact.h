@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* exact.h - `--method accumulate --exact`: every instant of the exposure posed and lit by the file
- * itself, drawn sharp, and averaged in double precision. With many instants it is the truth. */
+/* exact.h - the mean of sharp frames, SMEAR_NONE, at the midpoints of the exposure, each posed and lit by the file itself, of linear
+ * light or codes, as options->light says, in double precision: what `--method accumulate --exact` draws. With many instants it is the
+ * truth. */
 #ifndef SMEAR_TOOLS_CLI_EXACT_H
 #define SMEAR_TOOLS_CLI_EXACT_H
 
@@ -12,6 +13,18 @@ struct exact {
     double *sum;                /* r g b of each pixel: linear light, or codes */
     uint32_t *mean;             /* 0x00RRGGBB */
 };
+
+/* Returns how many places within a pixel are looked at along x and y: with smooth edges 16, or as many as a frame can have;
+ * else one. */
+int exact_places(const struct present_options *options, int width, int height);
+
+/* The mean of `instants` frames, not rounded: red, green and blue of each pixel, linear light or codes / 255. */
+bool exact_mean(struct presenter *presenter, double time, const struct present_options *options, int width, int height, int instants,
+                double *mean, struct failure *f);
+
+/* The same, rounded. *out is allocated here, and empty on failure. */
+bool exact_picture(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
+                   int instants, struct image *out, struct failure *f);
 
 /* `exact` is released by exact_close in any case. */
 bool exact_open(struct exact *exact, int width, int height, int places, smear_format format,

@@ -77,7 +77,7 @@ struct present_options {
     struct present_fog fog;
     struct present_lights lights;
     struct present_sky sky;
-    smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of presenter_exact */
+    smear_edges edges;              /* of SMEAR_AUTO and SMEAR_SUBFRAMES, and of truths (player/exact.h) */
     int reconstruct;                /* SMEAR_FENCE | ... */
     uint32_t budget;                /* of SMEAR_AUTO; 0: none */
     int target;                     /* of SMEAR_AUTO, 1/64 codes; 0: the library's default */
@@ -146,22 +146,6 @@ double presented_depth(const struct presented *presented, uint16_t code);
 /* The interval in which the shutter is open, in seconds. */
 void present_exposure(double time, const struct present_options *options, double *open,
                       double *close);
-
-/* Returns how many places within a pixel a truth looks at along x and y: with smooth edges 16, or as many as a frame can
- * have; else one. */
-int present_places(const struct present_options *options, int width, int height);
-
-/* The truth: the mean of `instants` sharp frames at the midpoints of the exposure, each posed and
- * lit exactly, drawn by the library with SMEAR_NONE, at present_places within
- * each pixel. Averages linear light or codes, as
- * options->light says. *out is allocated here, and empty on failure. */
-bool presenter_exact(struct presenter *presenter, double time,
-                     const struct present_options *options, int width, int height, int instants,
-                     struct image *out, struct failure *f);
-
-/* The same, not rounded: `mean` has red, green and blue of each pixel, linear light or codes / 255. */
-bool presenter_mean(struct presenter *presenter, double time, const struct present_options *options, int width, int height,
-                    int instants, double *mean, struct failure *f);
 
 /* sRGB (IEC 61966-2-1): linear 0..1 to 0..255, rounded to nearest, and back. */
 uint8_t present_srgb_encode(double linear);

@@ -2,6 +2,7 @@
 /* film.c - see film.h. */
 #include "tools/view/film.h"
 
+#include "tools/player/exact.h"
 #include "tools/player/picture.h"
 #include "tools/options/say.h"
 
@@ -61,9 +62,9 @@ void film_measure(struct view *v)
     struct instant instant = view_instant(v, v->at);
     struct present_options options = setup_frame(&v->main.setup, &v->main.options, instant.frame);
     view_busy(v, "measuring");
-    if (!presenter_exact(v->presenter, instant.time, &options, v->main.setup.width,
-                         v->main.setup.height, options.shutter_degrees > 0.0 ? TRUTH_INSTANTS : 1,
-                         &truth, &f)) {
+    if (!exact_picture(v->presenter, instant.time, &options, v->main.setup.width,
+                       v->main.setup.height, options.shutter_degrees > 0.0 ? TRUTH_INSTANTS : 1,
+                       &truth, &f)) {
         view_say(v, "%s", f.text);
         return;
     }
