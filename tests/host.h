@@ -23,6 +23,22 @@ static inline uint32_t number_from(const char *name, uint32_t usual)
 static inline double light_of(double code) { return color_decode(code / 255); }
 static inline double code_of(double light) { return 255 * color_encode(light); }
 
+/* Of vectors; unit3 makes one of length 1 and returns how long it was. */
+static inline double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline void cross3(double out[3], const double a[3], const double b[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static inline double unit3(double v[3])
+{
+    const double length = sqrt(dot3(v, v));
+    for (int i = 0; i < 3; i++)
+        v[i] /= length;
+    return length;
+}
+
 /* Prints what differs, so that a failed comparison can be understood. */
 static inline bool same_text(const char *got, const char *want)
 {

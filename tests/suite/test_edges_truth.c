@@ -6,38 +6,19 @@
 
 enum { SIZE = 120, INSTANTS = 24 };
 
-static uint8_t display[SIZE * SIZE * 4];
-
-static int keep_band(void *user, const smear_band *band)
-{
-    (void)user;
-    memcpy(display + (size_t)band->y * band->stride, band->pixels, band->size);
-    return 0;
-}
-
 /* A frame of a scene in a format, as a picture. */
 static bool draw(struct presenter *presenter, const struct scene *scene, const struct present_options *options,
                  smear_format format, struct image *out)
 {
     struct failure f = { "" };
-    smear_context *ctx;
+    const struct device_setup setup = { .width = SIZE, .height = SIZE, .threads = 1, .methods = SMEAR_SET(SMEAR_AUTO), .format = format };
+    struct device device;
     const struct presented *frame = presenter_frame(presenter, scene->time, options, &f);
-    if (!CHECK(frame != NULL) || !CHECK(image_alloc(out, SIZE, SIZE, &f)))
-        return false;
-    smear_desc desc = presented_desc(frame, SIZE, SIZE);
-    desc.methods = SMEAR_SET(SMEAR_AUTO);
-    desc.format = (uint8_t)format;
-    desc.flush = keep_band;
-    const size_t bytes = smear_memory_size(&desc);
-    void *memory = malloc(bytes);
-    const bool ok = CHECK(memory != NULL) && CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK)
-                 && CHECK_EQ(presented_submit(frame, ctx), SMEAR_OK) && CHECK_EQ(smear_render(ctx), SMEAR_OK);
-    const size_t row = format == SMEAR_L1 ? SIZE / 8 : format == SMEAR_L4 ? SIZE / 2 : SIZE * 4;
+    const bool ok = CHECK(device_open(&device, &setup, &f) && frame != NULL && device_fit(&device, frame, &f)
+                          && device_draw(&device, frame, &f) && image_alloc(out, SIZE, SIZE, &f));
     if (ok)
-        picture_expand(out, display, row, format);
-    else
-        image_free(out);
-    free(memory);
+        picture_expand(out, device.pixels, device.stride, format);
+    device_close(&device);
     return ok;
 }
 

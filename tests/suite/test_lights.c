@@ -8,15 +8,6 @@
 
 enum { LOOKS = 20000 };
 
-static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void unit(double v[3])
-{
-    const double length = sqrt(dot3(v, v));
-    for (int i = 0; i < 3; i++)
-        v[i] /= length;
-}
-
 /* ------------------------------------------------------------------ one triangle under lights */
 
 struct case_of_light {
@@ -73,11 +64,10 @@ static void want_of(double want[3], const struct case_of_light *c, int corner)
             v[i] = c->position[6 + i] - c->position[i];
             p[i] = ((c->position[i] + c->position[3 + i] + c->position[6 + i]) / 3.0 + c->mesh.offset[i]) * scale;
         }
-        for (int i = 0; i < 3; i++)
-            n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+        cross3(n, u, v);
     }
     times_matrix(world, cofactor, n);
-    unit(world);
+    unit3(world);
     times_matrix(at, m, p);
     double way[3], sun[3], second[3], half[3], squares = 0;
     for (int i = 0; i < 3; i++) {
@@ -88,11 +78,11 @@ static void want_of(double want[3], const struct case_of_light *c, int corner)
         sun[i] = c->light.direction[i];
         second[i] = c->lights.direction[i];
     }
-    unit(sun);
-    unit(second);
+    unit3(sun);
+    unit3(second);
     for (int i = 0; i < 3; i++)
         half[i] = sun[i] + c->camera.pose.basis[3 * i + 2] / 16777216.0;
-    unit(half);
+    unit3(half);
     const double lamp = c->lights.reach > 0 && squares < 1 ? 6.69 * fmax(0, dot3(world, way)) * pow(1 - squares, 8) : 0;
     const int shine = c->material.shine == 0 ? 5 : c->material.shine > 10 ? 10 : c->material.shine;
     const double on_top = dot3(world, sun) > 0
@@ -139,7 +129,7 @@ static void random_normal(int8_t n[3])
             v[i] = uniform(-1, 1);
         length = dot3(v, v);
     } while (length < 0.1 || length > 1);
-    unit(v);
+    unit3(v);
     for (int i = 0; i < 3; i++)
         n[i] = (int8_t)lrint(127 * v[i]);
 }
@@ -188,7 +178,7 @@ static struct case_of_light random_case(void)
     times_matrix(at, m, p);
     const double size = steps * (double)c.mesh.scale * pow(2, -c.mesh.shift) * (fabs(m[0]) + fabs(m[1]) + fabs(m[2]));
     c.lights.reach = q16(fmin(fmax(pow(10, uniform(-1.5, 1.5)) * size, 0.05), 1000));
-    unit(away);
+    unit3(away);
     for (int i = 0; i < 3; i++)
         c.lights.lamp[i] = q16(fmin(fmax((c.pose.origin[i] + away[i] * far * c.lights.reach) / 65536.0 + at[i], -30000), 30000));
     return c;

@@ -3,28 +3,9 @@
  * kinds of cameras; a polished ball against a ray through each pixel. Host only. */
 #include "smear_matcap.h"
 
-#include "tests/random.h"
 #include "tests/rig.h"
 
-#include <math.h>
-
 enum { NORMALS = 64, TURNS = 3000 };
-
-static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross3(double out[3], const double a[3], const double b[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static double unit(double v[3])
-{
-    const double length = sqrt(dot3(v, v));
-    for (int i = 0; i < 3; i++)
-        v[i] /= length;
-    return length;
-}
 
 /* ------------------------------------------------------------------ coordinates */
 
@@ -36,9 +17,9 @@ static void axes_to(double x[3], double y[3], const smear_transform *place, cons
         z[i] = camera->half_height > 0 ? camera->pose.basis[3 * i + 2] : (double)camera->pose.origin[i] - place->origin[i];
         up[i] = camera->pose.basis[3 * i + 1];
     }
-    unit(z);
+    unit3(z);
     cross3(x, up, z);
-    unit(x);
+    unit3(x);
     cross3(y, z, x);
 }
 
@@ -56,7 +37,7 @@ static void want_of(double uv[2], const int8_t n[3], const smear_transform *plac
         for (int i = 0; i < 3; i++)
             world[i] += way * cofactor[i] * n[j];
     }
-    unit(world);
+    unit3(world);
     uv[0] = 16384 + 16256 * dot3(world, x);
     uv[1] = 16384 - 16256 * dot3(world, y);
 }
@@ -67,7 +48,7 @@ static void random_normals(int8_t n[3 * NORMALS])
         double v[3];
         for (int k = 0; k < 3; k++)
             v[k] = (double)random_u32() - 2147483648.0;
-        unit(v);
+        unit3(v);
         for (int k = 0; k < 3; k++)
             n[3 * i + k] = (int8_t)lrint(127 * v[k]);
     }
@@ -176,7 +157,7 @@ static bool ray_sees(double code[3], const smear_transform *place, const smear_c
     double way[3] = { (2 * px + 1.0 - SIDE) / SIDE * k, (SIDE - 2 * py - 1.0) / SIDE * k, -1 }, middle[3], n[3], x[3], y[3];
     for (int i = 0; i < 3; i++)
         middle[i] = place->origin[i] / 65536.0;
-    unit(way);
+    unit3(way);
     const double along = dot3(way, middle), left = along * along - dot3(middle, middle) + 1;
     if (left < 0.09)            /* 17 degrees before the rim, where a picture of triangles has its own */
         return false;
