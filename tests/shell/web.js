@@ -6,20 +6,12 @@
 // Every test begins with its name and fails alone. Screenshots are left beside the page.
 "use strict";
 const fs = require("fs"), path = require("path"), { execFileSync, spawnSync } = require("child_process");
-const { Browser } = require("./web_driver.js");
+const { Browser, runTests, check, equal } = require("./web_driver.js");
 
 const page = path.resolve(process.argv[2]), smear = path.resolve(process.argv[3]), filter = process.argv[4] || "";
 const folder = path.dirname(page), work = path.join(folder, "test"), root = path.resolve(__dirname, "../..");
 const url = "file://" + page;
-let browser, passed = 0, failed = 0;
-
-function check(truth, what) {
-    if (!truth) throw new Error(what);
-}
-
-function equal(a, b, what) {
-    if (a !== b) throw new Error(what + ": " + JSON.stringify(a) + ", not " + JSON.stringify(b));
-}
+let browser;
 
 // ------------------------------------------------------------------ what tests say often
 
@@ -531,28 +523,10 @@ const contrastScript = `
     }
     return bad;`;
 
-(async () => {
+runTests(tests, async () => {
     fs.rmSync(work, { recursive: true, force: true });
     fs.mkdirSync(work, { recursive: true });
     execFileSync(smear, ["render", "builtin:demo/race", "--size", "32x32", "--method", "none", "-o", path.join(work, "quad.png")]);
     for (const name of ["alone", "sub", "photo"]) fs.copyFileSync(path.join(work, "quad.png"), path.join(work, name + ".png"));
-    browser = await Browser.open(path.join(folder, "browser"));
-    for (const name in tests) {
-        if (!name.includes(filter)) continue;
-        try {
-            await tests[name]();
-            passed++;
-        } catch (error) {
-            failed++;
-            console.log("FAILED: " + name + "\n    " + (error.message || error));
-            try { await screenshot("failed-" + failed); } catch (e) { /* the browser has gone */ }
-        }
-    }
-    await browser.close();
-    console.log(passed + " passed, " + failed + " failed");
-    process.exit(failed > 0 ? 1 : 0);
-})().catch(error => {
-    console.log("FAILED: " + (error.stack || error));
-    console.log(passed + " passed, " + (failed + 1) + " failed");
-    process.exit(1);
-});
+    return browser = await Browser.open(path.join(folder, "browser"));
+}, number => screenshot("failed-" + number), filter);

@@ -110,4 +110,36 @@ class Browser {
     }
 }
 
-module.exports = { Browser };
+// Runs the tests whose names contain `filter`, { name: function }, and ends the program. Each fails alone; `failed` is told its number.
+async function runTests(tests, open, failed = () => {}, filter = "") {
+    let passed = 0, count = 0;
+    const fails = (name, why) => { count++; console.log("FAILED: " + name + "\n    " + why); };
+    try {
+        const browser = await open();
+        for (const name in tests) {
+            if (!name.includes(filter)) continue;
+            try {
+                await tests[name]();
+                passed++;
+            } catch (error) {
+                fails(name, error.message || error);
+                try { await failed(count); } catch (e) { /* the browser has gone */ }
+            }
+        }
+        await browser.close();
+    } catch (error) {
+        fails("the browser", error.stack || error);
+    }
+    console.log(passed + " passed, " + count + " failed");
+    process.exit(count > 0 ? 1 : 0);
+}
+
+function check(truth, what) {
+    if (!truth) throw new Error(what);
+}
+
+function equal(a, b, what) {
+    if (a !== b) throw new Error(what + ": " + JSON.stringify(a) + ", not " + JSON.stringify(b));
+}
+
+module.exports = { Browser, runTests, check, equal };

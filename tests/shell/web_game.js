@@ -5,18 +5,10 @@
 //
 // Every test begins with its name and fails alone. A screenshot is left beside the page.
 "use strict";
-const fs = require("fs"), path = require("path"), { Browser } = require("./web_driver.js");
+const fs = require("fs"), path = require("path"), { Browser, runTests, check, equal } = require("./web_driver.js");
 
 const page = path.resolve(process.argv[2]), folder = path.dirname(page), root = path.resolve(__dirname, "../..");
-let browser, passed = 0, failed = 0;
-
-function check(truth, what) {
-    if (!truth) throw new Error(what);
-}
-
-function equal(a, b, what) {
-    if (a !== b) throw new Error(what + ": " + JSON.stringify(a) + ", not " + JSON.stringify(b));
-}
+let browser;
 
 async function open(file = page) {
     await browser.go("about:blank");
@@ -142,22 +134,4 @@ const tests = {
     },
 };
 
-(async () => {
-    browser = await Browser.open(path.join(folder, "browser-game"));
-    for (const name in tests) {
-        try {
-            await tests[name]();
-            passed++;
-        } catch (error) {
-            failed++;
-            console.log("FAILED: " + name + "\n    " + (error.message || error));
-        }
-    }
-    await browser.close();
-    console.log(passed + " passed, " + failed + " failed");
-    process.exit(failed > 0 ? 1 : 0);
-})().catch(error => {
-    console.log("FAILED: " + (error.stack || error));
-    console.log(passed + " passed, " + (failed + 1) + " failed");
-    process.exit(1);
-});
+runTests(tests, async () => browser = await Browser.open(path.join(folder, "browser-game")));

@@ -2,41 +2,7 @@
 /* test_fixed.c - the narrowing, saturating and wrapping helpers against 64-bit arithmetic, and the forms for cores
  * without a wide multiply against the plain ones. Needs neither libc nor floating point. */
 
-/* Both forms of every product, whatever the target: first the wide ones under their own names. */
-#undef SMEAR_HAS_MUL64
-#define SMEAR_HAS_MUL64 1
-#include "base/fixed.h"
-
-#undef SMEAR_FIXED_H
-#undef SMEAR_HAS_MUL64
-#define SMEAR_HAS_MUL64 0
-#define add_wrap narrow_add_wrap
-#define sub_wrap narrow_sub_wrap
-#define mul_wrap narrow_mul_wrap
-#define shl_wrap narrow_shl_wrap
-#define mulh_i32 narrow_mulh_i32
-#define mulh_u32 narrow_mulh_u32
-#define mul_shift narrow_mul_shift
-#define scale_sat narrow_scale_sat
-#define magnitude narrow_magnitude
-#define narrow_sat narrow_narrow_sat
-#define mul_wide narrow_mul_wide
-#define cross_wide narrow_cross_wide
-#define dot_wide narrow_dot_wide
-#include "base/fixed.h"
-#undef add_wrap
-#undef sub_wrap
-#undef mul_wrap
-#undef shl_wrap
-#undef mulh_i32
-#undef mulh_u32
-#undef mul_shift
-#undef scale_sat
-#undef magnitude
-#undef narrow_sat
-#undef mul_wide
-#undef cross_wide
-#undef dot_wide
+#include "tests/unit/poor.h"
 
 #include "tests/random.h"
 #include "tests/test.h"
@@ -66,16 +32,16 @@ static bool check_products(int32_t a, int32_t b)
 {
     uint32_t ua = (uint32_t)a, ub = (uint32_t)b;
     bool ok = CHECK_EQ(mulh_i32(a, b), high_word((int64_t)a * b));
-    ok = CHECK_EQ(narrow_mulh_i32(a, b), high_word((int64_t)a * b)) && ok;
+    ok = CHECK_EQ(poor_mulh_i32(a, b), high_word((int64_t)a * b)) && ok;
     ok = CHECK_EQ(mul_wide(a, b), (int64_t)a * b) && ok;
-    ok = CHECK_EQ(narrow_mul_wide(a, b), (int64_t)a * b) && ok;
+    ok = CHECK_EQ(poor_mul_wide(a, b), (int64_t)a * b) && ok;
     ok = CHECK_EQ(mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
     for (int shift = 1; shift < 32; shift += 5) {
         const int32_t shifted = (int32_t)(uint32_t)((uint64_t)((int64_t)a * b) >> shift);
         ok = CHECK_EQ(mul_shift(a, b, shift), shifted) && ok;
-        ok = CHECK_EQ(narrow_mul_shift(a, b, shift), shifted) && ok;
+        ok = CHECK_EQ(poor_mul_shift(a, b, shift), shifted) && ok;
     }
-    return CHECK_EQ(narrow_mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
+    return CHECK_EQ(poor_mulh_u32(ua, ub), (int64_t)((uint64_t)ua * ub >> 32)) && ok;
 }
 
 static void test_sums_of_products_are_exact_in_both_forms(void)
@@ -89,10 +55,10 @@ static void test_sums_of_products_are_exact_in_both_forms(void)
             b[k] = random_i32() >> 1;
         const int64_t dot = (int64_t)a[0] * b[0] + (int64_t)a[3] * b[1] + (int64_t)a[6] * b[2];
         CHECK_EQ(dot_wide(a, 3, b, 1), dot);
-        CHECK_EQ(narrow_dot_wide(a, 3, b, 1), dot);
+        CHECK_EQ(poor_dot_wide(a, 3, b, 1), dot);
         const int64_t cross = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
         CHECK_EQ(cross_wide(a[0], a[1], b[0], b[1]), cross);
-        END_UNLESS(CHECK_EQ(narrow_cross_wide(a[0], a[1], b[0], b[1]), cross));
+        END_UNLESS(CHECK_EQ(poor_cross_wide(a[0], a[1], b[0], b[1]), cross));
     }
 }
 
@@ -152,7 +118,7 @@ static void test_scaling_rounds_to_nearest_and_saturates(void)
             int32_t a = random_i32();
             if (a != INT32_MIN && !CHECK_EQ(scale_sat(a, shift), scaled(a, shift)))
                 return;
-            CHECK_EQ(narrow_scale_sat(a, shift), scale_sat(a, shift));
+            CHECK_EQ(poor_scale_sat(a, shift), scale_sat(a, shift));
         }
     }
 }

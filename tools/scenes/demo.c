@@ -20,6 +20,19 @@ struct demo {
     int backdrop, track, car, drone;
 };
 
+struct scene_surface *demo_shadow(struct build *b, float opacity)
+{
+    struct scene_surface *s = build_finish(b);
+    if (s != NULL) {
+        s->material.unlit = true;
+        s->material.alpha = MODEL_ALPHA_BLEND;
+        for (int k = 0; k < 3; k++)
+            s->material.base[k] = 0.012f;
+        s->material.base[3] = opacity;
+    }
+    return s;
+}
+
 static void build_all(struct stage *stage)
 {
     struct demo *d = stage_alloc(stage, sizeof *d);

@@ -6,7 +6,11 @@
 #ifndef SMEAR_TOOLS_SCENES_DEMO_H
 #define SMEAR_TOOLS_SCENES_DEMO_H
 
+#include "tools/scenes/build.h"
 #include "tools/scenes/stage.h"
+
+/* What has been built, as a shadow that is so dense. */
+struct scene_surface *demo_shadow(struct build *b, float opacity);
 
 /* A racing car at the origin, on the ground y = 0. */
 enum { CAR_BODY, CAR_WHEEL, CAR_SHADOW = CAR_WHEEL + 4, CAR_PROPS };

@@ -2,8 +2,6 @@
 /* demo_car.c - a small open-wheel racing car; the wheels are props of their own. */
 #include "tools/scenes/demo.h"
 
-#include "tools/scenes/build.h"
-
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -195,15 +193,7 @@ static struct scene_surface *shadow(struct stage *stage)
         build_vertex(&b, ring[i], vec3(0, 1, 0), 0, 0);
     for (uint32_t i = 1; i + 1 < 9; i++)
         build_triangle(&b, 0, i, i + 1);
-    struct scene_surface *s = build_finish(&b);
-    if (s != NULL) {
-        s->material.unlit = true;
-        s->material.alpha = MODEL_ALPHA_BLEND;
-        for (int k = 0; k < 3; k++)
-            s->material.base[k] = 0.012f;
-        s->material.base[3] = 0.55f;
-    }
-    return s;
+    return demo_shadow(&b, 0.55f);
 }
 
 int demo_car(struct stage *stage)

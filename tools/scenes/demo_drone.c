@@ -2,8 +2,6 @@
 /* demo_drone.c - a quadrotor of 1.7 m, large enough that its blades show on a small screen. */
 #include "tools/scenes/demo.h"
 
-#include "tools/scenes/build.h"
-
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -95,15 +93,7 @@ static struct scene_surface *shadow(struct stage *stage)
     }
     for (uint32_t k = 0; k < 16; k++)
         build_triangle(&b, 0, 1 + k, 1 + (k + 1) % 16);
-    struct scene_surface *s = build_finish(&b);
-    if (s != NULL) {
-        s->material.unlit = true;
-        s->material.alpha = MODEL_ALPHA_BLEND;
-        for (int k = 0; k < 3; k++)
-            s->material.base[k] = 0.012f;
-        s->material.base[3] = 0.35f;
-    }
-    return s;
+    return demo_shadow(&b, 0.35f);
 }
 
 int demo_drone(struct stage *stage)
