@@ -150,7 +150,7 @@ static char *bars_text(struct chart_verdict *verdict)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (out != NULL) {
-        chart_print_bars(out, &chart, true, 5, verdict);
+        chart_print_bars(out, &chart, true, verdict);
         fclose(out);
     }
     return text;

@@ -221,9 +221,8 @@ void chart_print_means(FILE *out, const struct chart *chart, int condition);
 /* Instructions per pixel of the sharp frame, on all scenes together. */
 void chart_print_none(FILE *out, const struct chart *chart, int condition);
 void chart_print_scene(FILE *out, const struct chart *chart, int condition, int kind);
-/* `all`: with those that were not measured. Names at most so many `exceptions` to the frontier. */
-void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
-                      struct chart_verdict *verdict);
+/* `all`: with those that were not measured. */
+void chart_print_bars(FILE *out, const struct chart *chart, bool all, struct chart_verdict *verdict);
 
 /* marks.svg: what is plain, in two planes. chart.svg: four planes of means as users get it. One for which nothing is known is left
  * out. */

@@ -12,7 +12,6 @@ struct bars {
     const struct chart *chart;
     struct chart_verdict *verdict;
     bool all;                   /* those that were not measured, too */
-    int exceptions;             /* points of auto beaten on a scene that may still be named */
 };
 
 /* Presets of the method `auto`: one number, the error it aims at. */
@@ -217,11 +216,10 @@ static void name_beaten(struct bars *b, const struct chart_point *point, int cou
 {
     for (int i = 0; i < count; i++) {
         const struct chart_point *by = beaten_by(point, count, i);
-        if (by == NULL || b->exceptions-- <= 0)
-            continue;
-        fprintf(b->out, "    %s: %s %.2fx %.2f is beaten by %s %.2fx %.2f\n", what,
-                chart_settings[point[i].setting].name, point[i].cost, point[i].error,
-                chart_settings[by->setting].name, by->cost, by->error);
+        if (by != NULL)
+            fprintf(b->out, "    %s: %s %.2fx %.2f is beaten by %s %.2fx %.2f\n", what,
+                    chart_settings[point[i].setting].name, point[i].cost, point[i].error,
+                    chart_settings[by->setting].name, by->cost, by->error);
     }
 }
 
@@ -265,16 +263,13 @@ static void bar_frontier(struct bars *b)
             int count = chart_points_of_kind(b->chart, CHART_MAIN, k, point);
             name_beaten(b, point, count, kinds[k].name);
         }
-    if (b->exceptions < 0)
-        fprintf(b->out, "    and %d more (tables.md)\n", -b->exceptions);
 }
 
 /* ------------------------------------------------------------------ all */
 
-void chart_print_bars(FILE *out, const struct chart *chart, bool all, int exceptions,
-                      struct chart_verdict *verdict)
+void chart_print_bars(FILE *out, const struct chart *chart, bool all, struct chart_verdict *verdict)
 {
-    struct bars b = { out, chart, verdict, all, exceptions };
+    struct bars b = { out, chart, verdict, all };
     *verdict = (struct chart_verdict){ 0, 0, 0 };
     fprintf(out, "Bars (%s; errors against the truth rounded to 8 bits)\n",
             chart_conditions[CHART_MAIN].what);

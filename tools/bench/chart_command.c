@@ -214,7 +214,7 @@ static bool report(const struct chart *chart, const struct options *o, uint32_t 
             chart_print_none(stdout, chart, c);
             printf("\n");
         }
-    chart_print_bars(stdout, chart, !o->is_part, 10, verdict);
+    chart_print_bars(stdout, chart, !o->is_part, verdict);
     printf("\n%d bars met, %d missed, %d not measured. Numbers and pictures: %s\n", verdict->met,
            verdict->missed, verdict->unknown, o->out);
     return true;
