@@ -82,7 +82,7 @@ void smear_row_count(const struct smear_rows *rows, int kind, smear_method metho
         s->tiles_complex++;
 }
 
-void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity)
+void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity, uint32_t *sky_too)
 {
     const int32_t width = t->x1 - t->x0;
     for (int32_t y = t->y0; y < t->y1; y++) {
@@ -101,8 +101,8 @@ void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_ta
         if (target_is_inspected(t))
             __builtin_memset(t->inspect + 2 * at, 0, (size_t)n * 8);
     }
-    if (rows_have_sky(rows))
-        rows->sky->kind->fill(rows->sky, t);
+    if (rows_have_sky(rows) && (sky_too == NULL || sky_too != t->color))
+        rows->sky->kind->fill(rows->sky, t, sky_too);
 }
 
 bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster_target *t, int velocity)
@@ -113,7 +113,7 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
     if (!smear_job_area(rows, job, t))
         return false;
     if (r->steps & ROW_CLEAR)
-        smear_row_clear(rows, t, velocity);
+        smear_row_clear(rows, t, velocity, r->sky_too);
     t->over = rows->refill != NULL;
     t->cache = smear_raster_cache_of(&rows->cache, job);
     if (r->steps & ROW_DRAW)

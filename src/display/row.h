@@ -142,6 +142,7 @@ struct row_job {
     int32_t y0, y1;
     int32_t x0, x1;             /* of a temporal method */
     uint8_t steps;              /* ROW_CLEAR | ...: those that a job does, see smear_row_run */
+    uint32_t *sky_too;          /* rows that get the sky of those that are cleared, too, and are cleared next; or null */
 };
 
 enum { ROW_CLEAR = 1, ROW_DRAW = 2, ROW_FINISH = 4, ROW_ALL = 7 };
@@ -165,8 +166,9 @@ static inline int32_t job_bottom(const struct row_job *r)
 /* Counts a tile: the kind of motion in it (smear_tile_class), and the method it got where that is not TILE_STATIC. */
 void smear_row_count(const struct smear_rows *rows, int kind, smear_method method);
 
-/* Fills the target's columns with what is behind all and depth 0, and with `velocity` bytes where it has velocities. */
-void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity);
+/* Fills the target's columns with what is behind all and depth 0, and with `velocity` bytes where it has velocities. `sky_too`: as in
+ * row_job. */
+void smear_row_clear(const struct smear_rows *rows, const struct smear_raster_target *t, int velocity, uint32_t *sky_too);
 
 /* Makes a cache of setups of what the pool has left between vertices and triangles, or of other memory where that is more. */
 void smear_row_make_cache(struct smear_rows *rows, void *other, size_t other_bytes);

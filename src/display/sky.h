@@ -11,8 +11,9 @@
 struct smear_sky_kind {
     /* Takes in where the camera looks at an instant; null: over the exposure. `width`: of the frame. */
     void (*aim)(smear_sky *sky, const struct smear_shot *shot, const struct smear_instant *instant, int32_t width, smear_transfer transfer);
-    /* Fills the target's pixels, not its depths. What a pixel gets does not depend on the target's sides. */
-    void (*fill)(const smear_sky *sky, const struct smear_raster_target *t);
+    /* Fills the target's pixels, not its depths, and `too`: as wide rows of its tile row, one behind the other; or null. What a pixel gets
+     * does not depend on the target's sides. */
+    void (*fill)(const smear_sky *sky, const struct smear_raster_target *t, uint32_t *too);
 };
 
 #endif

@@ -178,6 +178,7 @@ static void draw_further(struct smear_temporal *self, struct smear_finish *f)
     }
     smear_row_run(rows, smear_background_job, &f->row, FILL_STATIC | FILL_MOVING);
     rows->opaque = first;
+    f->row.sky_too = NULL;
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
@@ -188,6 +189,7 @@ static SMEAR_RARE void draw_pictures(struct smear_temporal *self, struct smear_r
     struct smear_lines *lines = self->lines;
     if (rows->refill == NULL)
         rows->opaque = row_advance(rows, rows->bins.opaque_last, rows->opaque, row);
+    finish.row.sky_too = lines->pictures > 1 ? lines->row : NULL;
     smear_draw_run(self, &finish);
     for (int k = 0; k < lines->pictures; k++) {
         lines->picture = (uint8_t)k;

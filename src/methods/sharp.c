@@ -140,7 +140,7 @@ static void draw_apart(struct apart *a, int job, const struct apart_place *p, in
         t->color_rows = t->window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->bins.row_px, 0 };
     }
     t->cache = smear_raster_cache_of(&rows->cache, worker);
-    smear_row_clear(rows, t, 0);
+    smear_row_clear(rows, t, 0, NULL);
     if (count != UINT32_MAX) {
         smear_raster_numbers(&rows->raster, t, w->number, count, worker == 0 ? &flush : NULL);
         return;
@@ -321,7 +321,7 @@ static void direct_job(void *argument, int job, int worker)
         pixels_fill_narrow(t.depth + at, 0, n);
     }
     if (rows_have_sky(rows))
-        rows->sky->kind->fill(rows->sky, &t);
+        rows->sky->kind->fill(rows->sky, &t, NULL);
     smear_raster_list(&rows->raster, &t, rows->opaque);
     at = from;
     if (smear_format_is_swapped((smear_format)rows->desc->format))

@@ -35,7 +35,7 @@ static void below_job(void *argument, int job, int worker)
     if (t.x0 >= t.x1)
         return;
     if ((s->row.steps & ROW_CLEAR) != 0)
-        smear_row_clear(rows, &t, 0);
+        smear_row_clear(rows, &t, 0, NULL);
     if ((s->row.steps & ROW_DRAW) != 0)
         smear_raster_list(&rows->raster, &t, rows->opaque);
 }
@@ -80,7 +80,7 @@ static void smooth_job(void *argument, int job, int worker)
         const struct smear_raster_target place = smear_edges_target(&t, &planes, k);
         smear_edges_clear(&s->units, &place, rows->clear);
         if (rows_have_sky(rows))
-            rows->sky->kind->fill(rows->sky, &place);
+            rows->sky->kind->fill(rows->sky, &place, NULL);
         if (rows->refill == NULL)
             smear_edges_draw(&s->units, &rows->raster, &place, rows->opaque, k);
         else

@@ -69,7 +69,7 @@ static int32_t contrast_of(uint32_t a, uint32_t b)
 /* A half of the sky: the colour at the horizon and what leads to the pole, as two words of channels. */
 struct half {
     uint32_t pair, green, pair_step, green_step;
-    int32_t contrast;
+    int16_t contrast, even;             /* even: log2 of sines that look alike, less than two codes apart */
 };
 
 static void take_half(struct half *h, uint32_t horizon, uint32_t pole)
@@ -78,7 +78,9 @@ static void take_half(struct half *h, uint32_t horizon, uint32_t pole)
     h->green = (horizon & 0xff00u) + 0x80u;
     h->pair_step = (pole & 0xff00ffu) - (horizon & 0xff00ffu);
     h->green_step = pixel_green(pole) - pixel_green(horizon);
-    h->contrast = contrast_of(horizon, pole);
+    h->contrast = (int16_t)contrast_of(horizon, pole);
+    for (h->even = 0; h->even < 8 && h->contrast << h->even <= 256;)
+        h->even++;
 }
 
 static void aim(smear_sky *sky, const struct smear_shot *shot, const struct smear_instant *instant, int32_t width, smear_transfer transfer)
@@ -126,23 +128,15 @@ struct pen {
     int32_t rise, sweep;                /* q22, of the row in the frame's middle column */
     int32_t square;                     /* of the ray's way forward and up, q16 */
     int32_t pixel;                      /* rise from a pixel to the next */
+    uint32_t *too;                      /* where these lie in a second picture, or null */
     int32_t at, stride;                 /* where the rows lie that are filled at once, so many: */
     int rows, span_log2;                /* log2 of columns between points */
-    int even[2];                        /* log2 of sines that look alike: less than two codes apart */
     int32_t from;                       /* where the run begins that is not filled yet, of this colour: of a sine, shifted */
     uint32_t color;
-    int32_t level;                      /* or -1 */
-};
-
-/* What is known of a point. */
-struct point {
-    int32_t rise, width;                /* q22: its way up, and how much of that passes during the exposure */
-    int32_t inverse;                    /* of the ray's length, q15 */
-    int32_t sine;                       /* of the elevation, q8, whatever its sign */
 };
 
 /* Returns 1 / sqrt(n), q15, for n of 1 or more, q16: within 1/600. */
-static int32_t inverse_root(uint32_t n)
+SMEAR_INLINE int32_t inverse_root(uint32_t n)
 {
     static const uint16_t table[] = { 32768, 30894, 29309, 27945, 26755, 25705, 24770, 23930, 23170, 22479, 21845, 21263, 20724,
                                       20225, 19760, 19326, 18919, 18536, 18176, 17837, 17515, 17211, 16921, 16646, 16384, 16134 };
@@ -168,42 +162,43 @@ static int32_t sine_of(int32_t rise, int32_t inverse)
     return min_i32(abs_i32(clamp_i32(rise >> 10, -65535, 65535) * inverse) >> 19, 256);
 }
 
-static void find_point(struct point *out, const struct pen *p, int32_t u)
+SMEAR_INLINE int32_t inverse_at(const struct pen *p, int32_t u)
 {
-    const int32_t *own = p->sky->own;
-    const int32_t x = clamp_i32(u * own[STEP] >> 12, -45000, 45000);
-    out->rise = p->rise + u * own[RISE_X];
-    out->width = max_i32(abs_i32(p->sweep + u * own[SWEEP_X]), p->pixel);
-    out->inverse = inverse_root((uint32_t)((x * x >> 8) + p->square));
-    out->sine = sine_of(out->rise, out->inverse);
+    const int32_t x = clamp_i32(u * p->sky->own[STEP] >> 12, -45000, 45000);
+    return inverse_root((uint32_t)((x * x >> 8) + p->square));
 }
 
-/* Goes on with another colour from a column on: fills what was before it in each row, as far as it is the target's, or in all rows at
- * once where they lie one behind the other. */
+static int32_t rise_at(const struct pen *p, int32_t u) { return p->rise + u * p->sky->own[RISE_X]; }
+
+static int32_t width_at(const struct pen *p, int32_t u) { return max_i32(abs_i32(p->sweep + u * p->sky->own[SWEEP_X]), p->pixel); }
+
+SMEAR_INLINE int32_t sine_at(const struct pen *p, int32_t u) { return sine_of(rise_at(p, u), inverse_at(p, u)); }
+
+/* Goes on with another colour from a column on: fills what was before it in each row, as far as it is the target's. */
 static SMEAR_NOINLINE void begin_run(struct pen *p, int32_t x, uint32_t color)
 {
     const uint32_t value = p->color;
-    p->level = -1;
-    if (color == value)
-        return;
     const struct smear_raster_target *t = p->target;
-    const int32_t x0 = max_i32(p->from, t->x0), x1 = min_i32(x, t->x1), stride = p->stride, at = p->at + x0;
-    int32_t n = x1 - x0;
-    int rows = p->rows;
+    const int32_t x0 = max_i32(p->from, t->x0), n = min_i32(x, t->x1) - x0, at = p->at + x0;
     p->from = x;
     p->color = color;
     if (n <= 0)
         return;
-    if (n == stride) {
-        n *= rows;
-        rows = 1;
-    }
-    if (target_is_direct(t))
-        for (uint16_t *to = t->direct + at; rows > 0; rows--, to += stride)
+    if (!target_is_direct(t)) {
+        pixels_fill_rows(t->color + at, value, n, p->stride, p->rows);
+        if (p->too != NULL)
+            pixels_fill_rows(p->too + x0, value, n, p->stride, p->rows);
+    } else
+        for (uint16_t *to = t->direct + at, *const end = to + p->rows * p->stride; to != end; to += p->stride)
             pixels_fill_narrow(to, rgb565_nearest(value), n);
-    else
-        for (uint32_t *to = t->color + at; rows > 0; rows--, to += stride)
-            pixels_fill(to, value, n);
+}
+
+static inline void go_on(struct pen *p, int32_t x, uint32_t color)
+{
+    if (p->from == x)
+        p->color = color;
+    else if (p->color != color)
+        begin_run(p, x, color);
 }
 
 /* Returns how many times a span is halved so that what changes by so many codes along it does so by two in each part. */
@@ -222,27 +217,32 @@ static uint32_t color_of(const struct half *h, int32_t sine)
     return ((h->pair + (uint32_t)sine * h->pair_step) >> 8 & 0xff00ffu) | ((h->green + (uint32_t)sine * h->green_step) & 0xff00u);
 }
 
-/* Fills a span of rows, all of it on one side of the horizon. */
-static void fill_span(struct pen *p, const struct point *a, const struct point *b, int32_t x)
+/* Fills spans of rows that are on one side of the horizon. Sines whose upper bits are alike have one colour. */
+static void fill_side(struct pen *p, bool below, int32_t x, int32_t end)
 {
-    const int below = a->rise < 0, even = p->even[below];
-    const struct half *h = &p->half[below];
-    const int32_t step = b->sine - a->sine;
-    const bool alike = a->sine >> even == b->sine >> even;
-    const int log = alike ? 0 : halvings(p, abs_i32(step) * h->contrast >> 8), run = p->span_log2 - log;
-    for (int32_t i = 0; i < 1 << log; i++) {
-        const int32_t level = (alike ? a->sine : a->sine + (step * (2 * i + 1) >> (log + 1))) >> even;
-        if (level == p->level)
-            continue;
-        begin_run(p, x + (i << run), color_of(h, (level << even) + (1 << even >> 1)));
-        p->level = level;
+    const struct half *const h = &p->half[below];
+    const int even = h->even, span_log2 = p->span_log2;
+    int32_t level = -1, u = 2 * x - p->sky->own[WIDTH];
+    for (int32_t sine = sine_at(p, u), next; x < end; x += 1 << span_log2, sine = next) {
+        u += 2 << span_log2;
+        next = sine_at(p, u);
+        int32_t part = next - sine, at = x;
+        const int log = halvings(p, abs_i32(part) * h->contrast >> 8);
+        do {
+            const int32_t seen = (sine + (part >> (log + 1))) >> even;
+            if (seen != level)
+                go_on(p, at, color_of(h, (seen << even) + (1 << even >> 1)));
+            level = seen;
+            part += 2 * (next - sine);
+            at += 1 << (span_log2 - log);
+        } while (at < x + (1 << span_log2));
     }
 }
 
 /* Returns the part of the exposure for which a point is above the horizon. */
-static int32_t part_above(const struct point *a)
+static int32_t part_above(const struct pen *p, int32_t u)
 {
-    int32_t width = a->width, rise = a->rise;
+    int32_t width = width_at(p, u), rise = rise_at(p, u);
     if (abs_i32(rise) >= width >> 1)
         return rise < 0 ? 0 : PART_ONE;
     for (; width >= 1 << 19; width >>= 1)
@@ -251,11 +251,12 @@ static int32_t part_above(const struct point *a)
 }
 
 /* Returns the colour of a point that the horizon may pass. What is seen of a half then is half as high as its highest, in the mean. */
-static uint32_t mixed_color(const struct pen *p, const struct point *a)
+static uint32_t mixed_color(const struct pen *p, int32_t u)
 {
-    const int32_t part = part_above(a), width = a->width >> 1, other = PART_ONE - part;
-    const int32_t up = part == PART_ONE ? a->rise : mul_shift(width, part, 12), down = part == 0 ? a->rise : mul_shift(width, other, 12);
-    const uint32_t above = color_of(&p->half[0], sine_of(up, a->inverse)), below = color_of(&p->half[1], sine_of(down, a->inverse));
+    const int32_t part = part_above(p, u), rise = rise_at(p, u), width = width_at(p, u) >> 1, inverse = inverse_at(p, u);
+    const int32_t up = part == PART_ONE ? rise : mul_shift(width, part, 12),
+                  down = part == 0 ? rise : mul_shift(width, PART_ONE - part, 12);
+    const uint32_t above = color_of(&p->half[0], sine_of(up, inverse)), below = color_of(&p->half[1], sine_of(down, inverse));
     return pixel_mix_part(below, above, part * (65536 / PART_ONE), (smear_transfer)p->sky->own[TRANSFER]);
 }
 
@@ -264,29 +265,26 @@ static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y
 {
     struct pen row = *of, *const p = &row;
     row.at += k * of->stride;
+    row.too += of->too != NULL ? k * of->stride : 0;
     row.rows = 1;
     row.from = x;
     begin_row(p, p->sky->own[HEIGHT] - 2 * y - 1);
-    const int32_t span = 1 << p->span_log2, left = 2 * x - p->sky->own[WIDTH];
-    struct point a, b;
-    find_point(&a, p, left);
-    find_point(&b, p, left + 2 * span);
-    const int32_t part = abs_i32(part_above(&a) - part_above(&b)),
-                  sine = abs_i32(a.rise - b.rise) >> 14, most = max_i32(p->half[0].contrast, p->half[1].contrast);
+    const int32_t span = 1 << p->span_log2, left = 2 * x - p->sky->own[WIDTH], right = left + 2 * span;
+    const int32_t part = abs_i32(part_above(p, left) - part_above(p, right)), sine = abs_i32(rise_at(p, left) - rise_at(p, right)) >> 14,
+                  most = max_i32(p->half[0].contrast, p->half[1].contrast);
     const int log = halvings(p, (part * contrast_of(p->sky->horizon, p->sky->ground) >> 12) + (min_i32(sine, 256) * most >> 8));
     const int32_t run = span >> log;
-    for (int32_t i = 0; i < span; i += run) {
-        find_point(&a, p, left + 2 * i + run);
-        begin_run(p, x + i, mixed_color(p, &a));
-    }
+    for (int32_t i = 0; i < span; i += run)
+        go_on(p, x + i, mixed_color(p, left + 2 * i + run));
     begin_run(p, x + span, (uint32_t)NO_COLOR);
 }
 
-/* Returns on which side of the horizon a point of some rows is seen in all of them: 1 or -1; or 0. */
-static int32_t side_of(const struct point *a, int32_t margin)
+/* Returns on which side of the horizon columns [x0, x1) are seen in all of some rows, of which the pen has the middle: 1 or -1; or 0. */
+static int32_t side_of(const struct pen *p, int32_t x0, int32_t x1, int32_t rows)
 {
-    const int32_t least = (a->width >> 1) + margin;
-    return a->rise >= least ? 1 : a->rise <= -least ? -1 : 0;
+    const int32_t *own = p->sky->own, u = 2 * x0 - own[WIDTH], v = 2 * x1 - own[WIDTH], margin = rows * abs_i32(own[RISE_Y]);
+    const int32_t a = rise_at(p, u), b = rise_at(p, v), least_a = (width_at(p, u) >> 1) + margin, least_b = (width_at(p, v) >> 1) + margin;
+    return a >= least_a && b >= least_b ? 1 : a <= -least_a && b <= -least_b ? -1 : 0;
 }
 
 /* Returns the log2 of columns from point to point in the pen's rows, which rise by less than `most`, q22: the less, the less err sines
@@ -299,58 +297,63 @@ static int span_of(const struct pen *p, uint32_t most)
     return log;
 }
 
-/* Returns how many rows, of which that is one, look alike: twice as many where all of them show the half of less contrast. */
-static int32_t rows_of(const struct pen *p, int32_t y)
+/* Takes some rows that look alike from y on, and returns on which side of the horizon they are, as side_of does. */
+static int32_t begin_rows(struct pen *p, int32_t y, int32_t rows)
 {
-    const int32_t *own = p->sky->own, rows = own[ROWS], height = own[HEIGHT], first = y & -2 * rows;
-    const bool down = p->half[1].contrast < p->half[0].contrast;
-    const int32_t across = abs_i32(own[RISE_X]) * own[WIDTH], sign = down ? -1 : 1;
-    const int32_t upper = own[RISE] + (height - 2 * first - 1) * own[RISE_Y],
-                  lower = own[RISE] + (height - 2 * (first + 2 * rows)) * own[RISE_Y];
-    return rows < ROWS_MOST && 2 * p->half[down].contrast <= p->half[!down].contrast && upper * sign > across && lower * sign > across
-         ? 2 * rows : rows;
+    const int32_t *own = p->sky->own, width = own[WIDTH];
+    begin_row(p, own[HEIGHT] - 2 * y - rows);
+    p->span_log2 = span_of(p, (uint32_t)abs_i32(p->rise) + (uint32_t)(abs_i32(own[RISE_X]) * width));
+    return side_of(p, 0, ((width - 1) | ((1 << p->span_log2) - 1)) + 1, rows);
 }
 
-static void fill(const smear_sky *sky, const struct smear_raster_target *t)
+/* Fills spans of the pen's rows, of which that is the first, some of which the horizon passes. */
+static SMEAR_NOINLINE void fill_across(struct pen *p, int32_t x, int32_t y, int32_t end, int32_t rows)
 {
-    const int32_t *own = sky->own, width = own[WIDTH], height = own[HEIGHT];
+    for (const int32_t span = 1 << p->span_log2; x < end; x += span) {
+        const int32_t side = side_of(p, x, x + span, rows);
+        if (side != 0) {
+            fill_side(p, side < 0, x, x + span);
+            continue;
+        }
+        begin_run(p, x, (uint32_t)NO_COLOR);
+        for (int32_t k = 0; k < p->rows; k++)
+            fill_mixed(p, x, y + k, k);
+        p->from = x + span;
+    }
+}
+
+static void fill(const smear_sky *sky, const struct smear_raster_target *t, uint32_t *too)
+{
+    const int32_t *own = sky->own, height = own[HEIGHT];
     const int32_t across = abs_i32(own[RISE_X]), along = abs_i32(own[RISE_Y]);
     const struct smear_plane_rows *const lie = target_is_direct(t) ? &t->window_rows : &t->color_rows;
     struct pen p = { .sky = sky, .target = t, .stride = lie->stride };
     p.pixel = 2 * max_i32(across, along) + (3 * min_i32(across, along) >> 2);      /* twice the length, within 7 % */
     __builtin_memcpy(p.half, &own[HALVES], sizeof p.half);
-    for (int i = 0; i < 2; i++)
-        while (p.even[i] < 8 && p.half[i].contrast << p.even[i] <= 256)
-            p.even[i]++;
+    /* Twice as many rows look alike where all of them show a half of less contrast. */
+    const bool down = p.half[1].contrast < p.half[0].contrast;
+    const int32_t twice = own[ROWS] < ROWS_MOST && 2 * p.half[down].contrast <= p.half[!down].contrast ? 2 * own[ROWS] : 0;
     for (int32_t y = t->y0, end; y < t->y1; y = end) {
-        const int32_t rows = rows_of(&p, y), first = y & -rows, left = lie->ring - lie->ring_row - (y - t->y0);
-        struct point a, b;
-        p.at = target_row(lie, t, y);
-        p.rows = min_i32(min_i32(first + rows, t->y1) - y, left > 0 ? left : left + lie->ring);
-        end = y + p.rows;
-        begin_row(&p, height - 2 * first - rows);
-        p.span_log2 = span_of(&p, (uint32_t)abs_i32(p.rise) + (uint32_t)(across * width));
-        p.color = (uint32_t)NO_COLOR;
-        p.level = -1;
-        const int32_t span = 1 << p.span_log2;
-        int32_t x = t->x0 & -span;
-        p.from = x;
-        find_point(&a, &p, 2 * x - width);
-        int32_t side = side_of(&a, rows * along);
-        for (; x < t->x1; x += span, a = b) {
-            const int32_t before = side;
-            find_point(&b, &p, 2 * (x + span) - width);
-            side = side_of(&b, rows * along);
-            if (side == before && side != 0) {
-                fill_span(&p, &a, &b, x);
-                continue;
-            }
-            begin_run(&p, x, (uint32_t)NO_COLOR);
-            for (int32_t k = 0; k < p.rows; k++)
-                fill_mixed(&p, x, y + k, k);
-            p.from = x + span;
+        int32_t rows = twice, side = 0;
+        if (rows != 0 && (own[RISE] + (height - 2 * (y & -rows) - rows) * own[RISE_Y] < 0) == down)
+            side = begin_rows(&p, y & -rows, rows);
+        if (side == 0) {
+            rows = own[ROWS];
+            side = begin_rows(&p, y & -rows, rows);
         }
-        begin_run(&p, x, (uint32_t)NO_COLOR);
+        const int32_t left = lie->ring - lie->ring_row - (y - t->y0);
+        p.at = target_row(lie, t, y);
+        p.too = too == NULL ? NULL : too + (y & ((1 << t->tile_shift) - 1)) * p.stride;
+        p.rows = min_i32(min_i32((y & -rows) + rows, t->y1) - y, left > 0 ? left : left + lie->ring);
+        end = y + p.rows;
+        p.color = (uint32_t)NO_COLOR;
+        const int32_t span = 1 << p.span_log2, x0 = t->x0 & -span, x1 = (t->x1 + span - 1) & -span;
+        p.from = x0;
+        if (side != 0)
+            fill_side(&p, side < 0, x0, x1);
+        else
+            fill_across(&p, x0, y, x1, rows);
+        begin_run(&p, x1, (uint32_t)NO_COLOR);
     }
 }
 

@@ -346,7 +346,7 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
     for (int32_t y = y0; y < y1; y += BLOCK) {
         struct smear_line_seen *seen = seen_at(lines, w, x0, y);
         for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
-            if ((seen->depth | seen->contrast) == 0)        /* bare: it has no way of its own */
+            if (seen->depth == 0)                           /* bare: it has no way of its own */
                 continue;
             const uint32_t times = (uint32_t)displace_block(lines, w, seen, x, y, seen->depth);
             if (times > 1)      /* what is left of a way that is cut off stays sharp */
