@@ -2,6 +2,7 @@
 /* course.c - see course.h. A closed curve in polar coordinates, whose radius and height are sums of sines. */
 #include "platform/game/course.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum {
@@ -11,6 +12,7 @@ enum {
     PAIR_TRIANGLES = 2 * (ACROSS - 1) * 2 + 4,
     PAIRS = COURSE_SEGMENTS / 2, SEEN = COURSE_SEEN / 2 + 1,
     TRIANGLES = SEEN * PAIR_TRIANGLES,
+    NEAR_LEAST = 4,                 /* pairs; beyond them, and one more for 80 rows of the picture, a segment is half a row high */
     STEPS = 5                       /* log2 of vertex steps in a metre */
 };
 
@@ -19,6 +21,7 @@ static smear_vec3 middle[COURSE_SEGMENTS], beside[COURSE_SEGMENTS];     /* besid
 static int16_t position[(PAIRS + SEEN) * PAIR + ACROSS][3];
 static uint16_t corner[TRIANGLES * 3];
 static uint8_t color[TRIANGLES * 4];
+static smear_mesh mesh = { .vertex_count = SEEN * PAIR + ACROSS, .index = corner, .face_color = color, .shift = STEPS };
 
 static int32_t times(int32_t length, int32_t factor_q24)
 {
@@ -100,30 +103,40 @@ static void add_triangle(int *count, int a, int b, int c, uint32_t rgb)
     ++*count;
 }
 
-/* Corners and colours are those of any pairs. */
-static void make_corners(void)
+/* A row of four-cornered pieces from one row of vertices to another. */
+static void add_strips(int *count, int from, int to, const uint32_t *rgb)
 {
-    static const uint32_t strip[ACROSS - 1][2] = { { 0x4f9a3c, 0x5aa845 }, { 0xd02c2c, 0xf2f2f2 }, { 0x5a5d66, 0x63666f },
-                                                   { 0xd02c2c, 0xf2f2f2 }, { 0x4f9a3c, 0x5aa845 } };
+    for (int i = 0; i + 1 < ACROSS; i++) {
+        add_triangle(count, from + i, from + i + 1, to + i + 1, rgb[i]);
+        add_triangle(count, from + i, to + i + 1, to + i, rgb[i]);
+    }
+}
+
+/* Corners and colours are those of any pairs. Far ones are a piece of the mean of both segments' colours, and of their trees the
+ * narrow sides are left out. */
+static void make_corners(int near)
+{
+    static const uint32_t strip[3][ACROSS - 1] = { { 0x4f9a3c, 0xd02c2c, 0x5a5d66, 0xd02c2c, 0x4f9a3c },
+                                                   { 0x5aa845, 0xf2f2f2, 0x63666f, 0xf2f2f2, 0x5aa845 },
+                                                   { 0x55a141, 0xe18f8f, 0x5f626b, 0xe18f8f, 0x55a141 } };
     static const uint32_t leaves[4] = { 0x1f6b3a, 0x2b8047, 0x17552d, 0x236f3d };
     int count = 0;
     for (int pair = 0; pair < SEEN; pair++) {
         const int first = pair * PAIR, top = first + 2 * ACROSS;
-        for (int row = 0; row < 2; row++)
-            for (int i = 0; i + 1 < ACROSS; i++) {
-                const int a = first + row * ACROSS + i, b = row == 0 ? a + ACROSS : first + PAIR + i;
-                add_triangle(&count, a, a + 1, b + 1, strip[i][row]);
-                add_triangle(&count, a, b + 1, b, strip[i][row]);
-            }
-        for (int side = 0; side < 4; side++)
+        const bool far = pair >= near;
+        if (!far)
+            add_strips(&count, first, first + ACROSS, strip[0]);
+        add_strips(&count, far ? first : first + ACROSS, first + PAIR, strip[far ? 2 : 1]);
+        for (int side = 0; side < 4; side += far ? 2 : 1)
             add_triangle(&count, top, top + 1 + side, top + 1 + (side + 1) % 4, leaves[side]);
     }
+    mesh.triangle_count = (uint32_t)count;
 }
 
-void course_make(void)
+void course_make(int height)
 {
     find_middle();
-    make_corners();
+    make_corners(NEAR_LEAST + height / 80);
     for (int pair = 0; pair < PAIRS + SEEN; pair++) {
         put_row(pair * PAIR, 2 * pair);
         put_row(pair * PAIR + ACROSS, 2 * pair + 1);
@@ -134,8 +147,6 @@ void course_make(void)
 
 const smear_mesh *course_ahead(int32_t along)
 {
-    static smear_mesh mesh = { .vertex_count = SEEN * PAIR + ACROSS, .index = corner, .triangle_count = TRIANGLES,
-                               .face_color = color, .shift = STEPS };
     mesh.position = position[wrapped(along >> 16) / 2 * PAIR];
     return &mesh;
 }

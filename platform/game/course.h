@@ -16,8 +16,8 @@ enum {
     COURSE_HALF_ROAD = 5 << 16
 };
 
-/* Makes the circuit. */
-void course_make(void);
+/* Makes the circuit, as fine as a picture so many pixels high shows it. */
+void course_make(int height);
 
 /* The road and what stands beside it, COURSE_SEEN segments from a place on; until the next call. */
 const smear_mesh *course_ahead(int32_t along);

@@ -66,7 +66,7 @@ static int start(const struct screen *screen, const smear_desc *desc)
     game.desc = *desc;
     game.way = screen->way;
     game.lap = (struct lap){ 0 };
-    course_make();
+    course_make(desc->height);
     view_make();
     race_begin(&game.race);
     game.half = size + half_bytes() <= room ? arena + size : NULL;

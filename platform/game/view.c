@@ -129,8 +129,8 @@ static smear_camera camera_of(const struct race_car *c)
 /* Numbers by which the library knows from frame to frame what is what. */
 enum { ID_COURSE = 1, ID_GATE, ID_CAR, ID_SHADOW = ID_CAR + RACE_CARS };
 
-/* Segments, q16, from which cars are small and things are not seen. */
-enum { SMALL = 9 << 16, FAR = COURSE_SEEN << 16 };
+/* Segments, q16: those from which cars are eight pixels wide or less in a picture of 80 rows, and those from which things are not seen. */
+enum { SMALL = 3 << 16, FAR = COURSE_SEEN << 16 };
 
 /* Segments that a place lies ahead of where a car's camera is, q16. */
 static int32_t ahead_of(const struct race_car *c, int32_t along)
@@ -158,19 +158,20 @@ static smear_transform shadow_of(const smear_transform *pose)
     return smear_compose(*pose, smear_compose(smear_move(0, SMEAR_Q16(0.02), 0), size));
 }
 
-static int submit_cars(smear_context *ctx, const struct race *race, bool soft)
+static int submit_cars(smear_context *ctx, const struct race *race, int height, bool soft)
 {
     static const smear_material paint[RACE_CARS] = {
         { .color = { 255, 60, 40, 255 }, .unlit = 1 }, { .color = { 60, 120, 255, 255 }, .unlit = 1 },
         { .color = { 255, 200, 40, 255 }, .unlit = 1 }, { .color = { 190, 90, 230, 255 }, .unlit = 1 }
     };
+    const int32_t small = SMALL / 80 * (height < 240 ? height : 240);
     int result = SMEAR_OK;
     for (int i = 0; i < RACE_CARS && result == SMEAR_OK; i++) {
         const int32_t ahead = ahead_of(&race->car[0], race->car[i].along);
         if (ahead > FAR)
             continue;
         const smear_transform pose = pose_of(&race->car[i]);
-        struct shape *const seen = ahead < SMALL ? &car : &small_car;
+        struct shape *const seen = ahead < small ? &car : &small_car;
         seen->mesh.triangle_count = seen->boxes + (soft ? 0u : 2u);
         const smear_draw draw = { .id = (uint32_t)(ID_CAR + i), .mesh = &seen->mesh, .material = &paint[i], .now = &pose };
         const smear_transform under = shadow_of(&pose);
@@ -310,5 +311,5 @@ int view_submit(smear_context *ctx, const struct race *race, const smear_desc *d
     int result = smear_begin(ctx, &frame);
     if (result == SMEAR_OK)
         result = submit_course(ctx, &race->car[0]);
-    return result == SMEAR_OK ? submit_cars(ctx, race, soft) : result;
+    return result == SMEAR_OK ? submit_cars(ctx, race, desc->height, soft) : result;
 }

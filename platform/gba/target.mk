@@ -15,7 +15,7 @@ LDFLAGS += -mcpu=arm7tdmi -mthumb -mthumb-interwork -nostdlib -Wl,--gc-sections 
 LDLIBS  += -lgcc
 
 # The library as ARM code, which multiplies to 64 bits, and the scene's sines.
-$(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o: CFLAGS += -marm
+$(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o $(BUILD)/platform/game/course.o $(BUILD)/platform/game/view.o $(BUILD)/platform/game/race.o: CFLAGS += -marm
 
 # What runs from ROM most of the time is Thumb code: half as many bytes to fetch for an instruction.
 $(addprefix $(BUILD)/src/,$(addsuffix .o,draws draws_prepare validate display/band display/overlay display/pixel_format methods/temporal \

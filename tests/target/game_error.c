@@ -108,7 +108,7 @@ int main(int argc, char **argv)
     double sum = 0, worst = 0;
     int frames = 0;
     const int count = truth.desc.width * truth.desc.height;
-    course_make();
+    course_make(truth.desc.height);
     view_make();
     race_begin(&race);
     while (race.finished == 0) {
