@@ -28,6 +28,11 @@ enum { HAS_FLAT_ROWS = !SMEAR_SMALL_CODE };
 bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, const struct bounds *given,
                          bool whole, uint32_t number);
 
+/* Draws the target's rows of a triangle of a list that is kept, of which rows just above were drawn last, in pixels of this kind. False for
+ * others. */
+bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bins *bins, const struct smear_triangle *triangle,
+                      uint32_t number);
+
 /* Draws the target's rows of one that is ready: not small, without velocity. */
 void smear_flat_cover(const struct setup *s);
 

@@ -23,18 +23,6 @@ static inline struct columns columns_within(const struct bounds *b)
     return (struct columns){ (b->x0 + 127) >> 8, (b->x1 + 127) >> 8 };
 }
 
-/* Whether it is drawn by the weights of its vertices. */
-static inline bool is_tiny(struct columns c, int32_t rows)
-{
-    return c.right - c.left <= SMALL_PX && (c.right - c.left) * rows <= TINY_PIXELS;
-}
-
-/* Whether no column of its box is one of the target's. */
-static inline bool is_beside(const struct smear_raster_target *t, struct columns c)
-{
-    return max_i32(c.left, t->x0) >= min_i32(c.right, t->x1);
-}
-
 /* How depths change, as smear_setup has it. */
 struct depth_slopes {
     int32_t dx, dy;
@@ -173,19 +161,21 @@ static inline struct kept_flat *flat_slot(const struct smear_raster_target *t, u
     return (struct kept_flat *)(void *)kept_at(&t->cache, second ? n - 1 - at : at);
 }
 
-/* Draws the target's rows of one that is kept, of which rows just above were drawn last, in pixels of this kind. False for others. */
-static inline bool draw_kept_rows(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t number)
+bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bins *bins, const struct smear_triangle *triangle,
+                      uint32_t number)
 {
     struct kept_flat *k = flat_slot(t, number, false);
     if (k->kept.triangle != (number | FLAT_KEPT))
         k = flat_slot(t, number, true);
     if (k->kept.triangle != (number | FLAT_KEPT) || k->row != t->y0 || k->lines.narrow != target_is_direct(t))
         return false;
-    const struct corners c = { NULL, v[k->middle], v[k->bottom], 0, k->knee, k->kept.end, k->whole_is_left };
     k->lines.to_pixels = to_pixels_of(t, k->lines.narrow);      /* a band may have memory of its own */
     k->row = t->y1;
+    const struct smear_segment *const s = &bins->segment[triangle->segment];
+    const struct corners c = { NULL, bins_vertex(bins, s, triangle->vertex[k->middle]), bins_vertex(bins, s, triangle->vertex[k->bottom]),
+                               0, k->knee, k->kept.end, k->whole_is_left };
     draw_rows(t, &k->lines, &c, t->y0, min_i32(c.end, t->y1), true);
-    if (c.end <= t->y1)
+    if (k->kept.end <= t->y1)
         k->kept.triangle = SMEAR_NO_TRIANGLE;
     return true;
 }
@@ -213,16 +203,14 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 {
     struct corners c;
     struct flat_lines own, *l = &own;
-    if (SMEAR_RASTER_CACHE && number != SMEAR_NO_TRIANGLE && draw_kept_rows(t, v, number))
-        return true;
     corners_sort(&c, v);
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
     const bool low = c.end - c.first <= SMALL_PX;
     if (low || !whole) {
         const struct columns columns = given != NULL ? columns_within(given) : columns_of(v);
-        if (low && is_tiny(columns, c.end - c.first))
+        if (low && columns.right - columns.left <= SMALL_PX && (columns.right - columns.left) * (c.end - c.first) <= TINY_PIXELS)
             return false;
-        if (!whole && is_beside(t, columns))
+        if (!whole && max_i32(columns.left, t->x0) >= min_i32(columns.right, t->x1))
             return true;
     }
     if (y >= end)

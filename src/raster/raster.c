@@ -269,15 +269,15 @@ static SMEAR_NOINLINE void take_segment(struct smear_raster_pass *p, const struc
         return;
     p->plain = p->boxed && !frame_has_fog(p->frame) && !target_has_velocity(p->target);
     p->flat = p->plain && !p->box.box.shaded;
+    p->goes_on = SMEAR_RASTER_CACHE && p->flat && p->keeps;
     p->tiny = p->plain;
 }
 
-/* Draws a triangle. After one that is large, some are not even looked at for being tiny: those that are come to draw_any. */
-SMEAR_INLINE void draw_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, uint32_t number,
-                                const int32_t *const v[3], const struct bounds *given, bool looks)
+/* Draws a triangle of the pass's segment. After one that is large, some are not even looked at for being tiny: those that are come to
+ * draw_any. */
+SMEAR_INLINE void draw_triangle(struct smear_raster_pass *p, uint32_t color, uint32_t number, const int32_t *const v[3],
+                                const struct bounds *given, bool looks)
 {
-    if (segment != p->segment)
-        take_segment(p, segment);
     if (HAS_FLAT_ROWS && p->plain) {
         p->tiny = (p->tiny || looks) && smear_tiny_draw(&p->box, p->target, v, color);
         if (p->tiny || (p->flat && smear_flat_triangle(p->target, v, color, given, p->whole, p->keeps ? number : SMEAR_NO_TRIANGLE)))
@@ -291,7 +291,9 @@ SMEAR_INLINE void draw_triangle(struct smear_raster_pass *p, const struct smear_
 void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],
                            const struct bounds *bounds)
 {
-    draw_triangle(p, segment, color, SMEAR_NO_TRIANGLE, v, bounds, true);
+    if (segment != p->segment)
+        take_segment(p, segment);
+    draw_triangle(p, color, SMEAR_NO_TRIANGLE, v, bounds, true);
 }
 
 /* Draws a triangle that is no point. */
@@ -299,9 +301,13 @@ SMEAR_INLINE_ALWAYS void draw_listed(struct smear_raster_pass *p, const struct s
 {
     const struct smear_bins *const bins = p->frame->bins;
     const struct smear_segment *const segment = &bins->segment[t->segment];
+    if (segment != p->segment)
+        take_segment(p, segment);
+    if (HAS_FLAT_ROWS && p->goes_on && smear_flat_go_on(p->target, bins, t, number))
+        return;
     const int32_t *const v[3] = { bins_vertex(bins, segment, t->vertex[0]), bins_vertex(bins, segment, t->vertex[1]),
                                   bins_vertex(bins, segment, t->vertex[2]) };
-    draw_triangle(p, segment, t->color, number, v, NULL, (number & 3u) == 0);
+    draw_triangle(p, t->color, number, v, NULL, (number & 3u) == 0);
 }
 
 /* Draws `count` triangles of the target's order, from the front, but for what is hidden. Where few are, only some are looked at. */

@@ -44,6 +44,7 @@ struct smear_raster_pass {
     bool moved;             /* one that moves has been drawn */
     bool whole;             /* the target has all columns of the frame */
     bool keeps;             /* and not all of its rows: what goes on below is kept */
+    bool goes_on;           /* what is kept of triangles of the segment may go on here */
     struct tiny_look box;
     struct few_look texels;
 };
