@@ -15,9 +15,7 @@ enum {
     LEVELS = 12 * OCTAVE,
     STRIPS = 16,
     ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
-    ORDER_PIXELS = 8,               /* of the target for each: smaller ones hide little; */
-    SMALL_PIXELS = 32,              /* small ones may, but in so many lists after one in which few are hidden */
-    SMALL_REST = 7
+    ORDER_PIXELS = 8, BEGUN_PIXELS = 32     /* of the target for each, and for each that begins in it: smaller ones hide little */
 };
 
 /* Levels that were taken: of each strip, from which level of a near end on how far back triangles were put. */
@@ -94,56 +92,35 @@ static int strip_shift(const struct smear_raster_target *target)
     return shift + 8;
 }
 
-/* Whether triangles are small. */
-static inline bool are_small(const struct smear_raster_frame *frame, const struct smear_raster_target *t, uint32_t count)
+/* Returns twice a triangle's area, in whole pixels. */
+static inline uint32_t area_twice(const struct smear_bins *bins, const struct smear_triangle *t)
 {
-    return count > (uint32_t)((t->x1 - t->x0) * frame->bins->row_px) / SMALL_PIXELS;
+    const struct smear_segment *const segment = &bins->segment[t->segment];
+    const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
+                  *const v2 = bins_vertex(bins, segment, t->vertex[2]);
+    const int32_t x = v0[VERTEX_X], y = v0[VERTEX_Y], x1 = (v1[VERTEX_X] - x) >> 8, y1 = (v1[VERTEX_Y] - y) >> 8;
+    return magnitude_i32(x1 * ((v2[VERTEX_Y] - y) >> 8) - ((v2[VERTEX_X] - x) >> 8) * y1);
 }
 
-void smear_front_learn(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t hidden, uint32_t count)
+/* Whether a list's order is worth finding: where triangles together are twice as large as its rows, and not small. */
+static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
 {
-    if (are_small(frame, target, count))
-        ((struct front_memory *)target->cache.entry - 1)->rest = 16 * hidden < count ? SMALL_REST : 0;
-}
-
-/* Whether a list's triangles together are as large as its rows. Whole pixels do. */
-static bool is_covered(const struct smear_bins *bins, struct smear_list list, uint32_t pixels)
-{
-    uint32_t twice = 0;
-    for (uint32_t i; twice <= 2 * pixels && (i = list_first(&list)) != SMEAR_NO_TRIANGLE;) {
+    const struct front_memory *const memory = (const struct front_memory *)target->cache.entry - 1;
+    const struct smear_bins *const bins = frame->bins;
+    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * bins->row_px), enough = 4 * pixels;
+    const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS);
+    uint32_t count = 0, twice = 0;
+    if (bins_listed(bins) > pixels / BEGUN_PIXELS * (uint32_t)bins->row_count)
+        return false;
+    for (uint32_t i; count <= most && (i = list_first(&list)) != SMEAR_NO_TRIANGLE; count++) {
         const struct smear_triangle *const t = bins_triangle(bins, i);
         list_next(&list, t);
         if (t->segment == SMEAR_POINT)
-            return true;
-        const struct smear_segment *const segment = &bins->segment[t->segment];
-        const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
-                      *const v2 = bins_vertex(bins, segment, t->vertex[2]);
-        const int32_t x = v0[VERTEX_X], y = v0[VERTEX_Y];
-        const int32_t x1 = (v1[VERTEX_X] - x) >> 8, y1 = (v1[VERTEX_Y] - y) >> 8;
-        twice += magnitude_i32(x1 * ((v2[VERTEX_Y] - y) >> 8) - ((v2[VERTEX_X] - x) >> 8) * y1);
+            return false;
+        if (twice < enough)
+            twice += area_twice(bins, t);
     }
-    return twice > 2 * pixels;
-}
-
-/* Whether a list's order is worth finding: not where little is hidden, or, of small triangles, was in one of the last lists. */
-static bool is_worth_it(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
-{
-    struct front_memory *const memory = (struct front_memory *)target->cache.entry - 1;
-    const uint32_t pixels = (uint32_t)((target->x1 - target->x0) * frame->bins->row_px);
-    const uint32_t most = min_u32(front_order_most(memory), pixels / ORDER_PIXELS);
-    struct smear_list all = list;
-    uint32_t count = 0;
-    if (memory->rest != 0) {
-        memory->rest--;
-        return false;
-    }
-    for (uint32_t i; count <= most && (i = list_first(&all)) != SMEAR_NO_TRIANGLE; count++)
-        list_next(&all, bins_triangle(frame->bins, i));
-    if (count < ORDER_LEAST || count > most || is_covered(frame->bins, list, pixels))
-        return count >= ORDER_LEAST && count <= most;
-    if (are_small(frame, target, count))
-        memory->rest = SMALL_REST;
-    return false;
+    return count >= ORDER_LEAST && count <= most && twice >= enough;
 }
 
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one

@@ -70,7 +70,6 @@ static inline void leave_kept(struct kept *k, bool goes_on)
 /* Memory for a list's order lies before a cache's entries: this before them, the order before this. */
 struct front_memory {
     uint32_t bytes;         /* of both */
-    uint32_t rest;          /* lists of small triangles that are not ordered, as little was or could be hidden in the last one */
 };
 
 /* Returns how many triangles of a list find room: each has a number of 16 bits and a level. */
@@ -86,15 +85,12 @@ size_t smear_front_order_bytes(const struct smear_bins *bins);
 static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
 {
     const struct front_memory *const m = cache->entry != NULL ? (const struct front_memory *)cache->entry - 1 : NULL;
-    return m != NULL && m->bytes > sizeof(struct front_memory) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
+    return m != NULL && m->bytes > 2 * sizeof(struct front_memory) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
 }
 
 /* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any
  * pixel. Returns how many there are; 0 where the list is to be drawn as it is. */
 uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list);
-
-/* Notes how many of an ordered list's triangles were hidden. */
-void smear_front_learn(const struct smear_raster_frame *frame, const struct smear_raster_target *target, uint32_t hidden, uint32_t count);
 
 enum { FRONT_BLOCK = 32, FRONT_BLOCKS = 2048 / FRONT_BLOCK };
 

@@ -324,7 +324,6 @@ static SMEAR_NOINLINE void draw_ordered(struct smear_raster_pass *p, uint32_t co
         else
             draw_listed(p, t, order[i]);
     }
-    smear_front_learn(p->frame, p->target, hidden, count);
 }
 
 SMEAR_INLINE_ALWAYS void draw_any_list(const struct smear_raster_frame *frame, const struct smear_raster_target *target,

@@ -100,11 +100,11 @@ struct smear_raster_cache smear_raster_cache_make(void *memory, size_t bytes, in
     const uint32_t entries = min_u32((uint32_t)((most - before) / entry_bytes), ENTRIES_MAX / (uint32_t)count);
     const struct smear_raster_cache cache = { (uint8_t *)memory + before, (uint16_t)entries, (uint16_t)entry_bytes };
     if (SMEAR_FRONT_ORDER)
-        *((struct front_memory *)cache.entry - 1) = (struct front_memory){ (uint32_t)before, 0 };
+        *((struct front_memory *)cache.entry - 1) = (struct front_memory){ (uint32_t)before };
     for (int k = 0; k < count; k++) {
         const struct smear_raster_cache part = smear_raster_cache_of(&cache, k);
         if (SMEAR_FRONT_ORDER)
-            *((struct front_memory *)part.entry - 1) = (struct front_memory){ (uint32_t)before, 0 };
+            *((struct front_memory *)part.entry - 1) = (struct front_memory){ (uint32_t)before };
         for (uint32_t i = 0; i < entries; i++)
             kept_at(&part, i)->triangle = SMEAR_NO_TRIANGLE;
     }

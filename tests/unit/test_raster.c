@@ -403,10 +403,11 @@ static int32_t draw_bands(struct planes *p, int32_t band, bool order)
     static uint64_t memory[1024];
     struct smear_raster_cache cache = { NULL, 0, 0 };
     int32_t moved = 0;
+    geometry.row_px = H;        /* a row, of which bands are parts */
+    geometry.row_count = 1;
     if (order)
         cache = smear_raster_cache_make(memory, sizeof memory, 1, &geometry);
     uint16_t *const number = front_order_of(&cache);
-    geometry.row_px = H;        /* bands are parts of it */
     planes_clear(p);
     for (int32_t y = 0; y < H; y += band) {
         struct smear_raster_target t = target_of(p);
