@@ -6,9 +6,6 @@
 #include "base/pixel.h"
 #include "kernels/texel_light.h"
 
-/* A loop of its own for wraps: a third of the instructions, for machines that have room. */
-enum { SAMPLE_WRAPPED = SMEAR_SMALL_FILE ? 0 : SMEAR_ON_64 };
-
 static int log2_exact(uint32_t x)
 {
     return (x & (x - 1)) == 0 ? 31 - count_leading_zeros(x) : -1;
@@ -81,15 +78,16 @@ static uint32_t fetch(const struct smear_sampler *s, uint32_t at)
     return texel_fetch(s->texels, s->palette, at, s->format);
 }
 
-/* Any integer texel coordinate into 0 .. size - 1. */
+/* Any integer texel coordinate into 0 .. size - 1. Divides only beyond the first period. */
 static int32_t wrap(int32_t i, int32_t size, int mode)
 {
     if (mode == SMEAR_CLAMP)
         return clamp_i32(i, 0, size - 1);
     int32_t period = mode == SMEAR_MIRROR ? 2 * size : size;
-    i %= period;
-    if (i < 0)
-        i += period;
+    if (SMEAR_SMALL_CODE || (uint32_t)i >= (uint32_t)period) {
+        i %= period;
+        i += i < 0 ? period : 0;
+    }
     return i < size ? i : period - 1 - i;
 }
 
@@ -156,44 +154,6 @@ SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
         *out++ = sample_at(s, at, turns, format);
 }
 
-/* Coordinates of an axis that wrap alike: those below `period` beyond `from`. */
-struct wrapped {
-    int32_t from, period, size;
-    int mode;
-};
-
-static struct wrapped wrapped_make(int32_t size, int mode)
-{
-    return (struct wrapped){ 0, mode == SMEAR_MIRROR ? 2 * size : size, size, mode };
-}
-
-/* What wrap returns. Divides only where a coordinate comes into another period. */
-static inline int32_t wrapped_at(struct wrapped *w, int32_t i)
-{
-    if (w->mode == SMEAR_CLAMP)
-        return clamp_i32(i, 0, w->size - 1);
-    int32_t inside = i - w->from;
-    if ((uint32_t)inside >= (uint32_t)w->period) {
-        inside = i % w->period;
-        inside += inside < 0 ? w->period : 0;
-        w->from = i - inside;
-    }
-    return inside < w->size ? inside : w->period - 1 - inside;
-}
-
-/* Nearest texels. */
-static void sample_wrapped(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
-{
-    const uint64_t curvature = run->curvature;
-    uint64_t at = run->at + run->step * (uint32_t)first + curvature * (uint32_t)(first * (first - 1) / 2);
-    uint64_t step = run->step + curvature * (uint32_t)first;
-    struct wrapped u = wrapped_make(s->width, s->wrap_u), v = wrapped_make(s->height, s->wrap_v);
-    for (; n > 0; n--, at += step, step += curvature) {
-        const int32_t row = wrapped_at(&v, (int32_t)(at >> 32) >> 16);
-        *out++ = fetch(s, (uint32_t)(row * s->width + wrapped_at(&u, (int32_t)at >> 16)));
-    }
-}
-
 void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
 {
     if (SMEAR_SMALL_FILE) {
@@ -202,10 +162,6 @@ void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct sme
     }
     /* In registers: `out` might be any of its words. */
     const struct smear_sampler sampler = *s;
-    if (SAMPLE_WRAPPED && !sampler.turns && !sampler.bilinear) {
-        sample_wrapped(out, &sampler, run, first, n);
-        return;
-    }
     if (!sampler.turns)
         sample_run(out, s, run, first, n, false, 0);
     else if (sampler.format == SMEAR_TEXEL_8888)
