@@ -41,6 +41,9 @@ struct flat_lines {
 #endif
     uint32_t color;                 /* twice where pixels are narrow */
     bool narrow, breaks;            /* the codes have their break in them: z and steps are what flat_code takes */
+    bool shadow;                    /* not for flat_lines: pixels, which are wide, are darkened by `color` and its alpha */
+    smear_transfer transfer;
+    uint32_t last, dark;            /* shadow: a pixel, and what it becomes */
 };
 
 static inline void flat_lines_side(struct flat_lines *l, int side, const struct edge_fine *e)

@@ -300,9 +300,9 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
     smear_span_fn *write = ALWAYS_FLAT || s->flat ? smear_span_flat : smear_span_general;
     if (SMEAR_WITH_FOG && small && fog_varies(s) && s->color_block >= 16 && !setup_has_looks(s))
         write = smear_span_level;
-    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !setup_is_shaded(s)
-        && (s->segment->uv == 0 || (s->texture.mode == TEXTURE_CURVED && s->texture.turns && s->segment->shade == SHADE_NONE)))
-        write = s->segment->uv == 0 ? smear_span_shadow : smear_span_texels_shadow;
+    if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !setup_is_shaded(s) && s->segment->uv != 0 && s->segment->shade == SHADE_NONE
+        && s->texture.mode == TEXTURE_CURVED && s->texture.turns && s->draw->sampler.format == SMEAR_TEXEL_PALETTE8)
+        write = smear_span_texels_shadow;
     if (small && !SMEAR_SMALL_CODE)
         cover_small(s, box, write);
     else

@@ -33,6 +33,9 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bins *bins, const struct smear_triangle *triangle,
                       uint32_t number);
 
+/* Darkens what lies behind a shadow's triangle of this colour, which may be tiny. */
+void smear_flat_shadow(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, smear_transfer transfer);
+
 /* Draws the target's rows of one that is ready: not small, without velocity. */
 void smear_flat_cover(const struct setup *s);
 

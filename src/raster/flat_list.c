@@ -6,6 +6,7 @@
 #include "kernels/flat_lines_bind.h"
 #include "kernels/gradient.h"
 #include "raster/kept.h"
+#include "raster/span.h"
 
 /* Columns of its box. */
 struct columns {
@@ -83,6 +84,7 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->x0 = t->x0;
     l->x1 = t->x1;
     l->narrow = target_is_direct(t);
+    l->shadow = false;
     l->color = target_pixel(t, color);
     if (l->narrow)
         l->color *= 0x10001u;
@@ -90,9 +92,38 @@ static inline void lines_start(struct flat_lines *l, const struct smear_raster_t
     l->to_pixels = to_pixels_of(t, l->narrow);
 }
 
+/* Darkens pixels of n rows, as flat_lines draws them, but for depths. */
+static SMEAR_NOINLINE void darken_lines(struct flat_lines *l, int32_t n)
+{
+    const bool breaks = l->breaks;
+    const uint32_t dz = l->dz;
+    uint32_t last = l->last, dark = l->dark;
+    struct edge_fine side[2];
+    flat_lines_take_sides(l, side);
+    for (; n > 0; n--) {
+        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), count = min_i32(edge_fine_pixel(&side[1]), l->x1) - a;
+        const uint16_t *depth = l->depth + a;
+        uint32_t *pixel = (uint32_t *)((uintptr_t)depth * 2u + l->to_pixels), z = l->z + dz * (uint32_t)a;
+        for (const uint16_t *const end = depth + max_i32(count, 0); depth != end; depth++, pixel++, z += dz)
+            if (flat_code(z, breaks) >> 16 > *depth) {
+                if (*pixel != last)
+                    last = *pixel, dark = smear_span_darkened(last, l->color, l->transfer);
+                *pixel = dark;
+            }
+        flat_lines_go_down(l, side);
+    }
+    l->last = last;
+    l->dark = dark;
+    flat_lines_side(l, 0, &side[0]);
+    flat_lines_side(l, 1, &side[1]);
+}
+
 static SMEAR_COPY void draw_lines(struct flat_lines *l, int32_t n)
 {
-    flat_lines(l, n, SMEAR_DIRECT && l->narrow);
+    if (SMEAR_WITH_ALPHA && l->shadow)
+        darken_lines(l, n);
+    else
+        flat_lines(l, n, SMEAR_DIRECT && l->narrow);
 }
 
 /* Draws n rows of which some lie behind the ring's last one: `left` rows lie before its end. */
@@ -223,6 +254,30 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     depth_make(l, v, y);
     draw_rows(t, l, &c, y, end, false);
     return true;
+}
+
+void smear_flat_shadow(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, smear_transfer transfer)
+{
+    struct flat_lines l;
+    struct corners c;
+    int32_t raised[3][3];           /* in front of what it lies on: setup_depth */
+    const int32_t *const r[3] = { raised[0], raised[1], raised[2] };
+    for (int i = 0; i < 3; i++) {
+        raised[i][VERTEX_X] = v[i][VERTEX_X];
+        raised[i][VERTEX_Y] = v[i][VERTEX_Y];
+        raised[i][VERTEX_DEPTH] = v[i][VERTEX_DEPTH] + (v[i][VERTEX_DEPTH] >> 9);
+    }
+    corners_sort(&c, r);
+    const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
+    if (y >= end)
+        return;
+    lines_start(&l, t, 0);
+    l.shadow = true;
+    l.color = color;
+    l.transfer = transfer;
+    l.last = l.dark = 0xff000000u;          /* as dark as can be */
+    depth_make(&l, r, y);
+    draw_rows(t, &l, &c, y, end, false);
 }
 
 void smear_flat_cover(const struct setup *s)

@@ -267,6 +267,8 @@ static SMEAR_NOINLINE void take_segment(struct smear_raster_pass *p, const struc
           && !(SMEAR_WITH_BOUNDS && draw->sampler.levels != 0);
     if (!HAS_FLAT_ROWS)
         return;
+    p->shadow = draw_is_shadow(draw) && !segment_textured(segment) && !segment_gouraud(segment) && !frame_has_fog(p->frame)
+             && !target_has_velocity(p->target) && target_is_opaque(p->target);
     p->plain = p->boxed && !frame_has_fog(p->frame) && !target_has_velocity(p->target);
     p->flat = p->plain && !p->box.box.shaded;
     p->goes_on = SMEAR_RASTER_CACHE && p->flat && p->keeps;
@@ -285,7 +287,10 @@ SMEAR_INLINE void draw_triangle(struct smear_raster_pass *p, uint32_t color, uin
     }
     if (SMEAR_WITH_TEXTURE && p->few && smear_few_draw(&p->texels, p->target, v, color, NULL))
         return;
-    draw_any(p, color, number, v, given);
+    if (HAS_FLAT_ROWS && p->shadow)
+        smear_flat_shadow(p->target, v, color, frame_transfer(p->frame));
+    else
+        draw_any(p, color, number, v, given);
 }
 
 void smear_raster_triangle(struct smear_raster_pass *p, const struct smear_segment *segment, uint32_t color, const int32_t *const v[3],

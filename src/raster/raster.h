@@ -38,6 +38,7 @@ struct smear_raster_pass {
     bool boxed;             /* those of few pixels are drawn by smear_tiny_draw */
     bool plain;             /* their pixels say nothing but colour and depth, without fog */
     bool flat;              /* and the others by smear_flat_triangle */
+    bool shadow;            /* all are drawn by smear_flat_shadow */
     bool tiny;              /* the last one had few pixels */
     bool textured;          /* those of few pixels are drawn by smear_few_draw, */
     bool few;               /* before anything else is looked at: without velocity, fog and levels */

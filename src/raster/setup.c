@@ -139,8 +139,7 @@ uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c)
     return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
 }
 
-/* What the frame shows of the triangle's box: pixels across, and
- * depth units, which the covered pixels keep to. */
+/* What the frame shows of the triangle's box: pixels across, and depth units, which the covered pixels keep to. */
 struct seen {
     int32_t width;
     int32_t low_q, high_q;
@@ -238,8 +237,7 @@ static void setup_affine(struct setup *s, const struct corners *k)
     }
 }
 
-/* How the weights of v[1] and v[2] change per pixel, and how far
- * sums of products with them are to be shifted. */
+/* How the weights of v[1] and v[2] change per pixel, and how far sums of products with them are to be shifted. */
 struct weights {
     int32_t dx[2], dy[2];
     int shift;
@@ -264,8 +262,7 @@ static inline int32_t weighed(const struct weights *w, const int32_t weight[2], 
     return scale_sat(mulh_i32(weight[0], d1) + mulh_i32(weight[1], d2), w->shift);
 }
 
-/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the
- * vertices, q14; where in its pixel v[0] is. */
+/* e, less what it is on the average, at v[0]'s pixel and per pixel, q32; 1 + e at the vertices, q14; where in its pixel v[0] is. */
 struct depth_change {
     int32_t at, dx, dy;
     int32_t vertex[3];
@@ -505,8 +502,7 @@ void smear_setup_shrink(struct setup *s, struct smear_raster_draw *smaller)
 
 /* ------------------------------------------------------------------ all of it */
 
-/* Without a texture and opaque: one colour throughout, which is then
- * s->color. Faces of boxes have such vertices. */
+/* Without a texture and opaque: one colour throughout, which is then s->color. Faces of boxes have such vertices. */
 static bool is_flat(struct setup *s)
 {
     const int at = s->segment->color;

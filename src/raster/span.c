@@ -28,45 +28,33 @@ void smear_span_level(const struct setup *s, const struct span *p)
 }
 #endif
 
-/* Darkens n pixels by texels, where they are nearer. Codes that have no shadow yet become darker by two products. */
-static SMEAR_NOINLINE void darken(const uint32_t *in, uint32_t *color, const uint16_t *depth, uint32_t z, uint32_t dz, int32_t n,
-                                  smear_transfer transfer)
-{
-    const uint32_t *const end = in + n, black_most = transfer_is_linear(transfer) ? 0 : 255u << 24;
-    for (; in != end; in++, color++, depth++, z += dz) {
-        const uint32_t over = *in, pixel = *color, rest = 256u - (over >> 24) - (over >> 31);
-        if (over >> 24 <= pixel >> 24 || z >> 16 <= *depth)
-            continue;
-        if (over << 8 != 0 || over > black_most || pixel >> 24 != 0)
-            *color = blended_pixel(pixel, over, true, transfer);
-        else
-            *color = over | (((pixel & 0xff00ffu) * rest + 0x800080u) >> 8 & 0xff00ffu)
-                   | (((pixel & 0xff00u) * rest + 0x8000u) >> 8 & 0xff00u);
-    }
-}
+uint32_t smear_span_darkened(uint32_t pixel, uint32_t over, smear_transfer t) { return blended_pixel(pixel, over, true, t); }
 
+/* By polynomials, of any row. Codes that have no shadow yet become darker by two products. */
 void smear_span_texels_shadow(const struct setup *s, const struct span *p)
 {
-    uint32_t block[BLOCK_LONGEST];
-    for (int32_t x = p->a, at = 0, n; !SMEAR_SMALL_CODE && x < p->b; x += n, at += n) {
-        const struct smear_texture_run run = texcoord_packed(texcoord_curved(&s->texture, &s->draw->sampler, x, p->y));
-        n = min_i32(p->b - x, BLOCK_LONGEST);
-        smear_sample(block, &s->draw->sampler, &run, 0, n);
-        darken(block, (uint32_t *)p->color + at, p->depth + at, p->z + (uint32_t)p->dz * (uint32_t)at, (uint32_t)p->dz, n,
-               frame_transfer(s->frame));
-    }
-}
-
-void smear_span_shadow(const struct setup *s, const struct span *p)
-{
+    const struct smear_sampler *const m = &s->draw->sampler;
+    const smear_transfer transfer = frame_transfer(s->frame);
+    struct texcoord c = texcoord_curved(&s->texture, m, p->a, p->y);
+    const uint8_t *const texels = (const uint8_t *)m->texels;
+    const uint32_t *const palette = m->palette, dz = (uint32_t)p->dz, pair = 0xff00ffu;
+    const int up = m->log2_width, from_u = 31 - up, from_v = 31 - m->log2_height;      /* sampler_index */
+    uint32_t *color = (uint32_t *)p->color, z = p->z;
     const uint16_t *depth = p->depth, *const end = depth + (p->b - p->a);
-    uint32_t *color = (uint32_t *)p->color, z = p->z, dz = (uint32_t)p->dz, last = 0xff000000u, dark = last;     /* as dark as can be */
-    for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz)
-        if (z >> 16 > *depth) {
-            if (*color != last)
-                last = *color, dark = blended_pixel(last, s->color, true, frame_transfer(s->frame));
-            *color = dark;
-        }
+    for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz) {
+        const uint32_t over = palette[texels[(c.v >> 1 >> from_v) << up | c.u >> 1 >> from_u]], was = *color;
+        const uint32_t rest = 256u - (over >> 24) - (over >> 31);
+        c.u += c.du;
+        c.v += c.dv;
+        c.du -= c.curvature_u;
+        c.dv -= c.curvature_v;
+        if (over >> 24 <= was >> 24 || z >> 16 <= *depth)
+            continue;
+        if ((over << 8 | was >> 24 | transfer) != 0)
+            *color = smear_span_darkened(was, over, transfer);
+        else
+            *color = over | (((was & pair) * rest + 0x800080u) >> 8 & pair) | (pixel_green(was) * rest + 0x80u) >> 8 << 8;
+    }
 }
 
 /* ------------------------------------------------------------------ blocks */

@@ -23,8 +23,8 @@ struct span {
 /* Writes colour and depth where the span passes the depth test (and cutout, blend). */
 typedef void smear_span_fn(const struct setup *s, const struct span *p);
 
-/* One colour, opaque, or in one part of fog for each row; a shadow of one colour, or of texels by a polynomial; and everything. */
-smear_span_fn smear_span_flat, smear_span_level, smear_span_shadow, smear_span_texels_shadow, smear_span_general;
+/* One colour, opaque, or in one part of fog for each row; a shadow of texels of a palette by a polynomial; and everything. */
+smear_span_fn smear_span_flat, smear_span_level, smear_span_texels_shadow, smear_span_general;
 
 /* How many of n pixels come before the first one beyond the
  * break of the depth code, which lies among them. */
@@ -61,6 +61,9 @@ static inline uint32_t blended_pixel(uint32_t pixel, uint32_t over, bool shadow,
     const uint32_t part = had == 0 ? has : (has - had) * 255u / (255u - had);
     return pixel_blend(pixel & 0xffffffu, over, part, transfer) | (shadow ? has << 24 : 0);
 }
+
+/* A call of it for shadows, where loops would keep too little in registers. */
+uint32_t smear_span_darkened(uint32_t pixel, uint32_t over, smear_transfer t);
 
 /* Whole spans of rows one below the other, from row y on. */
 enum { SPAN_ROWS = 32 };
