@@ -78,11 +78,13 @@ int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct
     return chooser->method == SMEAR_AUTO && smear_tile_may_close(chooser, tile) ? tile->x / least : 0;
 }
 
-/* Returns the least instants of a tile: the first may show nothing of what passes later. */
+/* Returns the least instants of a tile: the first may show nothing of what passes later. Where targets are coarse, one may do. */
 static int32_t least_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
     const uint32_t root = sqrt_floor_64((uint32_t)min_i32(travel_of(tile), 65535) << 8); /* 1/16 */
     const int32_t target = max_i32(chooser->target, 1), n = 2 + (int32_t)(3 * root / (4 * (uint32_t)target));
+    if (target >= SMEAR_DRAFT)
+        return 1;
     return target < 64 ? max_i32(n, 288 / target) : n;      /* pictures of slow things jump where the number changes */
 }
 
@@ -179,13 +181,13 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
 /* Returns how many instants a tile takes of a sketch; INSTANTS_MAX: it is to be measured, as gaps are not closed there. */
 static int32_t sketch_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
 {
-    enum { WAY = 20 * 16,           /* that a gap may be wide, 1/16 px */
+    enum { WAY = 20 * 16,           /* that a gap may be wide, 1/16 px: a quarter up and down, as it is closed within tile rows */
            UNLIKE = 16 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
            STILL = 24 };            /* a way that is not seen */
-    const int32_t way = reach_of(tile);
+    const int32_t way = reach_of(tile), steep = 4 * largest(tile->y0, tile->y1);
     if (!smear_tile_may_close(chooser, tile) || (tile->flags & PATH_SUBFRAMES) != 0)
         return INSTANTS_MAX;
-    return way <= STILL ? 0 : min_i32(max_i32(way / WAY, spread_of(tile) / UNLIKE) + 1, INSTANTS_MAX - 1);
+    return way <= STILL ? 0 : min_i32(max_i32(max_i32(way, steep) / WAY, spread_of(tile) / UNLIKE) + 1, INSTANTS_MAX - 1);
 }
 
 int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t)
