@@ -40,9 +40,8 @@ static inline void fill_eights(pixel_word *p, uint32_t value, int32_t n, int32_t
 static inline void fill_eights(pixel_word *p, uint32_t value, int32_t n, int32_t gap, int32_t rows)
 {
     for (; rows > 0; rows--, p += gap)
-        for (int32_t i = 0; i < n; i++, p += 8)
-            for (int k = 0; k < 8; k++)
-                p[k] = value;
+        for (int32_t i = 0; i < n; i++, p += 8)        /* written out, as compilers then store vectors */
+            p[0] = p[1] = p[2] = p[3] = p[4] = p[5] = p[6] = p[7] = value;
 }
 #endif
 
