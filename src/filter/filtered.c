@@ -52,6 +52,9 @@ static bool is_static(const struct smear_window *w, int row, int column)
     return window_around(w, row)[column].kind == TILE_STATIC;
 }
 
+/* Whether blocks are blurred along lines. */
+static inline bool goes_along_lines(const struct smear_filtered *f) { return SMEAR_WITH_FILTERS && f->lines; }
+
 /* ------------------------------------------------------------------ reduce */
 
 static void half_job(void *argument, int column, int worker)
@@ -66,7 +69,7 @@ static void reduce_job(void *argument, int column, int worker)
     const struct filter_job *r = (const struct filter_job *)argument;
     const struct smear_window *w = r->filtered->window;
     (void)worker;
-    if (SMEAR_WITH_FILTERS && r->filtered->lines)
+    if (goes_along_lines(r->filtered))
         smear_line_look(w, &r->filtered->plan.flow, r->row.row, column);
     else if (r->row.rows->window.moving[column])
         smear_tilemax(w, r->row.row, column);
@@ -103,7 +106,7 @@ static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int 
         smear_blur_copy(tile, w, &rows, column);
         return 0;
     }
-    if (SMEAR_WITH_FILTERS && f->lines)
+    if (goes_along_lines(f))
         return smear_blur_line(tile, w, &rows, column, &f->blur);
     if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG) {
         const int last = f->passes - 1;
@@ -224,9 +227,9 @@ static int finish_row(struct smear_filtered *f, struct smear_rows *rows, int row
 {
     const struct smear_window *w = f->window;
     const bool corner = f->blur.flags & SMEAR_CORNER;
-    if (!f->lines)
+    if (!goes_along_lines(f))
         smear_neighbormax_row(w, row, known, corner);
-    if (!f->lines && known > row)       /* looked at by the pixels of this row, and by passes that are ahead */
+    if (!goes_along_lines(f) && known > row)       /* looked at by the pixels of this row, and by passes that are ahead */
         smear_neighbormax_row(w, row + 1, known, corner);
     count_tiles(f, rows, row);
     int32_t end = w->height;
@@ -276,7 +279,7 @@ static void draw_job(void *argument, int job, int worker)
     struct smear_rows *rows = r->row.rows;
     const struct smear_filtered *f = r->filtered;
     const struct smear_window *w = &rows->window;
-    const bool by_depth = frame_has_depth_velocity(&rows->raster), velocities = !f->lines || rows->inspect != NULL;
+    const bool by_depth = frame_has_depth_velocity(&rows->raster), velocities = !goes_along_lines(f) || rows->inspect != NULL;
     struct smear_raster_target t;
     (void)worker;
     smear_row_target(rows, r->row.row, &t);
@@ -365,7 +368,7 @@ int smear_filtered_render(struct smear_context *c)
         smear_reproject_make(&f->reprojection, &camera[at.middle], &camera[at.open],
                              &camera[at.close], spans ? smear_instant_now.weight : middle.weight, spans,
                              c->rows.window.width, c->rows.window.height);
-        if (f->lines)
+        if (goes_along_lines(f))
             smear_flow_make(&f->plan.flow, &f->reprojection, spans ? 65536 : c->shot.half_exposure >> 7);
     }
     for (int row = 0, end; row < rows && result == SMEAR_OK;) {

@@ -24,6 +24,12 @@ struct smear_temporal {
     struct smear_lines *lines;          /* of the still scene of a frame whose camera moves; null: the desc has no room for them */
 };
 
+/* Whether a frame has one instant: it is drawn as if nothing moved. */
+static inline bool temporal_is_sharp(const struct smear_temporal *t, const smear_frame *frame)
+{
+    return SMEAR_WITH_SUBFRAMES && frame->method == SMEAR_SUBFRAMES && frame->samples == 1 && smear_shutter_is_box(&t->shutter);
+}
+
 /* What stands still is blurred along lines in this frame, and what moves by itself is drawn over it. */
 static inline bool temporal_has_lines(const struct smear_temporal *t) { return SMEAR_WITH_LINES && t->lines != NULL && t->lines->on; }
 
