@@ -292,7 +292,8 @@ static void batch_start(struct batch *b)
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed && bins_margin(g) == 0;
     b->double_sided = d->backs;
-    b->even = !SMEAR_SMALL_FILE && s->shade == SHADE_FLAT && !(d->shading.lit || shading_has_lights(&d->shading) || mesh->face_color || assembly_is_flat(d));
+    b->even = !SMEAR_SMALL_FILE && s->shade == SHADE_FLAT && mesh->face_color == NULL && !assembly_is_flat(d)
+           && !(d->shading.lit || shading_has_lights(&d->shading));
     b->color = b->even ? shade_face(b, 0, false) : 0;
     if (d->shading.lit || !d->shading.white)
         return;
