@@ -885,8 +885,8 @@ same_crcs() { [ -n "$(crcs "$1")" ] && [ "$(crcs "$1")" = "$(crcs "$2")" ]; }
 claim "of those that are not" same_crcs drawn.json kept.json
 claim "what stands still counts as kept" render builtin:suite/cross --size 64x48 --frames 0-3 --keep-still --stats kept.json -o kept%d.png
 claim "with statistics, too" grep -q '"static_cached":1' kept.json
-claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 -o kept3.png
-claim "as coarse as a draft which it is" drawn same kept3.png drawn3.png builtin:suite/cross --size 64x48 --quality draft
+claim "a budget makes it coarser" render builtin:suite/cross --size 64x48 --quality fine --budget 1 --tile 16 -o kept3.png
+claim "as coarse as a draft which it is" drawn same kept3.png drawn3.png builtin:suite/cross --size 64x48 --quality draft --tile 16
 usage --budget render "$plate" --budget 0
 usage --budget render "$plate" --budget 10 --method subframes
 usage --keep-still render "$plate" --keep-still --method reconstruct
