@@ -321,6 +321,7 @@ static void begin_filter(struct smear_filtered *f, const struct smear_rows *rows
 {
     f->method = frame->method;
     f->kind = frame->filter.kind;
+    f->lines = false;                   /* until smear_filtered_render */
     f->blur = (struct smear_blur_settings){
         .transfer = frame_transfer(&rows->raster),
         .orthographic = SMEAR_WITH_VIEWS && camera->half_height > 0,

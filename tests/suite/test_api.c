@@ -664,6 +664,7 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
     for (int variant = 0; variant < 14; variant++) {
         smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
         desc.reach = (int16_t)(variant & 2 ? 20 : 12);
+        desc.methods |= SMEAR_SET(SMEAR_CAMERA);
         RIG(r, &desc, true);
         RIG(alone, &desc, false);
         smear_camera camera = camera_at(0, 0, 0, 0);
@@ -691,6 +692,13 @@ static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
             make_checker();
             free(picture);
             picture = rig_copy(&r, &f, d, 4);
+        }
+        smear_frame before = f;                 /* of which nothing stays: it is blurred along lines */
+        before.method = SMEAR_CAMERA;
+        for (int k = 0; k < 2; k++) {
+            smear_camera turned = camera_at(0, 0, 0, 0.1 * k);
+            before.camera = &turned;
+            CHECK_EQ(rig_frame(&alone, &before, NULL, 0), SMEAR_OK);
         }
         rig_forget_output(&alone);
         CHECK_EQ(smear_filter_begin(alone.ctx, &f), SMEAR_OK);
