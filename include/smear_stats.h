@@ -34,7 +34,8 @@ typedef struct smear_stats {
                                          * parts, once per part at most */
     uint32_t pixels;                    /* of the frame */
     uint32_t samples;                   /* filter taps taken, or instants drawn x pixels */
-    uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves; SMEAR_AUTO's
+    uint32_t tiles[SMEAR_METHOD_COUNT]; /* by the method each tile got: SMEAR_NONE where nothing moves, or all is of one
+                                         * instant of a shutter without a curve (which adds no samples); SMEAR_AUTO's
                                          * tiles count as SMEAR_SUBFRAMES, those that only lines of a sketch blur as
                                          * SMEAR_CAMERA; layers count where they reach into a tile */
     uint32_t tiles_static, tiles_uniform, tiles_complex;        /* by the kind of motion in them; tiles of lines alone are uniform */

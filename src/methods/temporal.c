@@ -194,7 +194,8 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
     refill_tiles(&t, f);
     if (!self->moving.measures)
         instants = 1 + self->lines->pictures;
-    f->row.rows->samples[worker] += smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
+    const uint32_t samples = smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
+    f->row.rows->samples[worker] += temporal_is_sharp(self) ? 0 : samples;
     hand_on(f, &t);
     return next;
 }
@@ -273,7 +274,7 @@ static void count_tiles(const struct smear_temporal *self, const struct smear_ro
         if (method == TILE_COPY && temporal_has_lines(self))
             smear_row_count(rows, TILE_UNIFORM, SMEAR_CAMERA);
         else
-            smear_row_count(rows, method == TILE_COPY ? TILE_STATIC : TILE_COMPLEX,
+            smear_row_count(rows, method == TILE_COPY || temporal_is_sharp(self) ? TILE_STATIC : TILE_COMPLEX,
                             method == TILE_TIMEMASK ? SMEAR_TIMEMASK : SMEAR_SUBFRAMES);
     }
 }

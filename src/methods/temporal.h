@@ -24,14 +24,14 @@ struct smear_temporal {
     struct smear_lines *lines;          /* of the still scene of a frame whose camera moves; null: the desc has no room for them */
 };
 
-/* Whether a frame has one instant: it is drawn as if nothing moved. */
-static inline bool temporal_is_sharp(const struct smear_temporal *t, const smear_frame *frame)
-{
-    return SMEAR_WITH_SUBFRAMES && frame->method == SMEAR_SUBFRAMES && frame->samples == 1 && smear_shutter_is_box(&t->shutter);
-}
-
 /* What stands still is blurred along lines in this frame, and what moves by itself is drawn over it. */
 static inline bool temporal_has_lines(const struct smear_temporal *t) { return SMEAR_WITH_LINES && t->lines != NULL && t->lines->on; }
+
+/* Whether one instant is all that a frame shows: nothing counts as moving. */
+static inline bool temporal_is_sharp(const struct smear_temporal *t)
+{
+    return SMEAR_WITH_SUBFRAMES && t->chooser.method == SMEAR_SUBFRAMES && t->chooser.samples == 1 && smear_shutter_is_box(&t->shutter);
+}
 
 /* Moves one of the lists of its further pictures on to a row. */
 static inline void temporal_advance(const struct smear_temporal *t, const struct smear_rows *rows, int list, int row)
