@@ -13,7 +13,7 @@ struct difference_block {
     const uint16_t *depth, *deep;
     int32_t there, there_behind;        /* where the pixels lie that they are compared with, in pixels from these: in color and
                                          * depth, and in behind and deep */
-    int32_t pitch, pitch_behind, rows, n;       /* pitches: from one row to the next */
+    int32_t pitch, pitch_behind, first, end, n; /* pitches: from one row to the next; first: its number, as rows may come one by one */
 };
 
 /* Returns the squared differences of every other pixel, twice, and adds to *moving how many of them are not as what is static: of a row
@@ -22,8 +22,8 @@ struct difference_block {
 static uint32_t differences(struct difference_block b, uint32_t *moving)
 {
     uint32_t sum = 0, count = 0;
-    for (int32_t row = 0; row < b.rows; row++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
-        for (int32_t i = row & 1; i < b.n; i += 2) {
+    for (; b.first < b.end; b.first++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
+        for (int32_t i = b.first & 1; i < b.n; i += 2) {
             const uint32_t here = b.color[i], next = b.color[b.there + i], depth = b.depth[i], depth_there = b.depth[b.there + i];
             const bool moves = depth != b.deep[i] || here != b.behind[i];
             count += moves;
@@ -78,7 +78,7 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
         const int32_t at = (y - s->y0) * pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
         const struct difference_block block = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
                                                 down * pitch + x, target_row(c, s, y + down) - row + x, 2 * pitch, 2 * c->stride,
-                                                (end - y) >> 1, n };
+                                                (y - l->first) >> 1, (end - l->first) >> 1, n };
         sum += differences(block, moving);
     }
     return sum;

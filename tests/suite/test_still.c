@@ -117,6 +117,29 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
         }
 }
 
+/* A filter's window has rows that go round within a tile row: all that is looked at is looked at there, too. */
+static void test_a_window_changes_no_picture(void)
+{
+    smear_desc desc[2] = { desc_of(400, true), desc_of(400, false) };
+    for (int k = 0; k < 2; k++)
+        desc[k].width = desc[k].height = 160;
+    RIG(plain, &desc[0], false);
+    RIG(windowed, &desc[1], false);
+    for (int target = 64; target <= 512; target *= 2) {
+        struct set s;
+        set_up(&s, SMEAR_AUTO);
+        s.frame.target = (uint16_t)target;
+        for (int i = 0; i < 12; i++) {
+            s.pose[MOVER] = pose_at(-1.5 + 0.25 * i, -0.5 + 0.15 * i, -3.5, 0.4 * i, 0.2 * i);
+            uint8_t *want = rig_copy(&plain, &s.frame, s.draw, s.count);
+            rig_forget_output(&windowed);
+            CHECK_EQ(rig_frame(&windowed, &s.frame, s.draw, s.count), SMEAR_OK);
+            CHECK(want != NULL && same_picture(&windowed, want));
+            free(want);
+        }
+    }
+}
+
 /* What does not move by a step of a 256th of a pixel is drawn among what stands still. */
 static void test_motion_too_small_to_be_seen_is_drawn_in_order(void)
 {
