@@ -131,7 +131,8 @@ typedef struct smear_filter {
     uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the kind */
     uint8_t camera_step;        /* 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
                                  * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
-                                 * vertices, the background none (SMEAR_CAMERA: as 1) */
+                                 * vertices, the background none (SMEAR_CAMERA: as 1). Not looked at along the
+                                 * lines of SMEAR_FILTER_MEAN */
     smear_pingpong pingpong;
 } smear_filter;
 
