@@ -258,11 +258,11 @@ void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, c
 {
     const int32_t end = at + n;
     const struct gap_planes planes = *p;
-    const struct gap_taps all = *taps;
     const struct packed_mean mean = *taps->mean;
+    const struct gap_taps all = *taps, own = { { NULL, 0, 1 }, all.unit_log2, 0, &mean };
     if (all.at.pairs == 0)
         for (; at + 4 <= end; at += 4)
-            means4(&planes, at, &(struct gap_taps){ { NULL, 0, 1 }, all.unit_log2, 0, &mean }, &mean, COVER_NONE);
+            means4(&planes, at, &own, &mean, COVER_NONE);
     for (; at + 4 <= end; at += 4)
         means4(&planes, at, &all, &mean, cover);
     const struct gap_rows rest = { at, end - at, 1, 0 };
