@@ -44,7 +44,7 @@ export LOOPS_KEYS   := 22:16,23:0,28:16,29:0,80:8,81:0,100:4,101:0,104:4,105:0,1
 
 # Chooses again what lies in RAM: HOT_BYTES of the functions that win most there, by profiles of blurred and of sharp frames, of
 # which the latter count four times: both cores share them best where none waits for flash. With more, 200 kB do not hold the demo.
-HOT_BYTES ?= 33200
+HOT_BYTES ?= 33000
 
 .PHONY: pico-hot
 ## again: what lies in a Pico's RAM
