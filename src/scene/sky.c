@@ -265,7 +265,7 @@ static SMEAR_NOINLINE void fill_mixed(const struct pen *of, int32_t x, int32_t y
 {
     struct pen row = *of, *const p = &row;
     row.at += k * of->stride;
-    row.too += of->too != NULL ? k * of->stride : 0;
+    row.too = of->too == NULL ? NULL : of->too + k * of->stride;
     row.rows = 1;
     row.from = x;
     begin_row(p, p->sky->own[HEIGHT] - 2 * y - 1);
