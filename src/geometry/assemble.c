@@ -26,7 +26,7 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
         const uint8_t *c = b->face_color + 4 * triangle;
         return pixel_of_bytes(c);
     }
-    return b->even ? b->color : b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
+    return b->segment->shade == SHADE_FLAT ? shade_face(b, triangle, back) : 0xffffffffu;
 }
 
 /* Stores a vertex; returns the first word of its record. */
@@ -292,9 +292,6 @@ static void batch_start(struct batch *b)
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed && bins_margin(g) == 0;
     b->double_sided = d->backs;
-    b->even = !SMEAR_SMALL_FILE && s->shade == SHADE_FLAT && mesh->face_color == NULL && !assembly_is_flat(d)
-           && !(d->shading.lit || shading_has_lights(&d->shading));
-    b->color = b->even ? shade_face(b, 0, false) : 0;
     if (d->shading.lit || !d->shading.white)
         return;
     if (s->shade == SHADE_FLAT && mesh->color == NULL)

@@ -31,8 +31,6 @@ struct batch {
     bool partial;                       /* only a part of the frame is being filled, or triangles have a margin */
     bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
     bool double_sided;
-    bool even;                          /* all faces have one colour: */
-    uint32_t color;
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
