@@ -271,8 +271,9 @@ void smear_subframe_average(const struct subframes *f, const struct subframe_box
             const struct subframe_box b = { max_i32(x, all->x0 - gap.pairs), max_i32(y, all->y0 - gap.pairs),
                                             min_i32(min_i32(end, t->x1), all->x1 + gap.pairs),
                                             min_i32(min_i32(y + high, s->y1), all->y1 + gap.pairs) };
-            gap.stops = f->passing.in_space
-                     && ((tile_at(t, plan, x)->flags | tile_at(t, plan, end - 1)->flags) & PATH_SPACE) != 0;
+            gap.stops = false;
+            for (int32_t at = x; f->passing.in_space && at < end; at += wide)
+                gap.stops = gap.stops || (tile_at(t, plan, at)->flags & PATH_SPACE) != 0;
             if (!subframe_box_is_empty(&b))
                 average_tile(f, &b, &gap);
         }
