@@ -27,14 +27,14 @@ build/fuzz/smear: $(patsubst %.c,build/fuzz/obj/%.o,$(wildcard tests/fuzz/cases*
 FUZZ_GOALS := $(filter fuzz% build/fuzz/%,$(MAKECMDGOALS))
 -include $(if $(FUZZ_GOALS),$(FUZZ_OBJ:.o=.d))
 
-# Each fuzzer over its corpus once, and for a few seconds beyond it.
+# Each fuzzer over its corpus once, and for a few seconds beyond it: along one series, so that what CI finds is found again here.
 .PHONY: fuzz-corpus
-## tests: fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each
+## tests: fuzzers of blobs, models, pictures, input, X servers and the library (needs clang-14), FUZZ_SECONDS=10 each from FUZZ_SEED=1
 fuzz-corpus: $(FUZZERS:%=build/fuzz/%)
 	for name in $(FUZZERS); do \
 	    mkdir -p build/fuzz/found-$$name tests/fuzz/corpus/$$name && \
-	    build/fuzz/$$name -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 -print_final_stats=0 -verbosity=0 \
-	        build/fuzz/found-$$name tests/fuzz/corpus/$$name $$([ $$name != jpeg ] || echo tests/data/jpeg) || exit 1; \
+	    build/fuzz/$$name -seed=$${FUZZ_SEED:-1} -max_total_time=$${FUZZ_SECONDS:-10} -max_len=4096 -rss_limit_mb=3000 -timeout=20 \
+	        -print_final_stats=0 -verbosity=0 build/fuzz/found-$$name tests/fuzz/corpus/$$name $$([ $$name != jpeg ] || echo tests/data/jpeg) || exit 1; \
 	done
 
 # ---------------------------------------------------------------------- frames

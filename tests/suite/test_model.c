@@ -1053,7 +1053,7 @@ static void test_a_pose_out_of_range_is_refused(void)
 
 /* --- refusals --- */
 
-/* Accessors 1 to 8 of the source below, for use and abuse. */
+/* Accessors 1 to 10 of the source below, for use and abuse. */
 static struct source parts(void)
 {
     struct source s = triangle();
@@ -1066,6 +1066,7 @@ static struct source parts(void)
     ADD(&s, U8, "VEC4", 3, "", 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);         /* 7 joint 4 */
     ADD(&s, F32, "VEC4", 3, "", 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);        /* 8 weights */
     ADD(&s, F32, "VEC4", 3, "", -1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);       /* 9 negative */
+    ADD(&s, F32, "SCALAR", 3, "", -3e38, 0, 1);                             /* 10 times before the clip */
     return s;
 }
 
@@ -1155,6 +1156,8 @@ static void test_mistakes_are_refused_with_their_place(void)
           "1 is not beyond znear (cameras[0].perspective.zfar)" },
         { CLIP("{'node':0,'path':'translation'}", "{'input':2,'output':0}"),
           "time of key 2 does not increase (animations[0].samplers[0].input)" },
+        { CLIP("{'node':0,'path':'translation'}", "{'input':10,'output':0}"),
+          "time of key 0 is -3e+38 s, before the clip begins (animations[0].samplers[0].input)" },
         { CLIP("{'node':0,'path':'translation'}", "{'input':3,'output':4}"),
           "accessor 4 has 2 elements, not 3 (animations[0].samplers[0].output)" },
         { CLIP("{'node':0,'path':'rotation'}", "{'input':3,'output':0}"),

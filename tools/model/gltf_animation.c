@@ -49,6 +49,9 @@ static bool read_times(struct gltf *g, int sampler, int accessor, struct model_c
         !gltf_floats(g, accessor, NULL, n, false, channel->time, sampler, "input"))
         return false;
     channel->key_count = n;
+    if (n > 0 && channel->time[0] < 0)
+        return json_fail(&g->json, sampler, "input", g->f, "time of key 0 is %g s, before the clip begins",
+                         (double)channel->time[0]);
     for (int i = 1; i < n; i++) {
         if (channel->time[i] <= channel->time[i - 1])
             return json_fail(&g->json, sampler, "input", g->f, "time of key %d does not increase",
