@@ -292,6 +292,22 @@ claim "and the one after have" same cut3.ppm f-003.ppm
 claim "clear colour" render $moving --clear 204060 --method none -o clear.ppm
 claim "in the corner" equals "$(ppm_pixel clear.ppm 48 0 31)" "32 64 96"
 claim "the plate is red" equals "$(ppm_pixel clear.ppm 48 24 16)" "255 0 0"
+shade="$plate $small --time 0.5 --method none --light encoded --clear ffffff --eye 0,9,6 --look 0,-1,0"
+claim "a shadow on the ground, away from the sun" render $shade --sun ffffff,0,1,1 --shadow planar -o shadow.ppm
+claim "is as dark as the library's" equals "$(ppm_pixel shadow.ppm 48 24 11)" "140 140 140"
+claim "and ends" equals "$(ppm_pixel shadow.ppm 48 18 11)" "255 255 255"
+claim "as dark as asked for" eval 'render $shade --sun ffffff,0,1,1 --shadow planar,100 -o black.ppm &&
+    equals "$(ppm_pixel black.ppm 48 24 11)" "0 0 0"'
+claim "elsewhere with another sun" drawn differ shadow.ppm sun.ppm $shade --sun ffffff,1,1,1 --shadow planar
+claim "it leaves distances alone" eval 'render $shade --depth bare.pfm -o bare.ppm &&
+    render $shade --shadow planar,100 --depth shade.pfm -o black.ppm && same bare.pfm shade.pfm && differ bare.ppm black.ppm'
+claim "a round one" render $shade --shadow blob -o blob.ppm
+claim "is darker in the middle" eval 'set -- $(ppm_pixel blob.ppm 48 24 11) $(ppm_pixel blob.ppm 48 15 13) &&
+    [ "$1" -lt "$4" ] && [ "$4" -lt 255 ]'
+claim "shadows move" render $moving --clear ffffff --eye 0,9,6 --look 0,-1,0 --sun ffffff,0,1,1 --shadow planar -o slide.ppm
+claim "as their things do" render $moving --clear ffffff --eye 0,9,6 --look 0,-1,0 --sun ffffff,0,1,1 --shadow planar \
+    --method accumulate --exact --samples 64 -o shadows.ppm
+claim "and are blurred" eval 'works compare slide.ppm shadows.ppm && is_true "$(value_of rmse) < 1"'
 claim "light may be encoded which mixes darker" drawn differ out.ppm encoded.ppm $moving --light encoded
 claim "a texture" render builtin:demo/race --size 16x16 -o "$base/in/card.png"
 claim "nearest texels" render "$base/in/card.obj" --size 64x64 -o nearest.ppm
@@ -627,7 +643,7 @@ claim "lists commands" out_has 'smear compare A B'
 claim "--help" works --help
 claim "-h" works -h
 works help render >/dev/null
-for option in size fps time frames clip loop camera eye look fov filter clear shutter exposure \
+for option in size fps time frames clip loop camera eye look fov filter clear sky shadow shutter exposure \
     poses method samples exact reconstruct quality target reach tile motion cut light format \
     dither arena threads repeat depth velocity stats; do
     claim "help knows --$option" out_has "--$option"
@@ -752,6 +768,7 @@ claim "of the viewer" means --zoom view --zom 2
 claim "of render in the viewer" means --method view --metod none
 claim "a misspelt scene" means builtin:demo/race info builtin:demo/rase
 claim "a misspelt clip" means slide render "$plate" --clip slid
+claim "a misspelt shadow" means planar render "$plate" --shadow plannar
 claim "a misspelt node" means plate render "$plate" --motion palte=none
 claim "what is like nothing" eval 'run frobnicate; ! err_has "did you mean"'
 claim "info says what a desc has that says nothing" eval \
@@ -804,6 +821,9 @@ usage --reach render "$plate" --reach 50%
 bad --tile 0 2 12 128 16.0 -8 ''
 bad --target 0 -1 nan inf 256 ''
 bad --clear fff 0000000 '#00000' 00000g -00000 ''
+bad --shadow '' round blob, blob,0 planar,101 planar,x ,45
+usage --shadow render builtin:suite/cross --shadow blob
+input "$plate" render "$plate" --sun ffffff,1,-1,0 --shadow planar
 bad --arena 0 -1 1.5 64k nan ''
 bad --threads 0 9 -1 two ''
 bad --repeat 0 -1 1.5 ''

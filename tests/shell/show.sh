@@ -109,6 +109,11 @@ kinds() {
 claim "stills, numbered ones, APNG" kinds
 printed() { show "$plate" -o one.gif && cp "$base/out" "$base/printed" && again "$plate" --frames 0-14 -o two.gif && same one.gif two.gif; }
 claim "what it prints draws the same" printed
+shaded() {
+    show "$plate" --shadow planar,80 -o shaded.png && cp "$base/out" "$base/printed" && out_has 'render MODEL --shadow planar,80 ' &&
+        again "$plate" --frames 7-7 -o want.png && same shaded.png want.png && differ middle.png shaded.png
+}
+claim "and a shadow, where that is asked for" shaded
 
 # ppm_row FILE ROW: bytes of a row, in decimal
 ppm_row() {
@@ -201,6 +206,7 @@ is_studio() { in_terminal "$@" && LC_ALL=C grep -qE '8;2;8[5-9];(99|10[0-3]);11[
 is_black() { in_terminal "$@" && LC_ALL=C grep -qE '8;2;0;0;0' "$base/terminal" && ! LC_ALL=C grep -qE '8;2;8[5-9];(99|10[0-3]);11[1-5]' "$base/terminal"; }
 if command -v python3 >/dev/null 2>&1; then
     claim "show opens the viewer" is_studio show "$plate"
+    claim "with a shadow, too" is_studio show --shadow blob "$plate"
     claim "view begins likewise" is_studio view --out term "$still"
     claim "unless a clip is said" is_black view --out term --clip 1 "$plate"
     claim "or it draws as a board" is_black view --out term --board rp2040 "$plate"

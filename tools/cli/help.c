@@ -69,6 +69,10 @@ static const char *const render_help[] = {
     "                        background has its colour, and nothing is drawn beyond it [none]\n"
     "  --sky ZENITH,HORIZON,GROUND,NADIR\n"
     "                        a sky of four colours, RRGGBB each, that turns with the camera [none]\n"
+    "  --shadow blob|planar[,PERCENT]\n"
+    "                        of a file: a round one under it, or what it casts in the sun, so dark [45];\n"
+    "                        on level ground at the height of the lowest point of the clip: on what the\n"
+    "                        file has there, or on the background, which should not be black [none]\n"
     "  --edges hard|smooth   auto, subframes: what lies on both sides of an edge is mixed where it\n"
     "                        passes a pixel; --exact: of 16 x 16 places in each pixel, or as many\n"
     "                        as make a picture of 2048; with --keep-display beside --keep-still [hard]\n"
@@ -178,7 +182,9 @@ static const char *const show_help[] = {
     "                        one %d or %04d in its name makes one of each frame [a window or terminal,\n"
     "                        as `smear view MODEL` opens it]\n"
     "  --outside             files that MODEL names may lie outside of its folder [only in it or below]\n"
-    "  --double-sided        backs of faces are seen, too [where the file's material says so; OBJ: not]\n",
+    "  --double-sided        backs of faces are seen, too [where the file's material says so; OBJ: not]\n"
+    "  --shadow blob|planar[,PERCENT]\n"
+    "                        a round one under it, or what it casts in the sun, so dark [45] [none]\n",
     NULL
 };
 

@@ -73,7 +73,7 @@ int show_choose_file(const char *name, const struct source_view *view, double as
 /* ------------------------------------------------------------------ the command line */
 
 struct show_options {
-    const char *model, *output;
+    const char *model, *output, *shadow;
     struct source_view view;
 };
 
@@ -83,6 +83,7 @@ static const struct option table[] = {
     { "-o", OPTION_TEXT, AT(output) },
     { "--outside", OPTION_FLAG, AT(view.files) },
     { "--double-sided", OPTION_FLAG, AT(view.double_sided) },
+    { "--shadow", OPTION_TEXT, AT(shadow) },
     { .name = NULL },
 };
 
@@ -108,6 +109,8 @@ static void add_model(struct show_texts *t, const struct show_options *o)
         show_add(t, "--outside", NULL);
     if (o->view.double_sided)
         show_add(t, "--double-sided", NULL);
+    if (o->shadow != NULL)
+        show_add(t, "--shadow", o->shadow);
 }
 
 /* What a person can go on from. */

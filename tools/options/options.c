@@ -240,6 +240,23 @@ static const char *read_sky(void *to, const char *value)
     return ok ? NULL : "needs ZENITH,HORIZON,GROUND,NADIR, four times six hexadecimal digits";
 }
 
+/* Reads blob or planar, and how dark it is in percent. */
+static const char *read_shadow(void *to, const char *value)
+{
+    static const char *const kinds[] = { "blob", "planar", NULL };
+    static char kind[8];                /* a nearest name is told of it */
+    struct scene_shadow *shadow = &((struct render_options *)to)->view.shadow;
+    const char *comma = strchr(value, ',');
+    double percent = 45;
+    snprintf(kind, sizeof kind, "%.*s", comma != NULL ? (int)(comma - value) : (int)strlen(value), value);
+    const int found = read_name(kind, kinds);
+    if (found < 0 || (comma != NULL && !read_number(comma + 1, 1, 100, &percent)))
+        return "needs blob or planar and, after a comma, a darkness from 1 to 100";
+    shadow->kind = (enum scene_shadow_kind)(SCENE_SHADOW_BLOB + found);
+    shadow->darkness = percent / 100;
+    return NULL;
+}
+
 #define AT(member) OPTION_AT(struct render_options, member)
 #define GIVEN(member) .given = offsetof(struct render_options, member)
 
@@ -292,6 +309,7 @@ static const struct option table[] = {
     { "--lamp", OPTION_READ, .read = read_lamp },
     { "--gloss", OPTION_FLAG, AT(lights.gloss) },
     { "--sky", OPTION_READ, .read = read_sky },
+    { "--shadow", OPTION_READ, .read = read_shadow },
     { "--edges", OPTION_NAME, AT(edges), OPTION_NAMES("hard", "smooth") },
     { "--format", OPTION_NAME, AT(format), .names = option_formats },
     { "--dither", OPTION_NAME, AT(dither), .names = option_dithers },
@@ -333,7 +351,7 @@ static int check_builtin(const struct render_options *o)
         { "--camera", o->view.camera != NULL }, { "--eye", o->view.has_eye },
         { "--filter", o->has_filter }, { "--motion", o->motion_count > 0 },
         { "--mask", o->mask != NULL }, { "--outside", o->view.files == MODEL_FILES_ANYWHERE },
-        { "--double-sided", o->view.double_sided },
+        { "--double-sided", o->view.double_sided }, { "--shadow", o->view.shadow.kind != SCENE_SHADOW_NONE },
     };
     for (size_t i = 0; i < sizeof only_files / sizeof *only_files; i++)
         if (only_files[i].given)
@@ -434,6 +452,8 @@ int options_read_seen(struct render_options *o, int count, char **text, bool *wa
     if (status == STATUS_OK && o->scene != NULL && source_builtin_name(o->scene) != NULL)
         status = check_builtin(o);
     o->view.aspect = (double)o->width / o->height;
+    if (o->lights.has_sun)
+        memcpy(o->view.shadow.light, o->lights.sun_direction, sizeof o->view.shadow.light);
     return status;
 }
 

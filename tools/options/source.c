@@ -64,12 +64,25 @@ static int say_no_camera(const struct model *model, const char *name)
     return say_none("--camera", "camera", name, &list);
 }
 
+/* Where the sun stands of which shadows are: that of the command line, of the file, or the library's. */
+static bool find_sun(const struct model *model, double light[3], struct failure *f)
+{
+    static const double usual[3] = { 0.36, 0.80, 0.48 };
+    struct model_lights of;
+    if (light[0] != 0.0 || light[1] != 0.0 || light[2] != 0.0)
+        return true;
+    if (!model_find_lights(model, &of, f))
+        return false;
+    memcpy(light, of.has[MODEL_SUN] ? of.direction[MODEL_SUN] : usual, sizeof usual);
+    return true;
+}
+
 static int open_file(const struct source_view *view, struct source *out)
 {
     struct failure f = { "" };
     struct scene_view scene_view = { .loop = view->loop, .camera = -1, .has_eye = view->has_eye,
                                      .fov_degrees = view->fov_degrees, .bilinear = view->bilinear,
-                                     .aspect = view->aspect };
+                                     .aspect = view->aspect, .shadow = view->shadow };
     memcpy(scene_view.eye, view->eye, sizeof scene_view.eye);
     memcpy(scene_view.look, view->look, sizeof scene_view.look);
     if (!model_load_from(out->name, view->files, &out->model, &f))
@@ -89,6 +102,8 @@ static int open_file(const struct source_view *view, struct source *out)
     } else if (!view->has_eye && out->model.camera_count > 0) {
         scene_view.camera = 0;
     }
+    if (status == STATUS_OK && !find_sun(&out->model, scene_view.shadow.light, &f))
+        status = say_bad_input(out->name, &f);
     if (status == STATUS_OK && !scene_from_model(&out->model, &scene_view, &out->scene, &f))
         status = say_bad_input(out->name, &f);
     if (status != STATUS_OK)

@@ -16,6 +16,7 @@ struct source_view {
     enum model_files files;     /* --outside: anywhere */
     double eye[3], look[3], fov_degrees;
     double aspect;
+    struct scene_shadow shadow; /* light all 0: the file's, or the library's sun */
 };
 
 struct source {

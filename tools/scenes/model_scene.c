@@ -2,6 +2,7 @@
 /* model_scene.c - scenes from model files: their draws, their cameras, and the automatic camera. */
 #include "tools/scenes/scene.h"
 
+#include "tools/scenes/shadow.h"
 #include "tools/scenes/xform.h"
 
 #include <math.h>
@@ -19,6 +20,7 @@ struct model_scene {
     bool loop;
     struct scene_surface *surface;      /* of every primitive of every mesh, mesh after mesh */
     int *first;                         /* per mesh: its first surface */
+    struct shadow shadow;
     int camera;                         /* of the file, or -1: `fixed` */
     struct scene_camera fixed;
     double aspect;
@@ -38,6 +40,7 @@ static void model_scene_free(struct scene *scene)
     struct model_scene *m = scene->data;
     if (m == NULL)
         return;
+    shadow_close(&m->shadow);
     free(m->surface);
     free(m->first);
     free(m);
@@ -80,7 +83,7 @@ static bool model_scene_pose(struct scene *scene, double time, struct scene_inst
         return false;
 
     if (out->draw == NULL && pose->draw_count > 0) {
-        out->draw = calloc((size_t)pose->draw_count, sizeof *out->draw);
+        out->draw = calloc((size_t)(pose->draw_count + shadow_draws(&m->shadow, pose->draw_count)), sizeof *out->draw);
         if (out->draw == NULL)
             return fail(f, "out of memory");
     }
@@ -100,6 +103,7 @@ static bool model_scene_pose(struct scene *scene, double time, struct scene_inst
     else if (!camera_from_node(camera, pose->node_world + 16 * camera->node, &out->camera, f))
         return false;
     double times = scene_cover(out, m->aspect, MAX_COVER);
+    shadow_cast(&m->shadow, m->surface, out);
     return times <= MAX_COVER
         || fail(f, "its triangles cover the picture more than %d times over (at %.6g s)", MAX_COVER, time);
 }
@@ -125,7 +129,7 @@ static struct scene_surface surface_of(const struct model *model, const struct m
     return s;
 }
 
-static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure *f)
+static bool model_surfaces(struct model_scene *m, bool bilinear, int *surfaces, struct failure *f)
 {
     const struct model *model = m->model;
     size_t count = 0;
@@ -136,6 +140,7 @@ static bool model_surfaces(struct model_scene *m, bool bilinear, struct failure 
         m->first[i] = (int)count;
         count += (size_t)model->mesh[i].primitive_count;
     }
+    *surfaces = (int)count;
     m->surface = calloc(count + 1, sizeof *m->surface);
     if (m->surface == NULL)
         return fail(f, "out of memory");
@@ -167,9 +172,9 @@ static int bounds_instants(const struct model_scene *m, const struct model_pose 
     return *duration <= 0 ? 1 : affordable < INSTANTS ? (int)affordable : INSTANTS;
 }
 
-/* Centre and half diagonal of all that is drawn from the clip's start to its end, moving parts included. Where nothing is
- * drawn, those of a unit sphere do. */
-static bool model_bounds(const struct model_scene *m, struct vec3 *centre, double *radius,
+/* Centre and half diagonal of all that is drawn from the clip's start to its end, moving parts included, and how low that reaches.
+ * Where nothing is drawn, those of a unit sphere do. */
+static bool model_bounds(const struct model_scene *m, struct vec3 *centre, double *radius, double *ground,
                          struct failure *f)
 {
     struct model_pose pose = {0};
@@ -179,6 +184,7 @@ static bool model_bounds(const struct model_scene *m, struct vec3 *centre, doubl
     bool ok = true;
     *centre = vec3(0, 0, 0);
     *radius = 1;
+    *ground = -1;
     for (int i = 0; i < instants && ok; i++) {
         ok = model_pose(m->model, m->clip, instants > 1 ? duration * i / (instants - 1) : 0, false, &pose, f);
         if (ok && i == 0)
@@ -193,6 +199,7 @@ static bool model_bounds(const struct model_scene *m, struct vec3 *centre, doubl
         struct vec3 a = vec3(min[0], min[1], min[2]), b = vec3(max[0], max[1], max[2]);
         double r = vec3_length(vec3_sub(b, a)) / 2;
         *centre = vec3_scale(vec3_add(a, b), 0.5);
+        *ground = min[1];
         if (!isfinite(r))
             ok = fail(f, "the scene has no finite bounds");
         else if (r > 0)
@@ -202,14 +209,11 @@ static bool model_bounds(const struct model_scene *m, struct vec3 *centre, doubl
     return ok;
 }
 
-static bool fixed_camera(struct model_scene *m, const struct scene_view *view, struct failure *f)
+static bool fixed_camera(struct model_scene *m, const struct scene_view *view, struct vec3 centre, double radius, struct failure *f)
 {
-    struct vec3 centre, eye, look;
-    double radius, distance, yfov = PI / 4;
+    struct vec3 eye, look;
+    double distance, yfov = PI / 4;
     double aspect = view->aspect > 0 ? view->aspect : 4.0 / 3.0;
-    if (!model_bounds(m, &centre, &radius, f))
-        return false;
-
     if (view->has_eye) {
         eye = vec3(view->eye[0], view->eye[1], view->eye[2]);
         look = vec3(view->look[0], view->look[1], view->look[2]);
@@ -238,6 +242,9 @@ bool scene_from_model(const struct model *model, const struct scene_view *view, 
                       struct failure *f)
 {
     struct model_scene *m = calloc(1, sizeof *m);
+    struct vec3 centre;
+    double radius, ground = 0;
+    int surfaces = 0;
     *out = (struct scene){.name = "model", .width = 320, .height = 240, .fps = 30,
                           .pose = model_scene_pose, .instant_free = model_instant_free,
                           .destroy = model_scene_free, .data = m};
@@ -250,8 +257,10 @@ bool scene_from_model(const struct model *model, const struct scene_view *view, 
     m->aspect = view->aspect > 0 ? view->aspect : 4.0 / 3.0;
     bool ok = view->camera < model->camera_count ||
               fail(f, "there is no camera %d, only %d", view->camera, model->camera_count);
-    ok = ok && model_surfaces(m, view->bilinear, f);
-    ok = ok && (m->camera >= 0 || fixed_camera(m, view, f));
+    ok = ok && model_surfaces(m, view->bilinear, &surfaces, f);
+    if (ok && (m->camera < 0 || view->shadow.kind != SCENE_SHADOW_NONE))
+        ok = model_bounds(m, &centre, &radius, &ground, f) && (m->camera >= 0 || fixed_camera(m, view, centre, radius, f));
+    ok = ok && shadow_open(&m->shadow, &view->shadow, ground, m->surface, surfaces, f);
     if (!ok)
         scene_free(out);
     return ok;

@@ -446,6 +446,8 @@ static bool add_part(struct presenter *p, const struct converted *c, const struc
     smear_draw *draw = &p->draw[out->draw_count];
     *draw = (smear_draw){ .mesh = &slot->mesh, .material = &c->material, .motion = motion,
                           .cut = plan->cut, .now = &slot->pose[NOW] };
+    if (c->surface->material.shadow != SCENE_SHADOW_NONE)
+        draw->path = SMEAR_PATH_LINE;   /* nothing that is flat turns */
     fill_mesh(&slot->mesh, part, plan, out->world_scale);
     for (int i = 0; i < POSES; i++)
         if (pose[i] != NULL)

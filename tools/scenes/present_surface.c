@@ -495,10 +495,49 @@ static const smear_texture *texture_for(struct texture_store *store, const struc
     return &t->texture;
 }
 
+/* The library's round shadow, as dark as it shall be. */
+static const smear_texture *blob_for(struct texture_store *store, double darkness, struct failure *f)
+{
+    enum { LEVELS = 32 };
+    if (!grow((void **)&store->texture, &store->room, store->count + 1, sizeof *store->texture, f))
+        return NULL;
+    struct stored_texture *t = calloc(1, sizeof *t);
+    uint32_t *palette = malloc(LEVELS * sizeof *palette);
+    if (t == NULL || palette == NULL) {
+        free(palette);
+        free(t);
+        out_of_memory(f);
+        return NULL;
+    }
+    for (int i = 0; i < LEVELS; i++)
+        palette[i] = (uint32_t)present_byte(darkness * i / (LEVELS - 1)) << 24;
+    store->texture[store->count++] = t;
+    t->texels = palette;
+    t->texture = *smear_blob_material.texture;
+    t->texture.palette = palette;
+    return &t->texture;
+}
+
+static bool convert_shadow(struct converted *c, struct texture_store *store, struct failure *f)
+{
+    const struct scene_material *m = &c->surface->material;
+    c->material = smear_shadow_material;
+    c->material.color[3] = present_byte((double)m->base[3]);
+    c->material.double_sided = 1;
+    if (m->image == NULL)
+        return true;
+    if (m->shadow == SCENE_SHADOW_BLOB)
+        c->material = smear_blob_material;
+    c->material.texture = m->shadow == SCENE_SHADOW_BLOB ? blob_for(store, (double)m->base[3], f) : texture_for(store, m, f);
+    return c->material.texture != NULL;
+}
+
 static bool convert_material(struct converted *c, struct texture_store *store, struct failure *f)
 {
     const struct scene_material *m = &c->surface->material;
     smear_material *out = &c->material;
+    if (m->shadow != SCENE_SHADOW_NONE)
+        return convert_shadow(c, store, f);
     for (int i = 0; i < 3; i++)
         out->color[i] = present_srgb_encode(m->base[i]);
     out->color[3] = m->alpha == MODEL_ALPHA_OPAQUE ? 255 : present_byte(m->base[3]);

@@ -15,6 +15,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* What things cast on the ground, a level plane through their lowest point: a round one under all of them, or each its own. */
+enum scene_shadow_kind { SCENE_SHADOW_NONE, SCENE_SHADOW_BLOB, SCENE_SHADOW_PLANAR };
+
+struct scene_shadow {
+    enum scene_shadow_kind kind;
+    double darkness;                /* 0 to 1 */
+    double light[3];                /* towards the sun, of any length: planar */
+};
+
 struct scene_material {
     const struct image *image;      /* base colour texture, sRGB; or null */
     enum model_wrap wrap_u, wrap_v;
@@ -23,6 +32,7 @@ struct scene_material {
     float alpha_cutoff;
     bool double_sided, unlit, bilinear;
     uint8_t gloss, shine;           /* as smear_material has them */
+    enum scene_shadow_kind shadow;  /* its alpha in `base` is how dark; a blob's image tells the size alone */
 };
 
 /* Geometry that keeps its shape: a mesh at rest. A surface stays where it is in memory for as
@@ -108,12 +118,13 @@ struct scene_view {                 /* the camera and clip options of the comman
     double eye[3], look[3], fov_degrees;
     bool bilinear;
     double aspect;                  /* width / height, for the automatic camera */
+    struct scene_shadow shadow;
 };
 /* The model must outlive the scene, whose poses fail where triangles cover the picture a thousand times over. The
  * automatic camera sees the whole clip: bounds of the poses from its start to its end, with centre c and half diagonal
  * r; yfov 45 degrees; eye = c + d normalise(0.5, 0.35, 1), d = r / sin(half the smaller of yfov and xfov); near =
  * max(d - 2r, d/100), far = d + 2r. With `eye`: near and far from the bounds as seen from there. File cameras: xfov
- * follows the aspect. */
+ * follows the aspect. Shadows lie on the ground of the whole clip; they are the last draws, of the nodes that cast them. */
 bool scene_from_model(const struct model *model, const struct scene_view *view, struct scene *out,
                       struct failure *f);
 
