@@ -72,10 +72,11 @@ SMEAR_SHARED int64_t mul_wide(int32_t a, int32_t b)
 /* Returns the third component of the cross product of two vectors. */
 SMEAR_SHARED int64_t cross_wide(int32_t ax, int32_t ay, int32_t bx, int32_t by) { return mul_wide(ax, by) - mul_wide(ay, bx); }
 
-/* Returns the dot product of two vectors whose components lie some words apart, as those of columns of a matrix do. */
+/* Returns the dot product of two vectors whose components lie some words apart, as those of columns of a matrix do, modulo 2^64. */
 SMEAR_SHARED int64_t dot_wide(const int32_t *a, int a_step, const int32_t *b, int b_step)
 {
-    return mul_wide(a[0], b[0]) + mul_wide(a[a_step], b[b_step]) + mul_wide(a[2 * a_step], b[2 * b_step]);
+    return (int64_t)((uint64_t)mul_wide(a[0], b[0]) + (uint64_t)mul_wide(a[a_step], b[b_step])
+                     + (uint64_t)mul_wide(a[2 * a_step], b[2 * b_step]));
 }
 #endif
 

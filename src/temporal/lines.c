@@ -25,7 +25,8 @@ bool smear_lines_turn(const struct smear_shot *shot, const smear_transform *open
     const int32_t times = shot_spans_exposure(shot) ? 2 << 4 : shot->half_exposure >> 19;       /* q4 */
     int64_t square = 0, product = 0;
     for (int i = 0; i < 9; i++) {
-        square += (mul_wide(open->basis[i], open->basis[i]) + mul_wide(middle->basis[i], middle->basis[i])) >> 22;
+        const uint64_t both = (uint64_t)mul_wide(open->basis[i], open->basis[i]) + (uint64_t)mul_wide(middle->basis[i], middle->basis[i]);
+        square += (int64_t)(both >> 22);
         product += mul_wide(open->basis[i], middle->basis[i]) >> 21;
     }
     return ((square - product) * (times * times) >> 8) * parts > square * of;

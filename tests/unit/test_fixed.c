@@ -60,6 +60,9 @@ static void test_sums_of_products_are_exact_in_both_forms(void)
         CHECK_EQ(cross_wide(a[0], a[1], b[0], b[1]), cross);
         END_UNLESS(CHECK_EQ(poor_cross_wide(a[0], a[1], b[0], b[1]), cross));
     }
+    const int32_t least[3] = { INT32_MIN, INT32_MIN, INT32_MIN };           /* a square of a length: of 64 bits without a sign */
+    CHECK((uint64_t)dot_wide(least, 1, least, 1) == 3ull << 62);
+    CHECK((uint64_t)poor_dot_wide(least, 1, least, 1) == 3ull << 62);
 }
 
 static void test_high_products_of_extremes_are_exact_in_both_forms(void)

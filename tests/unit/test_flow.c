@@ -3,6 +3,7 @@
  * in double precision. Host only. */
 #include "geometry/reproject.h"
 #include "geometry/shot.h"
+#include "temporal/lines.h"
 #include "tests/random.h"
 #include "tests/test.h"
 
@@ -212,6 +213,19 @@ static void test_so_is_that_of_orthographic_cameras(void)
     random_state = 6;
     for (int i = 0; i < 3000; i++)
         check_case(true, i);
+}
+
+static void test_cameras_of_the_largest_numbers_turn_only_where_they_differ(void)
+{
+    const struct smear_shot shot = { .half_exposure = 1 << 23 };
+    smear_transform least, most;
+    for (int i = 0; i < 9; i++) {
+        least.basis[i] = INT32_MIN;
+        most.basis[i] = INT32_MAX;
+    }
+    CHECK(!smear_lines_turn(&shot, &least, &least, 1, 256));
+    CHECK(!smear_lines_turn(&shot, &most, &most, 1, 256));
+    CHECK(smear_lines_turn(&shot, &least, &most, 1, 1));
 }
 
 #include "build/suites/flow.h"
