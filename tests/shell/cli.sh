@@ -784,8 +784,6 @@ input nosuch.csv chart --from nosuch.csv
 input "$base/in/empty.csv" chart --from "$base/in/empty.csv"
 claim "says that no line is there" err_has "no line of a chart"
 usage nosuch bench nosuch
-usage --light bench promise --light dim
-usage --scenes bench promise --scenes nosuch
 usage render render
 usage two render one two
 usage --frob render "$plate" --frob

@@ -57,10 +57,8 @@ claim "the version" means --version --versoin --versoin
 claim "an option of info" means --board --bord info --bord rp2040
 claim "of compare" means --diff --dif compare --dif x
 claim "of chart" means --scenes --scnes chart --scnes arena
-claim "of promise" means --models --modls bench promise --modls x
-claim "an option without its value" says "--scenes: needs a value" bench promise --scenes
+claim "an option without its value" says "--scenes: needs a value" chart --scenes
 claim "a report" means peers pers bench pers
-claim "a report with options" means promise promis bench promis
 claim "a scene of the chart" means arena --scenes chart --scenes roll,aren
 claim "a setting of the chart" means "auto fine" --methods chart --methods auto-fien
 claim "a board" means rp2040 --board view --board rp240

@@ -3,7 +3,6 @@
  *
  *     bench [peers] [targets FILE...]
  *     bench chart [options]
- *     bench promise [options]
  *
  * Without arguments, `peers`. `targets` reads what target_bench printed, from files named
  * after their target. Files are kept in build/bench; run it where that is. The exit status says
@@ -11,7 +10,6 @@
 #include "tools/bench/chart.h"
 #include "tools/bench/count.h"
 #include "tools/bench/groups.h"
-#include "tools/bench/promise.h"
 #include "tools/bench/sheet.h"
 #include "tools/options/say.h"
 
@@ -25,7 +23,7 @@ bool group_take(const char *group, int index, struct take *out)
     static const struct {
         const char *name;
         bool (*take)(int index, struct take *out);
-    } groups[] = { { "peers", peers_take }, { "chart", chart_take }, { "promise", promise_take } };
+    } groups[] = { { "peers", peers_take }, { "chart", chart_take } };
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
         if (strcmp(groups[i].name, group) == 0)
             return groups[i].take(index, out);
@@ -34,7 +32,7 @@ bool group_take(const char *group, int index, struct take *out)
 
 static int usage(const char *what)
 {
-    static const char *const reports[] = { "peers", "promise", "targets", "--strict" };
+    static const char *const reports[] = { "peers", "targets", "--strict" };
     struct guess guess = { .word = what };
     for (size_t i = 0; i < sizeof reports / sizeof *reports; i++)
         guess_try(&guess, reports[i]);
@@ -95,8 +93,6 @@ int main(int argc, char **argv)
         return serve(argv + 2);
     if (argc >= 2 && strcmp(argv[1], "chart") == 0)
         return chart_command(argv[0], argc - 2, argv + 2);
-    if (argc >= 2 && strcmp(argv[1], "promise") == 0)
-        return promise_command(argv[0], argc - 2, argv + 2);
     const int status = read_reports(argc, argv, &asked);
     if (status != 0)
         return status;

@@ -289,9 +289,8 @@ static const char *const bench_help[] = {
     "smear bench [REPORT...]\n"
     "\n"
     "Instructions per frame of scenes by which other rasterizers were measured (counted by valgrind),\n"
-    "beside the bars set for them: the report `peers`, which needs no name. `promise` alone: whether\n"
-    "SMEAR_AUTO has the error it aims at, and what it costs beside plain instants (--count: by\n"
-    "valgrind; --light, --scenes, --models FOLDER). `make bench` adds what frames cost on Cortex-M.\n"
+    "beside the bars set for them: the report `peers`, which needs no name. `make bench` adds what\n"
+    "frames cost on Cortex-M.\n"
     "\n"
     "  --strict              exit status 1 when a bar is missed\n",
     NULL
