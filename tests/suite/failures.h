@@ -61,11 +61,8 @@ struct fail_row {
     const char *note;           /* what the table should say about it; or null */
 };
 
-/* At most: what a filter of failures_filters.c is known to fail measure `measure` of a row with; 0: must pass. */
-double fail_filter_known(const struct fail_row *row, int measure, int method);
-
-/* The same of failures_layers.c. */
-double fail_layer_known(const struct fail_row *row, int measure, int method);
+/* At most what a method is known to fail measure `measure` of a row with; 0: must pass. */
+double fail_known(const struct fail_row *row, int measure, int method);
 
 extern const struct fail_row fail_picture_rows[], fail_time_rows[], fail_other_rows[];
 extern const int fail_picture_count, fail_time_count, fail_other_count;

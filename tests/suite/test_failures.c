@@ -37,13 +37,6 @@ static bool is_taken(const struct fail_measure *m, int method)
     return m->only == 0 || (m->only & ONLY(method)) != 0;
 }
 
-/* The bound of a known failure; 0: there is none. */
-static double known_of(const struct fail_row *row, int i, int method)
-{
-    return fmax(row->measure[i].known[method],
-                fmax(fail_filter_known(row, i, method), fail_layer_known(row, i, method)));
-}
-
 static enum outcome outcome_of(const struct fail_row *row, int i, int method, double number)
 {
     const struct fail_measure *m = &row->measure[i];
@@ -51,7 +44,7 @@ static enum outcome outcome_of(const struct fail_row *row, int i, int method, do
         return ABSENT;
     if (number <= m->bar)
         return PASS;
-    return number <= known_of(row, i, method) ? KNOWN : WRONG;
+    return number <= fail_known(row, i, method) ? KNOWN : WRONG;
 }
 
 static void print_cell(const struct fail_row *row, int i, int method, double number)
@@ -110,8 +103,8 @@ static void check_measure(const struct fail_row *row, int i, int method, double 
     END_UNLESS(is_taken(m, method));
     snprintf(subject, sizeof subject, "%d %s, %s, %s", row->number, row->name, m->what,
              fail_method[method].name);
-    CHECK_BAR(number, fmax(m->bar, known_of(row, i, method)), subject);
-    if (known_of(row, i, method) > 0.0 && number <= m->bar)
+    CHECK_BAR(number, fmax(m->bar, fail_known(row, i, method)), subject);
+    if (fail_known(row, i, method) > 0.0 && number <= m->bar)
         say("    %s: known to fail, but %.4g passes\n", subject, number);
 }
 
@@ -180,8 +173,8 @@ static void test_known_failures_are_stated_soundly(void)
             const struct fail_measure *m = &row_list[i]->measure[k];
             CHECK(m->only == 0 || m->otherwise != NULL);
             for (int method = 0; method < METHODS; method++)
-                if (known_of(row_list[i], k, method) != 0.0) {
-                    CHECK(is_taken(m, method) && known_of(row_list[i], k, method) > m->bar);
+                if (fail_known(row_list[i], k, method) != 0.0) {
+                    CHECK(is_taken(m, method) && fail_known(row_list[i], k, method) > m->bar);
                     CHECK(!m->hard || method != FINE);
                 }
         }
