@@ -3,6 +3,7 @@
  * same picture gives the same bytes on every host. */
 #include "tools/convert/build.h"
 
+#include "tools/image/palette.h"
 #include "tools/model/exact.h"
 
 #include "base/tables.h"
@@ -11,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DISTINCT = 65536, REFINEMENTS = 12 };
+enum { MAX_DISTINCT = 65536, REFINEMENTS = 12 };         /* of palette_of */
 
 /* ------------------------------------------------------------------ smaller pictures */
 
@@ -209,195 +210,13 @@ bool bake_texture(struct converter *c, struct shape *s)
     return true;
 }
 
-/* ------------------------------------------------------------------ palettes */
-
-struct swatch {
-    uint32_t argb, count;
-    uint64_t key;               /* what it is sorted by */
-};
-
-static int channel_of(uint32_t argb, int k)
-{
-    return (int)(argb >> (24 - 8 * k) & 255);           /* alpha, red, green, blue */
-}
-
-static const int channel_weight[4] = { 6, 3, 6, 2 };
-
-static int64_t color_distance(uint32_t a, uint32_t b)
-{
-    int64_t sum = 0;
-    for (int k = 0; k < 4; k++) {
-        int d = channel_of(a, k) - channel_of(b, k);
-        sum += (int64_t)channel_weight[k] * d * d;
-    }
-    return sum;
-}
-
-static int by_color(const void *a, const void *b)
-{
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
-}
-
-static int by_key(const void *a, const void *b)
-{
-    uint64_t x = ((const struct swatch *)a)->key, y = ((const struct swatch *)b)->key;
-    return x < y ? -1 : x > y;
-}
-
-/* Swatches begin .. end - 1: their summed squared distance from the
- * mean along the channel where it is largest. */
-struct color_box {
-    int begin, end, channel;
-    uint64_t spread;
-};
-
-static void measure_color_box(struct color_box *b, const struct swatch *swatch)
-{
-    b->spread = 0;
-    b->channel = 1;
-    for (int k = 0; k < 4; k++) {
-        uint64_t n = 0, sum = 0, squares = 0;
-        for (int i = b->begin; i < b->end; i++) {
-            uint64_t v = (uint64_t)channel_of(swatch[i].argb, k);
-            n += swatch[i].count;
-            sum += v * swatch[i].count;
-            squares += v * v * swatch[i].count;
-        }
-        uint64_t spread = (squares - sum * sum / n) * (uint64_t)channel_weight[k];
-        if (spread > b->spread) {
-            b->spread = spread;
-            b->channel = k;
-        }
-    }
-}
-
-/* Cuts the box with the largest spread at its mean until there are `limit`; returns how many. */
-static int cut_boxes(struct color_box *box, int limit, struct swatch *swatch, int count)
-{
-    int boxes = 1;
-    box[0] = (struct color_box){ .begin = 0, .end = count };
-    measure_color_box(&box[0], swatch);
-    while (boxes < limit) {
-        int widest = 0;
-        for (int i = 1; i < boxes; i++)
-            if (box[i].spread > box[widest].spread)
-                widest = i;
-        struct color_box *b = &box[widest];
-        if (b->spread == 0)
-            break;
-        for (int i = b->begin; i < b->end; i++)
-            swatch[i].key = (uint64_t)channel_of(swatch[i].argb, b->channel) << 32 | swatch[i].argb;
-        qsort(swatch + b->begin, (size_t)(b->end - b->begin), sizeof *swatch, by_key);
-        uint64_t n = 0, sum = 0;
-        for (int i = b->begin; i < b->end; i++) {
-            n += swatch[i].count;
-            sum += (uint64_t)channel_of(swatch[i].argb, b->channel) * swatch[i].count;
-        }
-        int cut = b->begin + 1;
-        while (cut < b->end - 1 && (uint64_t)channel_of(swatch[cut].argb, b->channel) * n <= sum)
-            cut++;
-        box[boxes] = (struct color_box){ .begin = cut, .end = b->end };
-        b->end = cut;
-        measure_color_box(b, swatch);
-        measure_color_box(&box[boxes++], swatch);
-    }
-    return boxes;
-}
-
-static int nearest_entry(uint32_t argb, const uint32_t *palette, int count)
-{
-    int best = 0;
-    int64_t best_distance = INT64_MAX;
-    for (int i = 0; i < count; i++) {
-        int64_t d = color_distance(argb, palette[i]);
-        if (d < best_distance) {
-            best = i;
-            best_distance = d;
-        }
-    }
-    return best;
-}
-
-/* Every entry becomes the mean of the swatches that are nearest to it. Returns whether any changed. */
-static bool refine_palette(uint32_t *palette, int count, struct swatch *swatch, int swatches)
-{
-    uint64_t sum[256][5] = { { 0 } };
-    bool changed = false;
-    for (int i = 0; i < swatches; i++) {
-        uint64_t *s = sum[nearest_entry(swatch[i].argb, palette, count)];
-        for (int k = 0; k < 4; k++)
-            s[k] += (uint64_t)channel_of(swatch[i].argb, k) * swatch[i].count;
-        s[4] += swatch[i].count;
-    }
-    for (int i = 0; i < count; i++) {
-        uint32_t mean = 0;
-        for (int k = 0; k < 4; k++)
-            mean = mean << 8 | (uint32_t)(sum[i][4] > 0 ? (sum[i][k] + sum[i][4] / 2) / sum[i][4]
-                                                        : (uint64_t)channel_of(palette[i], k));
-        changed = changed || mean != palette[i];
-        palette[i] = mean;
-    }
-    return changed;
-}
-
-static uint32_t argb_of(const uint8_t *p)
-{
-    return (uint32_t)p[3] << 24 | (uint32_t)p[0] << 16 | (uint32_t)p[1] << 8 | p[2];
-}
-
-/* Distinct ones of sorted colours; 0 when there are more than room. */
-static int list_swatches(const uint32_t *sorted, size_t count, struct swatch *out, int room)
-{
-    int swatches = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (swatches > 0 && out[swatches - 1].argb == sorted[i]) {
-            out[swatches - 1].count++;
-            continue;
-        }
-        if (swatches == room)
-            return 0;
-        out[swatches++] = (struct swatch){ .argb = sorted[i], .count = 1 };
-    }
-    return swatches;
-}
-
-static int choose_palette(struct converter *c, const struct image *image, uint32_t palette[256])
-{
-    size_t count = (size_t)image->width * (size_t)image->height;
-    uint32_t *sorted = pile_alloc(c->pile, count, sizeof *sorted, c->f);
-    struct swatch *swatch = pile_alloc(c->pile, MAX_DISTINCT, sizeof *swatch, c->f);
-    struct color_box box[256];
-    int swatches = 0, boxes;
-    if (sorted == NULL || swatch == NULL)
-        return 0;
-    for (int dropped = 0; swatches == 0; dropped++) {
-        for (size_t i = 0; i < count; i++)
-            sorted[i] = argb_of(image->rgba + 4 * i) & 0x01010101u * (255u << dropped & 255u);
-        qsort(sorted, count, sizeof *sorted, by_color);
-        swatches = list_swatches(sorted, count, swatch, MAX_DISTINCT);
-    }
-    if (swatches <= c->options->colors) {
-        for (int i = 0; i < swatches; i++)
-            palette[i] = swatch[i].argb;
-        return swatches;
-    }
-    boxes = cut_boxes(box, c->options->colors, swatch, swatches);
-    for (int i = 0; i < boxes; i++)
-        palette[i] = swatch[(box[i].begin + box[i].end) / 2].argb;
-    for (int i = 0; i < REFINEMENTS && refine_palette(palette, boxes, swatch, swatches); i++)
-        ;
-    qsort(palette, (size_t)boxes, sizeof *palette, by_color);
-    return boxes;
-}
-
 /* ------------------------------------------------------------------ textures */
 
 static double channel_error(uint32_t a, uint32_t b)
 {
     double sum = 0;
     for (int k = 1; k < 4; k++) {
-        double d = channel_of(a, k) - channel_of(b, k);
+        double d = color_channel(a, k) - color_channel(b, k);
         sum += d * d;
     }
     return sum / 3;
@@ -411,9 +230,9 @@ static uint32_t expand_565(unsigned texel)
 
 static unsigned pack_565(uint32_t argb)
 {
-    unsigned r = ((unsigned)channel_of(argb, 1) * 31 + 127) / 255,
-             g = ((unsigned)channel_of(argb, 2) * 63 + 127) / 255;
-    return r << 11 | g << 5 | ((unsigned)channel_of(argb, 3) * 31 + 127) / 255;
+    unsigned r = ((unsigned)color_channel(argb, 1) * 31 + 127) / 255,
+             g = ((unsigned)color_channel(argb, 2) * 63 + 127) / 255;
+    return r << 11 | g << 5 | ((unsigned)color_channel(argb, 3) * 31 + 127) / 255;
 }
 
 /* Fills texels and palette; returns the squared error in codes of the first `whole` pixels. */
@@ -429,15 +248,19 @@ static bool fill_texels(struct converter *c, const struct image *image, size_t w
         return false;
     if (t->texture.format == SMEAR_TEXEL_PALETTE8) {
         palette = pile_alloc(c->pile, 256, sizeof *palette, c->f);
-        t->palette_count = palette != NULL ? choose_palette(c, image, palette) : 0;
+        uint32_t *colors = pile_alloc(c->pile, count, sizeof *colors, c->f);
+        for (size_t i = 0; i < count && colors != NULL; i++)
+            colors[i] = color_of(image->rgba + 4 * i);
+        if (palette != NULL && colors != NULL)
+            t->palette_count = palette_of(colors, count, c->options->colors, MAX_DISTINCT, REFINEMENTS, palette);
         if (t->palette_count == 0)
-            return false;
+            return fail(c->f, "out of memory");
     }
     for (size_t i = 0; i < count; i++) {
-        uint32_t argb = argb_of(image->rgba + 4 * i), shown = argb;
+        uint32_t argb = color_of(image->rgba + 4 * i), shown = argb;
         if (palette != NULL) {
             if (entry < 0 || argb != last)
-                entry = nearest_entry(argb, palette, t->palette_count);
+                entry = palette_nearest(argb, palette, t->palette_count);
             last = argb;
             ((uint8_t *)texels)[i] = (uint8_t)entry;
             shown = palette[entry];

@@ -1,59 +1,202 @@
 /* SPDX-License-Identifier: MIT */
-/* palette.c - colour quantisation for GIF.
+/* palette.c - colour quantisation for GIF and for textures: a variance-based median cut of the colours, refined by k-means. In integers,
+ * so that the same picture gives the same colours on every host.
  *
- * Colours are compared in luma and two colour differences, all linear in sRGB codes, so that a
- * mixture of two colours lies on the line between them. The palette is a variance-based median cut
- * of the frame's histogram, refined by k-means. */
+ * Where pixels show mixtures of two entries, colours are compared in luma and two colour differences, all linear in sRGB codes, so that a
+ * mixture of two colours lies on the line between them. */
 #include "tools/image/palette.h"
 
 #include <float.h>
-#include <math.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     EXACT_SLOTS = 1024,         /* hash table for up to 257 colours */
-    MAX_POINTS = 16384,         /* of the histogram that the palette is chosen from */
-    CELLS = 32768,              /* hash table of the histogram */
-    REFINEMENTS = 8,            /* rounds of k-means at most */
+    GIF_DISTINCT = 16384,       /* colours that a palette is chosen from */
+    GIF_REFINEMENTS = 8,        /* rounds of k-means at most */
     CACHE_SLOTS = 1 << 16       /* pairs of entries found for recent colours */
 };
 
-static const float CHROMA_WEIGHT = 0.6f;        /* of colour differences against luma */
-static const float POPULATION_POWER = 0.85f;     /* below 1: more for rare colours */
-static const float NOISE_WEIGHT = 0.15f;        /* of dots against error of their mean */
+/* ------------------------------------------------------------------ choosing */
 
-struct point {
-    float v[3];                 /* luma, weighted blue and red differences */
-    float weight;
+struct swatch {
+    uint32_t argb, count;
+    uint64_t key;               /* what it is sorted by */
 };
 
-/* A colour of the palette in the making. */
-struct center {
-    float v[3];
+int color_channel(uint32_t argb, int k)
+{
+    return (int)(argb >> (24 - 8 * k) & 255);
+}
+
+static const int channel_weight[4] = { 6, 3, 6, 2 };
+
+static int color_distance(uint32_t a, uint32_t b)
+{
+    const int alpha = color_channel(a, 0) - color_channel(b, 0), red = color_channel(a, 1) - color_channel(b, 1);
+    const int green = color_channel(a, 2) - color_channel(b, 2), blue = color_channel(a, 3) - color_channel(b, 3);
+    return channel_weight[0] * alpha * alpha + channel_weight[1] * red * red + channel_weight[2] * green * green
+         + channel_weight[3] * blue * blue;
+}
+
+static int by_color(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    uint64_t x = ((const struct swatch *)a)->key, y = ((const struct swatch *)b)->key;
+    return x < y ? -1 : x > y;
+}
+
+/* Swatches begin .. end - 1: their summed squared distance from the
+ * mean along the channel where it is largest. */
+struct box {
+    int begin, end, channel;
+    uint64_t spread;
 };
 
-static struct point to_point(float r, float g, float b)
+static void measure_box(struct box *b, const struct swatch *swatch)
 {
-    float y = 0.299f * r + 0.587f * g + 0.114f * b;
-    return (struct point){{y, CHROMA_WEIGHT * (b - y), CHROMA_WEIGHT * (r - y)}, 0};
+    b->spread = 0;
+    b->channel = 1;
+    for (int k = 0; k < 4; k++) {
+        uint64_t n = 0, sum = 0, squares = 0;
+        for (int i = b->begin; i < b->end; i++) {
+            uint64_t v = (uint64_t)color_channel(swatch[i].argb, k);
+            n += swatch[i].count;
+            sum += v * swatch[i].count;
+            squares += v * v * swatch[i].count;
+        }
+        uint64_t spread = (squares - sum * sum / n) * (uint64_t)channel_weight[k];
+        if (spread > b->spread) {
+            b->spread = spread;
+            b->channel = k;
+        }
+    }
 }
 
-static void to_rgb(const float v[3], uint8_t rgb[3])
+/* Cuts the box with the largest spread at its mean until there are `limit`; returns how many. */
+static int cut_boxes(struct box *box, int limit, struct swatch *swatch, int count)
 {
-    float b = v[0] + v[1] / CHROMA_WEIGHT, r = v[0] + v[2] / CHROMA_WEIGHT;
-    float g = (v[0] - 0.299f * r - 0.114f * b) / 0.587f;
-    float channel[3] = {r, g, b};
-    for (int k = 0; k < 3; k++)
-        rgb[k] = (uint8_t)(channel[k] <= 0 ? 0 : channel[k] >= 255 ? 255 : channel[k] + 0.5f);
+    int boxes = 1;
+    box[0] = (struct box){ .begin = 0, .end = count };
+    measure_box(&box[0], swatch);
+    while (boxes < limit) {
+        int widest = 0;
+        for (int i = 1; i < boxes; i++)
+            if (box[i].spread > box[widest].spread)
+                widest = i;
+        struct box *b = &box[widest];
+        if (b->spread == 0)
+            break;
+        for (int i = b->begin; i < b->end; i++)
+            swatch[i].key = (uint64_t)color_channel(swatch[i].argb, b->channel) << 32 | swatch[i].argb;
+        qsort(swatch + b->begin, (size_t)(b->end - b->begin), sizeof *swatch, by_key);
+        uint64_t n = 0, sum = 0;
+        for (int i = b->begin; i < b->end; i++) {
+            n += swatch[i].count;
+            sum += (uint64_t)color_channel(swatch[i].argb, b->channel) * swatch[i].count;
+        }
+        int cut = b->begin + 1;
+        while (cut < b->end - 1 && (uint64_t)color_channel(swatch[cut].argb, b->channel) * n <= sum)
+            cut++;
+        box[boxes] = (struct box){ .begin = cut, .end = b->end };
+        b->end = cut;
+        measure_box(b, swatch);
+        measure_box(&box[boxes++], swatch);
+    }
+    return boxes;
 }
+
+int palette_nearest(uint32_t argb, const uint32_t *palette, int count)
+{
+    int best = 0, best_distance = INT_MAX;
+    for (int i = 0; i < count; i++) {
+        const int d = color_distance(argb, palette[i]);
+        if (d < best_distance) {
+            best = i;
+            best_distance = d;
+        }
+    }
+    return best;
+}
+
+/* Every entry becomes the mean of the swatches that are nearest to it. Returns whether any changed. */
+static bool refine_palette(uint32_t *palette, int count, struct swatch *swatch, int swatches)
+{
+    uint64_t sum[256][5] = { { 0 } };
+    bool changed = false;
+    for (int i = 0; i < swatches; i++) {
+        uint64_t *s = sum[palette_nearest(swatch[i].argb, palette, count)];
+        for (int k = 0; k < 4; k++)
+            s[k] += (uint64_t)color_channel(swatch[i].argb, k) * swatch[i].count;
+        s[4] += swatch[i].count;
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t mean = 0;
+        for (int k = 0; k < 4; k++)
+            mean = mean << 8 | (uint32_t)(sum[i][4] > 0 ? (sum[i][k] + sum[i][4] / 2) / sum[i][4]
+                                                        : (uint64_t)color_channel(palette[i], k));
+        changed = changed || mean != palette[i];
+        palette[i] = mean;
+    }
+    return changed;
+}
+
+/* Distinct ones of sorted colours; 0 when there are more than room. */
+static int list_swatches(const uint32_t *sorted, size_t count, struct swatch *out, int room)
+{
+    int swatches = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (swatches > 0 && out[swatches - 1].argb == sorted[i]) {
+            out[swatches - 1].count++;
+            continue;
+        }
+        if (swatches == room)
+            return 0;
+        out[swatches++] = (struct swatch){ .argb = sorted[i], .count = 1 };
+    }
+    return swatches;
+}
+
+int palette_of(uint32_t *argb, size_t count, int limit, int distinct, int refinements, uint32_t palette[256])
+{
+    struct swatch *swatch = malloc((size_t)distinct * sizeof *swatch);
+    struct box box[256];
+    int swatches = 0, boxes = 0;
+    if (swatch == NULL)
+        return 0;
+    for (int dropped = 0; swatches == 0; dropped++) {      /* bits of each channel, in whose middle the colours go on */
+        for (size_t i = 0; i < count; i++)
+            argb[i] = (argb[i] & 0x01010101u * (255u << dropped & 255u)) | 0x01010101u * ((1u << dropped) >> 1);
+        qsort(argb, count, sizeof *argb, by_color);
+        swatches = list_swatches(argb, count, swatch, distinct);
+    }
+    if (swatches <= limit) {
+        for (; boxes < swatches; boxes++)
+            palette[boxes] = swatch[boxes].argb;
+    } else {
+        boxes = cut_boxes(box, limit, swatch, swatches);
+        for (int i = 0; i < boxes; i++)
+            palette[i] = swatch[(box[i].begin + box[i].end) / 2].argb;
+        for (int i = 0; i < refinements && refine_palette(palette, boxes, swatch, swatches); i++)
+            ;
+        qsort(palette, (size_t)boxes, sizeof *palette, by_color);
+    }
+    free(swatch);
+    return boxes;
+}
+
+/* ------------------------------------------------------------------ marked pictures */
 
 static size_t pixel_count(const struct marked_image *from)
 {
     return (size_t)from->image->width * (size_t)from->image->height;
 }
-
-/* --- exact --- */
 
 bool palette_exact(const struct marked_image *from, int limit, struct palette *out)
 {
@@ -80,128 +223,39 @@ bool palette_exact(const struct marked_image *from, int limit, struct palette *o
     return true;
 }
 
-/* --- choosing --- */
-
-/* Pixels whose colours agree in the upper bits. */
-struct cell {
-    uint32_t key;               /* those bits + 1; 0: free */
-    uint32_t count;
-    uint64_t sum[3];
-};
-
-/* The pixels as points of mean colour, after dropping the low `shift` bits of each channel; returns
- * how many, or 0 when there are more than MAX_POINTS or no pixels. */
-static int histogram(const struct marked_image *from, unsigned shift, struct cell *cells,
-                     struct point *points)
+bool palette_choose(const struct marked_image *from, int limit, struct palette *out)
 {
-    int used = 0, count = 0;
-    const uint8_t *p = from->image->rgba;
-    memset(cells, 0, CELLS * sizeof *cells);
-    for (size_t i = 0, n = pixel_count(from); i < n; i++, p += 4) {
-        if (!from->mark[i])
-            continue;
-        uint32_t key = (uint32_t)(p[0] >> shift) << 16 | (uint32_t)(p[1] >> shift) << 8 |
-                       (uint32_t)(p[2] >> shift);
-        uint32_t at = key * 2654435761u >> 17;
-        while (cells[at].key != 0 && cells[at].key != key + 1)
-            at = (at + 1) % CELLS;
-        struct cell *c = cells + at;
-        if (c->key == 0 && ++used > MAX_POINTS)
-            return 0;
-        c->key = key + 1;
-        c->count++;
+    const size_t n = pixel_count(from);
+    uint32_t *argb = malloc(n * sizeof *argb), chosen[256];
+    size_t count = 0;
+    memset(out, 0, sizeof *out);
+    for (size_t i = 0; i < n && argb != NULL; i++)
+        if (from->mark[i])
+            argb[count++] = color_of(from->image->rgba + 4 * i) | 0xff000000u;
+    if (count > 0)
+        out->count = palette_of(argb, count, limit, GIF_DISTINCT, GIF_REFINEMENTS, chosen);
+    for (int i = 0; i < out->count; i++)
         for (int k = 0; k < 3; k++)
-            c->sum[k] += p[k];
-    }
-    for (size_t i = 0; i < CELLS; i++) {
-        const struct cell *c = cells + i;
-        if (c->key == 0)
-            continue;
-        float n = (float)c->count;
-        points[count] = to_point((float)c->sum[0] / n, (float)c->sum[1] / n, (float)c->sum[2] / n);
-        points[count++].weight = powf(n, POPULATION_POWER);
-    }
-    return count;
+            out->rgb[i][k] = (uint8_t)color_channel(chosen[i], k + 1);
+    const bool ok = argb != NULL && (count == 0 || out->count > 0);
+    free(argb);
+    return ok;
 }
 
-/* Points begin .. end - 1; their summed squared distance from the mean, and the axis it is largest
- * on. */
-struct box {
-    int begin, end, axis;
-    float mean[3];
-    double spread;
+/* ------------------------------------------------------------------ mapping */
+
+static const float CHROMA_WEIGHT = 0.6f;        /* of colour differences against luma */
+static const float NOISE_WEIGHT = 0.15f;        /* of dots against error of their mean */
+
+/* Luma, weighted blue and red differences of a colour. */
+struct center {
+    float v[3];
 };
 
-static void measure_box(struct box *b, const struct point *points)
+static struct center to_center(const uint8_t rgb[3])
 {
-    double weight = 0, sum[3] = {0}, squares[3] = {0};
-    for (int i = b->begin; i < b->end; i++) {
-        double w = points[i].weight;
-        weight += w;
-        for (int k = 0; k < 3; k++) {
-            sum[k] += w * points[i].v[k];
-            squares[k] += w * points[i].v[k] * points[i].v[k];
-        }
-    }
-    double largest = -1;
-    b->spread = 0;
-    for (int k = 0; k < 3; k++) {
-        double spread = squares[k] - sum[k] * sum[k] / weight;
-        b->mean[k] = (float)(sum[k] / weight);
-        b->spread += spread;
-        if (spread > largest) {
-            largest = spread;
-            b->axis = k;
-        }
-    }
-    if (b->end - b->begin < 2)
-        b->spread = 0;
-}
-
-/* Points below the mean of the longest axis to the front; the first of the others. */
-static int split_box(const struct box *b, struct point *points)
-{
-    int low = b->begin, high = b->end;
-    while (low < high) {
-        if (points[low].v[b->axis] < b->mean[b->axis]) {
-            low++;
-        } else {
-            struct point swap = points[low];
-            points[low] = points[--high];
-            points[high] = swap;
-        }
-    }
-    return low;
-}
-
-/* Splits the box of the largest spread until there are `limit` of them; returns how many there are. */
-static int median_cut(struct point *points, int count, int limit, struct center *center)
-{
-    struct box box[256];
-    int boxes = 1;
-    box[0] = (struct box){.begin = 0, .end = count};
-    measure_box(&box[0], points);
-    while (boxes < limit) {
-        int widest = 0;
-        for (int i = 1; i < boxes; i++)
-            if (box[i].spread > box[widest].spread)
-                widest = i;
-        struct box *b = &box[widest];
-        int middle = b->spread > 0 ? split_box(b, points) : b->begin;
-        if (middle == b->begin || middle == b->end) {
-            if (b->spread <= 0)
-                break;
-            b->spread = 0;              /* all points equal but for rounding */
-            continue;
-        }
-        box[boxes] = (struct box){.begin = middle, .end = b->end};
-        b->end = middle;
-        measure_box(b, points);
-        measure_box(&box[boxes++], points);
-    }
-    for (int i = 0; i < boxes; i++)
-        memcpy(center[i].v, box[i].mean, sizeof box[i].mean);
-    return boxes;
+    const float r = rgb[0], g = rgb[1], b = rgb[2], y = 0.299f * r + 0.587f * g + 0.114f * b;
+    return (struct center){{y, CHROMA_WEIGHT * (b - y), CHROMA_WEIGHT * (r - y)}};
 }
 
 static float square_distance(const float a[3], const float b[3])
@@ -223,68 +277,6 @@ static int nearest_center(const float v[3], const struct center *center, int cou
     }
     return best;
 }
-
-/* One round of k-means; returns the weighted error before it. A center that serves no point moves
- * to the point that is served worst. */
-static double refine(const struct point *points, int count, struct center *center, int centers)
-{
-    double sum[256][4] = {{0}}, error = 0;
-    float worst = -1;
-    int worst_point = 0;
-    for (int i = 0; i < count; i++) {
-        float distance;
-        int c = nearest_center(points[i].v, center, centers, &distance);
-        float w = points[i].weight;
-        error += (double)(w * distance);
-        if (w * distance > worst) {
-            worst = w * distance;
-            worst_point = i;
-        }
-        for (int k = 0; k < 3; k++)
-            sum[c][k] += (double)(w * points[i].v[k]);
-        sum[c][3] += (double)w;
-    }
-    for (int c = 0; c < centers; c++) {
-        bool used = sum[c][3] > 0;
-        for (int k = 0; k < 3; k++)
-            center[c].v[k] = used ? (float)(sum[c][k] / sum[c][3]) : points[worst_point].v[k];
-    }
-    return error;
-}
-
-bool palette_choose(const struct marked_image *from, int limit, struct palette *out)
-{
-    struct cell *cells = malloc(CELLS * sizeof *cells);
-    struct point *points = malloc(MAX_POINTS * sizeof *points);
-    memset(out, 0, sizeof *out);
-    if (cells == NULL || points == NULL) {
-        free(cells);
-        free(points);
-        return false;
-    }
-    int count = 0;
-    for (unsigned shift = 0; shift <= 4 && count == 0; shift++)     /* 4: never above MAX_POINTS */
-        count = histogram(from, shift, cells, points);
-    if (count > 0) {
-        struct center center[256] = {{{0}}};
-        int centers = median_cut(points, count, limit, center);
-        double last = DBL_MAX;
-        for (int round = 0; round < REFINEMENTS; round++) {
-            double error = refine(points, count, center, centers);
-            if (error > last * 0.995)
-                break;
-            last = error;
-        }
-        out->count = centers;
-        for (int i = 0; i < centers; i++)
-            to_rgb(center[i].v, out->rgb[i]);
-    }
-    free(cells);
-    free(points);
-    return true;
-}
-
-/* --- mapping --- */
 
 /* Two entries, the darker one first, and of 64 dots how many show the brighter one. */
 struct mixture {
@@ -337,10 +329,8 @@ bool palette_map(const struct marked_image *from, const struct palette *palette,
     struct center center[256] = {{{0}}};
     if (cache == NULL)
         return false;
-    for (int i = 0; i < palette->count; i++) {
-        const uint8_t *rgb = palette->rgb[i];
-        memcpy(center[i].v, to_point(rgb[0], rgb[1], rgb[2]).v, sizeof center[i].v);
-    }
+    for (int i = 0; i < palette->count; i++)
+        center[i] = to_center(palette->rgb[i]);
     const uint8_t *p = from->image->rgba;
     size_t i = 0;
     for (int y = 0; y < from->image->height; y++) {
@@ -350,7 +340,7 @@ bool palette_map(const struct marked_image *from, const struct palette *palette,
             uint32_t color = (uint32_t)p[0] << 16 | (uint32_t)p[1] << 8 | p[2];
             struct mixture *m = &cache[color * 2654435761u >> 16];
             if (m->color != color + 1) {
-                *m = find_mixture(to_point(p[0], p[1], p[2]).v, center, palette->count);
+                *m = find_mixture(to_center(p).v, center, palette->count);
                 m->color = color + 1;
             }
             index[i] = pattern[y & 7][x & 7] < m->bright_dots ? m->bright : m->dark;

@@ -5,6 +5,22 @@
 
 #include "tools/image/image.h"
 
+/* Colours are 0xAARRGGBB; their channels are alpha, red, green, blue. */
+static inline uint32_t color_of(const uint8_t rgba[4])
+{
+    return (uint32_t)rgba[3] << 24 | (uint32_t)rgba[0] << 16 | (uint32_t)rgba[1] << 8 | rgba[2];
+}
+
+int color_channel(uint32_t argb, int k);
+
+/* Finds `limit` (2..256) colours that serve so many others well, or those themselves where they are as few; sorted. Of more than
+ * `distinct` ones low bits count alike; `refinements` are rounds of k-means at most. Returns how many; 0 without memory. What is given is
+ * sorted, too. */
+int palette_of(uint32_t *argb, size_t count, int limit, int distinct, int refinements, uint32_t palette[256]);
+
+/* The entry nearest to a colour. */
+int palette_nearest(uint32_t argb, const uint32_t *palette, int count);
+
 struct palette {
     int count;                  /* 0..256 */
     uint8_t rgb[256][3];
