@@ -38,24 +38,10 @@ static struct vector vector(smear_vec3 p)
     return (struct vector){ { p.x, p.y, p.z } };
 }
 
-static double dot(struct vector a, struct vector b)
-{
-    return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
-}
-
-static struct vector cross(struct vector a, struct vector b)
-{
-    return (struct vector){ { a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
-                              a.v[0] * b.v[1] - a.v[1] * b.v[0] } };
-}
-
 /* Brings a vector to length one, and returns how long it was; a vector of length 0 stays. */
 static double normalize(struct vector *a)
 {
-    const double length = sqrt(dot(*a, *a));
-    for (int i = 0; i < 3 && length > 0; i++)
-        a->v[i] /= length;
-    return length;
+    return dot3(a->v, a->v) > 0 ? unit3(a->v) : 0;
 }
 
 static struct matrix multiply(struct matrix a, struct matrix b)
@@ -204,7 +190,7 @@ static void test_composed_entries_and_points_are_the_nearest(void)
         for (int k = 0; k < 3; k++) {
             const struct vector row = { { ma.m[3 * k], ma.m[3 * k + 1], ma.m[3 * k + 2] } };
             const struct vector at = { { b.origin[0], b.origin[1], b.origin[2] } };
-            const double want = dot(row, at) + a.origin[k];
+            const double want = dot3(row.v, at.v) + a.origin[k];
             worst_origin = larger(worst_origin, t.origin[k] - want);
             worst_point = larger(worst_point, (k == 0 ? p.x : k == 1 ? p.y : p.z) - want);
         }
@@ -225,11 +211,12 @@ static void test_cameras_err_by_less_than_the_stated_at_any_angle_from_up(void)
         skew = larger(skew, skew_of(&t));
         if (normalize(&z) == 0 || normalize(&u) == 0)
             continue;
-        struct vector x = cross(u, z);
+        struct vector x, y;
+        cross3(x.v, u.v, z.v);
         const double sine = normalize(&x);
         if (sine < 2e-6)
             continue;
-        const struct vector y = cross(z, x);
+        cross3(y.v, z.v, x.v);
         for (int k = 0; k < 3; k++) {
             along = larger(along, t.basis[3 * k + 2] - z.v[k] / STEP);
             across = larger(across, fmax(fabs(t.basis[3 * k] - x.v[k] / STEP), fabs(t.basis[3 * k + 1] - y.v[k] / STEP)) * sine);

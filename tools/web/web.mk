@@ -27,7 +27,7 @@ WEB_FLAGS = --target=wasm32 -std=c11 -DSMEAR_WITH_OVERLAY=0 -DSMEAR_WITH_FOG=0 -
 # What is compiled without vectors is the same in both.
 web_objects = $(foreach source,$(WEB_SRC),$(WEB)/$(if $(filter $(source),$(WEB_VECTORS)),$(1),scalar)/$(source:.c=.o))
 
-.PHONY: web web-bench
+.PHONY: web
 ## page: web pages: build/web/index.html and game.html, for any static host or as they lie (needs clang-14, lld-14, llvm-14 and xz)
 web: $(WEB)/index.html $(WEB)/game.html
 
@@ -111,10 +111,6 @@ $(WEB)/chart.csv: $(or $(wildcard build/chart/chart.csv),tools/web/chart.csv) to
 	$(call say,GEN)
 	@mkdir -p $(@D)
 	$(if $(filter build/%,$<),awk -f tools/web/chart.awk $< > $@,cp $< $@)
-
-## figures: frames per second of the page's demo in headless Chromium (needs chromium, chromium-driver, nodejs)
-web-bench: $(WEB)/index.html
-	node tests/shell/web_bench.js $(WEB)/index.html
 
 # Its numbers on the host, under names that leave the host's alone.
 WEB_NAMES := sin cos tan atan atan2 exp log pow powf fmod remainder frexp ldexp lround llround ilogb strtod snprintf vsnprintf printf \
