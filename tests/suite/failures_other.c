@@ -4,7 +4,7 @@
  * scene. */
 #include "tests/suite/failures.h"
 
-#include "tests/host.h"
+#include "tests/context_rig.h"
 
 #define PI 3.14159265358979323846
 
@@ -65,25 +65,16 @@ static const uint16_t two[] = {0, 1, 2, 0, 2, 3}, four[] = {0, 1, 4, 1, 2, 4, 2,
 
 enum { QUAD_EDGE = 64 };
 
-static int keep_band(void *user, const smear_band *band)
-{
-    uint8_t *rgb = user;
-    memcpy(rgb + (size_t)band->y * QUAD_EDGE * 4, band->pixels, band->size);
-    return 0;
-}
-
 static bool draw_quads(const struct fail_method *method, const smear_mesh *first,
                        const smear_mesh *second, uint8_t rgb[QUAD_EDGE * QUAD_EDGE * 4])
 {
     static const smear_material red = {.color = {220, 60, 40, 255}, .unlit = 1};
     smear_desc desc = {.width = QUAD_EDGE, .height = QUAD_EDGE, .reach = FAIL_REACH,
                        .methods = (uint16_t)(SMEAR_SET(method->method) | SMEAR_SET(SMEAR_RECONSTRUCT)),
-                       .max_triangles = 16, .flush = keep_band, .user = rgb};
+                       .max_triangles = 16};
     smear_camera camera = {.pose = SMEAR_IDENTITY, .focal = 2 << 16, .near_plane = 1 << 15};
-    size_t bytes = smear_memory_size(&desc);
-    void *memory = bytes != 0 ? malloc(bytes) : NULL;
-    smear_context *ctx;
-    bool ok = memory != NULL && smear_init(&ctx, &desc, memory, bytes) == SMEAR_OK;
+    RIG(r, &desc, false);
+    bool ok = true;
     for (int i = 0; i < 2 && ok; i++) {
         smear_transform pose = SMEAR_IDENTITY;
         smear_frame frame = {.camera = &camera, .method = (uint8_t)method->method,
@@ -96,11 +87,10 @@ static bool draw_quads(const struct fail_method *method, const smear_mesh *first
         pose.origin[2] = -4 * 65536;
         smear_draw draw = {.id = 7, .mesh = i == 0 ? first : second, .material = &red,
                            .now = &pose};
-        ok = smear_begin(ctx, &frame) == SMEAR_OK && smear_submit(ctx, &draw) == SMEAR_OK
-          && smear_render(ctx) == SMEAR_OK;
+        ok = CHECK_EQ(rig_frame(&r, &frame, &draw, 1), SMEAR_OK);
     }
-    free(memory);
-    return CHECK(ok);
+    memcpy(rgb, r.picture, QUAD_EDGE * QUAD_EDGE * 4);
+    return ok;
 }
 
 static void deformed(const struct fail_method *method, double number[])

@@ -8,7 +8,7 @@
 #include "tools/convert/build.h"
 #include "tools/model/exact.h"
 #include "tools/convert/track.h"
-#include "tests/host.h"
+#include "tests/context_rig.h"
 
 #include <sys/stat.h>
 
@@ -109,19 +109,6 @@ static void measured_point(double out[3], const smear_draw *draw, int vertex)
 
 /* ------------------------------------------------------------------ pictures */
 
-static int keep_band(void *user, const smear_band *band)
-{
-    uint8_t *rgb = user;
-    for (int y = 0; y < band->height; y++) {
-        const uint32_t *row = (const uint32_t *)band->pixels + (size_t)y * (band->stride / 4);
-        for (int x = 0; x < band->width; x++)
-            for (int k = 0; k < 3; k++)
-                rgb[3 * ((size_t)(band->y + y) * (size_t)band->width + (size_t)x) + (size_t)k] =
-                    (uint8_t)(row[x] >> (16 - 8 * k));
-    }
-    return 0;
-}
-
 static smear_camera camera_of(const struct scene_camera *from, double scale)
 {
     smear_camera camera = { .near_plane = (int32_t)lround(from->znear * scale * 65536),
@@ -139,15 +126,14 @@ static smear_camera camera_of(const struct scene_camera *from, double scale)
 static bool draw_actor(smear_actor *actor, const smear_camera *camera, smear_method method, uint8_t *rgb)
 {
     smear_desc desc = { .width = WIDTH, .height = HEIGHT, .format = SMEAR_XRGB8888, .methods = (uint16_t)SMEAR_SET(method), .max_draws = 64,
-                        .max_triangles = 20000, .flush = keep_band, .user = rgb };
+                        .max_triangles = 20000 };
     smear_frame frame = { .camera = camera, .open = camera, .method = (uint8_t)method };
-    smear_context *ctx;
-    size_t bytes = smear_memory_size(&desc);
-    void *memory = malloc(bytes);
-    bool ok = CHECK(memory != NULL) && CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK)
-           && CHECK_EQ(smear_begin(ctx, &frame), SMEAR_OK) && CHECK_EQ(smear_actor_submit(actor, ctx), SMEAR_OK)
-           && CHECK_EQ(smear_render(ctx), SMEAR_OK);
-    free(memory);
+    RIG(r, &desc, false);
+    const bool ok = CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK) && CHECK_EQ(smear_actor_submit(actor, r.ctx), SMEAR_OK)
+                 && CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        rgb[i] = (uint8_t)(pixel[i / 3] >> (16 - 8 * (i % 3)));
     return ok;
 }
 

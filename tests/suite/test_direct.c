@@ -8,37 +8,23 @@
 #include "raster/texture.h"
 #include "tools/scenes/present.h"
 
-#include "tests/host.h"
+#include "tests/context_rig.h"
 
 enum { WIDTH = 150, HEIGHT = 110, PIXELS = WIDTH * HEIGHT };
-
-static int keep(void *user, const smear_band *band)
-{
-    for (int y = 0; y < band->height; y++)
-        memcpy((uint16_t *)user + (band->y + y) * WIDTH, (const uint8_t *)band->pixels + (size_t)y * band->stride,
-               WIDTH * 2);
-    return 0;
-}
 
 /* Whether the frame was drawn directly; -1 on errors. */
 static int draw(uint16_t *out, const struct presented *frame, const smear_desc *base)
 {
     smear_desc desc = presented_desc(frame, WIDTH, HEIGHT);
-    smear_context *ctx;
     desc.methods = base->methods;
     desc.band_rows = base->band_rows;
     desc.format = base->format;
     desc.display.dither = base->display.dither;
     desc.max_triangles = base->max_triangles != 0 ? base->max_triangles : desc.max_triangles;
-    desc.flush = keep;
-    desc.user = out;
-    void *memory = calloc(1, smear_memory_size(&desc) + 1);
-    int result = -1;
-    if (CHECK_EQ(smear_init(&ctx, &desc, memory, smear_memory_size(&desc)), SMEAR_OK)
-        && CHECK_EQ(presented_submit(frame, ctx), SMEAR_OK) && CHECK_EQ(smear_render(ctx), SMEAR_OK))
-        result = smear_probe(ctx).direct;
-    free(memory);
-    return result;
+    RIG(r, &desc, false);
+    const bool ok = CHECK_EQ(presented_submit(frame, r.ctx), SMEAR_OK) && CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
+    memcpy(out, r.picture, PIXELS * sizeof *out);
+    return ok ? smear_probe(r.ctx).direct : -1;
 }
 
 /* How many of `count` frames were drawn directly; all must equal those through the window. `overlay`: or null. */

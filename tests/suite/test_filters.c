@@ -4,7 +4,7 @@
 #include "tests/ref/accuracy.h"
 
 #include "filter/filter.h"
-#include "tests/host.h"
+#include "tests/context_rig.h"
 
 /* ------------------------------------------------------------------ taps of passes */
 
@@ -240,32 +240,20 @@ struct strip {
 
 enum { STRIP_HEIGHT = 80 };
 
-static int take_middle(void *user, const smear_band *band)
-{
-    struct strip *strip = user;
-    int row = STRIP_HEIGHT / 2 - band->y;
-    if (row >= 0 && row < band->height)
-        memcpy(strip->out, (const char *)band->pixels + (size_t)row * band->stride, (size_t)strip->width * 4);
-    return 0;
-}
-
 static bool strip_filter(struct strip *strip, const smear_frame *frame)
 {
     smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536 };
     smear_frame f = *frame;
     smear_desc desc = { .width = (int16_t)strip->width, .height = STRIP_HEIGHT, .reach = 32, .tile = 32, .filter.passes = 3,
-                        .methods = SMEAR_SET_FILTERS, .max_triangles = 1, .max_draws = 1, .flush = take_middle, .user = strip };
-    smear_context *ctx;
-    size_t bytes = smear_memory_size(&desc);
-    void *memory = bytes > 0 ? malloc(bytes) : NULL;
+                        .methods = SMEAR_SET_FILTERS, .max_triangles = 1, .max_draws = 1 };
+    RIG(r, &desc, false);
     f.camera = &camera;
     f.shutter.degrees = 360;
     f.light_space = SMEAR_LIGHT_ENCODED;
-    bool ok = CHECK(memory != NULL) && CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK)
-           && CHECK_EQ(smear_filter_begin(ctx, &f), SMEAR_OK);
+    bool ok = CHECK_EQ(smear_filter_begin(r.ctx, &f), SMEAR_OK);
     for (int y = 0; y < STRIP_HEIGHT && ok; y++)
-        ok = CHECK_EQ(smear_filter_row(ctx, strip->color, strip->depth, strip->velocity), SMEAR_OK);
-    free(memory);
+        ok = CHECK_EQ(smear_filter_row(r.ctx, strip->color, strip->depth, strip->velocity), SMEAR_OK);
+    memcpy(strip->out, r.picture + (size_t)(STRIP_HEIGHT / 2 * strip->width) * 4, (size_t)strip->width * 4);
     return ok;
 }
 

@@ -2,7 +2,7 @@
 /* test_layers.c - SMEAR_OBJECT and SMEAR_LAYERED: how far they are from the truth on the scenes of the quality suite, what
  * must stay as it is bit for bit, layers with settings of their own, memory. */
 #include "layers/layer.h"
-#include "tests/host.h"
+#include "tests/context_rig.h"
 #include "tests/ref/accuracy.h"
 
 /* ------------------------------------------------------------------ scenes of the suite */
@@ -93,41 +93,13 @@ static smear_draw draw_of(const struct mover *m, const smear_material *material)
 
 static uint32_t picture[W * H];
 
-static int keep_band(void *user, const smear_band *band)
-{
-    uint32_t *out = user;
-    for (int y = 0; y < band->height; y++)
-        memcpy(out + (band->y + y) * band->width, (const uint8_t *)band->pixels + (size_t)y * band->stride,
-               (size_t)band->width * 4);
-    return 0;
-}
-
-static smear_desc desc_of(uint32_t *out)
+static smear_desc desc_of(void)
 {
     return (smear_desc){ .width = W, .height = H, .reach = REACH, .tile = TILE, .format = SMEAR_XRGB8888,
-                         .methods = SMEAR_SET_LAYERS, .flush = keep_band, .user = out };
+                         .methods = SMEAR_SET_LAYERS };
 }
 
 static smear_stats stats;
-
-/* False after a failed check. */
-static bool render_with(const smear_desc *desc, const smear_frame *frame, const smear_draw *draw, int count)
-{
-    size_t bytes = smear_memory_size(desc);
-    void *memory = malloc(bytes + 1);
-    smear_context *ctx;
-    int result = memory != NULL ? smear_init(&ctx, desc, memory, bytes) : SMEAR_ERR_MEMORY;
-    if (result == SMEAR_OK)
-        result = smear_begin(ctx, frame);
-    for (int i = 0; i < count && result == SMEAR_OK; i++)
-        result = smear_submit(ctx, &draw[i]);
-    if (result == SMEAR_OK)
-        result = smear_render(ctx);
-    if (result == SMEAR_OK)
-        smear_get_stats(ctx, &stats);
-    free(memory);
-    return CHECK_EQ(result, SMEAR_OK);
-}
 
 static smear_frame frame_of(smear_method method)
 {
@@ -135,10 +107,15 @@ static smear_frame frame_of(smear_method method)
                           .clear = 0x102030 };
 }
 
+/* False after a failed check. */
 static bool render(uint32_t *out, const smear_frame *frame, const smear_draw *draw, int count)
 {
-    smear_desc desc = desc_of(out);
-    return render_with(&desc, frame, draw, count);
+    const smear_desc desc = desc_of();
+    RIG(r, &desc, false);
+    const bool ok = CHECK_EQ(rig_frame(&r, frame, draw, count), SMEAR_OK);
+    smear_get_stats(r.ctx, &stats);
+    memcpy(out, r.picture, W * H * sizeof *out);
+    return ok;
 }
 
 static int channel(uint32_t p, int shift)
@@ -484,11 +461,8 @@ static void test_a_plain_layer_has_no_dark_fringe(void)
 
 static void test_bad_layers_are_refused(void)
 {
-    uint32_t *out = picture;
-    smear_desc desc = desc_of(out);
-    size_t bytes = smear_memory_size(&desc);
-    void *memory = malloc(bytes);
-    smear_context *ctx;
+    smear_desc desc = desc_of();
+    RIG(r, &desc, false);
     smear_camera bad_camera = { .pose = SMEAR_IDENTITY };
     const smear_layer good = { .mask = 1 };
     const smear_layer bad[] = {
@@ -499,40 +473,33 @@ static void test_bad_layers_are_refused(void)
     smear_layer many[SMEAR_LAYERS_MAX + 1];
     for (int i = 0; i <= SMEAR_LAYERS_MAX; i++)
         many[i] = good;
-    if (!CHECK(memory != NULL) || !CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK))
-        return;
     smear_frame frame = frame_of(SMEAR_OBJECT);
     frame.layer_count = 1;
-    CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_begin(r.ctx, &frame)), SMEAR_ERR_ARG);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         frame.layer = &bad[i];
-        CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
+        CHECK_EQ(smear_error_kind(smear_begin(r.ctx, &frame)), SMEAR_ERR_ARG);
     }
     frame.layer = many;
     frame.layer_count = SMEAR_LAYERS_MAX + 1;
-    CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_begin(r.ctx, &frame)), SMEAR_ERR_ARG);
     frame.layer_count = SMEAR_LAYERS_MAX;
-    CHECK_EQ(smear_begin(ctx, &frame), SMEAR_OK);
+    CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK);
     frame.layer_count = 0;
-    CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
-    free(memory);
+    CHECK_EQ(smear_error_kind(smear_begin(r.ctx, &frame)), SMEAR_ERR_ARG);
     /* No room for layers. */
     desc.methods = SMEAR_SET(SMEAR_NONE);
-    bytes = smear_memory_size(&desc);
-    memory = malloc(bytes);
-    if (!CHECK(memory != NULL) || !CHECK_EQ(smear_init(&ctx, &desc, memory, bytes), SMEAR_OK))
-        return;
+    RIG(small, &desc, false);
     frame = frame_of(SMEAR_OBJECT);
-    CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
+    CHECK_EQ(smear_error_kind(smear_begin(small.ctx, &frame)), SMEAR_ERR_ARG);
     frame = frame_of(SMEAR_LAYERED);
-    CHECK_EQ(smear_error_kind(smear_begin(ctx, &frame)), SMEAR_ERR_ARG);
-    free(memory);
+    CHECK_EQ(smear_error_kind(smear_begin(small.ctx, &frame)), SMEAR_ERR_ARG);
 }
 
 static void test_memory_of_layers_is_small(void)
 {
     const smear_desc desc = { .width = 240, .height = 240, .tile = 16, .reach = 12, .max_triangles = 600, .max_draws = 8,
-                              .format = SMEAR_RGB565, .methods = SMEAR_SET_LAYERS, .flush = keep_band };
+                              .format = SMEAR_RGB565, .methods = SMEAR_SET_LAYERS, .flush = take_band };
     const size_t need = smear_memory_size(&desc);
     CHECK(need > 0 && need <= 209u * 1024u);
 }
