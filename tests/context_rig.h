@@ -57,6 +57,9 @@ int rig_frame(struct rig *r, const smear_frame *frame, const smear_draw *draw, i
 uint8_t *rig_copy(struct rig *r, const smear_frame *frame, const smear_draw *draw, int count);
 bool same_picture(const struct rig *r, const uint8_t *picture);
 
+/* Its picture of 32 bits as 3 bytes per pixel: red, green, blue. */
+void rig_rgb(const struct rig *r, uint8_t *rgb);
+
 /* How far two pictures of so many pixels of 32 bits are from each other: root of the mean square, codes. */
 double rms_of(const void *a, const void *b, int pixels);
 

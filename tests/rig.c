@@ -143,6 +143,13 @@ bool same_picture(const struct rig *r, const uint8_t *picture)
     return true;
 }
 
+void rig_rgb(const struct rig *r, uint8_t *rgb)
+{
+    const uint32_t *pixel = (const uint32_t *)(const void *)r->picture;
+    for (int i = 0; i < 3 * r->desc.width * r->desc.height; i++)
+        rgb[i] = (uint8_t)(pixel[i / 3] >> (16 - 8 * (i % 3)));
+}
+
 double rms_of(const void *a, const void *b, int pixels)
 {
     const uint32_t *one = (const uint32_t *)a, *other = (const uint32_t *)b;

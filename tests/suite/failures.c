@@ -2,8 +2,6 @@
 /* failures.c - pictures and measures of the failure catalogue; see failures.h. */
 #include "tests/suite/failures.h"
 
-#include "tests/host.h"
-
 /* One line per column of the table. */
 const struct fail_method fail_method[METHODS] = {
     [NONE] = {"none", SMEAR_NONE, 0, 0, 0},
@@ -44,47 +42,6 @@ struct present_options fail_options(const struct subject *s, const struct fail_m
     present.weights = method->weights;
     present.pingpong.spread = method->spread;
     return present;
-}
-
-static int take_band(void *user, const smear_band *band)
-{
-    const struct canvas *canvas = user;
-    for (int y = 0; y < band->height; y++) {
-        const uint32_t *row = (const uint32_t *)band->pixels + (size_t)y * (band->stride / 4);
-        uint8_t *out = canvas->rgb + 3 * (size_t)(band->y + y) * (size_t)canvas->width;
-        for (int x = 0; x < canvas->width; x++, out += 3) {
-            out[0] = (uint8_t)(row[x] >> 16);
-            out[1] = (uint8_t)(row[x] >> 8);
-            out[2] = (uint8_t)row[x];
-        }
-    }
-    return 0;
-}
-
-static smear_context *context_for(const struct presented *p, int width, int height,
-                                  struct canvas *canvas, void **memory)
-{
-    smear_desc desc = presented_desc(p, width, height);
-    smear_context *ctx = NULL;
-    desc.reach = FAIL_REACH;
-    desc.tile = FAIL_TILE;
-    desc.format = SMEAR_XRGB8888;
-    desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
-    desc.max_triangles *= 5;
-    desc.max_draws += 4;        /* more may come in later frames */
-    desc.flush = take_band;
-    desc.user = canvas;
-    size_t bytes = smear_memory_size(&desc);
-    *memory = bytes != 0 ? malloc(bytes) : NULL;
-    if (*memory == NULL || smear_init(&ctx, &desc, *memory, bytes) != SMEAR_OK)
-        return NULL;
-    return ctx;
-}
-
-static int draw(const struct presented *p, smear_context *ctx)
-{
-    int result = presented_submit(p, ctx);
-    return result == SMEAR_OK ? smear_render(ctx) : result;
 }
 
 static const struct presented *present(struct subject *s, const struct present_options *options)
@@ -181,15 +138,14 @@ bool reel_open(struct reel *reel, const char *scene)
     if (!subject_open(&reel->subject, scene))
         return false;
     const struct subject *s = &reel->subject;
-    reel->canvas = (struct canvas){
-        .width = s->width, .rgb = malloc((size_t)s->width * (size_t)s->height * 3)};
-    return CHECK(reel->canvas.rgb != NULL);
+    reel->rgb = malloc((size_t)s->width * (size_t)s->height * 3);
+    return CHECK(reel->rgb != NULL);
 }
 
 void reel_close(struct reel *reel)
 {
-    free(reel->memory);
-    free(reel->canvas.rgb);
+    rig_end(&reel->rig);
+    free(reel->rgb);
     if (reel->subject.presenter != NULL)
         subject_close(&reel->subject);
     *reel = (struct reel){0};
@@ -205,10 +161,21 @@ bool reel_frame(struct reel *reel, const struct fail_method *method, double fram
     const struct presented *p = present(s, &options);
     if (p == NULL)
         return false;
-    if (reel->ctx == NULL)
-        reel->ctx = context_for(p, s->width, s->height, &reel->canvas, &reel->memory);
-    if (reel->ctx == NULL || draw(p, reel->ctx) != SMEAR_OK)
+    if (reel->rig.ctx == NULL) {
+        smear_desc desc = presented_desc(p, s->width, s->height);
+        desc.reach = FAIL_REACH;
+        desc.tile = FAIL_TILE;
+        desc.format = SMEAR_XRGB8888;
+        desc.methods |= SMEAR_SET(SMEAR_RECONSTRUCT);
+        desc.max_triangles *= 5;
+        desc.max_draws += 4;        /* more may come in later frames */
+        if (!rig_begin(&reel->rig, &desc, false))
+            return false;
+    }
+    rig_forget_output(&reel->rig);
+    if (presented_submit(p, reel->rig.ctx) != SMEAR_OK || smear_render(reel->rig.ctx) != SMEAR_OK)
         return broken(s, "the library does not draw the frame");
+    rig_rgb(&reel->rig, reel->rgb);
     return true;
 }
 

@@ -11,6 +11,7 @@
 #ifndef SMEAR_TESTS_FAILURES_H
 #define SMEAR_TESTS_FAILURES_H
 
+#include "tests/context_rig.h"
 #include "tests/ref/accuracy.h"
 
 #include "tools/scenes/failures.h"
@@ -92,19 +93,12 @@ bool fail_look(struct subject *s, const struct present_options *present, struct 
 
 enum { FAIL_INSTANTS = 256 };
 
-/* Where the library's bands go. */
-struct canvas {
-    int width;
-    uint8_t *rgb;               /* 3 per pixel */
-};
-
 /* Frames in turn through one context, used as firmware uses it: draws have ids, the library keeps
  * their poses. */
 struct reel {
     struct subject subject;
-    smear_context *ctx;
-    void *memory;
-    struct canvas canvas;       /* holds the last frame */
+    struct rig rig;
+    uint8_t *rgb;               /* 3 per pixel, of the last frame */
 };
 
 bool reel_open(struct reel *reel, const char *scene);

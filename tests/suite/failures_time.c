@@ -35,7 +35,7 @@ static bool pair_frame(struct pair *p, const struct fail_method *method, int fra
 
 static int pair_difference(const struct pair *p, struct area area)
 {
-    return fail_difference(&p->sharp.subject, p->blurred.canvas.rgb, p->sharp.canvas.rgb, area);
+    return fail_difference(&p->sharp.subject, p->blurred.rgb, p->sharp.rgb, area);
 }
 
 /* Draws frames 0 to `last`; difference[i] is that of frame i within the area. */
@@ -66,7 +66,7 @@ static double reach_of_jump(const struct reel *reel)
     double farthest = 0.0;
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++) {
-            const uint8_t *p = reel->canvas.rgb + 3 * ((size_t)y * (size_t)s->width + (size_t)x);
+            const uint8_t *p = reel->rgb + 3 * ((size_t)y * (size_t)s->width + (size_t)x);
             double away = fmax(fabs(fail_x(s, x) - 64), fabs(fail_y(s, y))) - FAIL_JUMP_HALF;
             if (abs(p[0] - p[1]) > 2 && away > farthest)
                 farthest = away;

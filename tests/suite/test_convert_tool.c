@@ -131,9 +131,7 @@ static bool draw_actor(smear_actor *actor, const smear_camera *camera, smear_met
     RIG(r, &desc, false);
     const bool ok = CHECK_EQ(smear_begin(r.ctx, &frame), SMEAR_OK) && CHECK_EQ(smear_actor_submit(actor, r.ctx), SMEAR_OK)
                  && CHECK_EQ(smear_render(r.ctx), SMEAR_OK);
-    const uint32_t *pixel = (const uint32_t *)(const void *)r.picture;
-    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
-        rgb[i] = (uint8_t)(pixel[i / 3] >> (16 - 8 * (i % 3)));
+    rig_rgb(&r, rgb);
     return ok;
 }
 
