@@ -14,8 +14,8 @@ static bool turns(const struct smear_draw_poses *p, const struct smear_shot *sho
         || smear_lines_turn(shot, p->object[at.open], p->object[at.middle], 128, 1);
 }
 
-/* Finds where a camera is seen from an object, without its scales. */
-static void see_from(smear_transform *out, const smear_transform *camera, const smear_transform *object)
+/* Finds where a camera is seen from an object, without its scales; false where its axes are askew. */
+static bool see_from(smear_transform *out, const smear_transform *camera, const smear_transform *object)
 {
     struct smear_axes axes = { { { 0 } }, false, false };
     smear_axes_find(&axes, object);
@@ -27,6 +27,7 @@ static void see_from(smear_transform *out, const smear_transform *camera, const 
         }
         out->origin[i] = narrow_sat(origin >> 16);
     }
+    return axes.are_square;
 }
 
 /* Whether something is farther than an eighth of all that a camera sees, or than 128 near planes where that has no end. */
@@ -75,7 +76,8 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
         return false;
     for (int i = 0; i < 3; i++) {
         camera[i] = *p->camera[i];
-        see_from(&camera[i].pose, &p->camera[i]->pose, p->object[i]);
+        if (!see_from(&camera[i].pose, &p->camera[i]->pose, p->object[i]))
+            return false;
     }
     smear_lines_make_flow(&lines->own[draw], shot, w, camera);
     smear_draw_poses_place(&place, p, shot, mesh, &lines->mover_instant[0]);
