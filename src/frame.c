@@ -89,9 +89,7 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     if (rows_have_sky(rows))
         aim_sky(c);
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
-    /* One instant is drawn as if nothing moved, but where what moves is not to be kept, or has edges of its own. */
-    c->assembler.keep_paths = smear_method_is_temporal(method)
-                           && !(temporal_is_sharp(&c->temporal) && c->damage == NULL && c->frame.edges == SMEAR_EDGES_HARD);
+    c->assembler.keep_paths = smear_method_is_temporal(method);
     c->assembler.lines = frame_has_lines(c);
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;

@@ -117,6 +117,24 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
         }
 }
 
+/* Of what is as near the first wins, and what stands still is before what moves. */
+static void test_one_instant_shows_the_same_of_what_is_as_near(void)
+{
+    for (int samples = 1; samples <= 2; samples++) {
+        struct pair p OWNED(pair_end);
+        struct set s;
+        set_up(&s, SMEAR_SUBFRAMES);
+        s.frame.samples = (uint16_t)samples;
+        s.pose[1] = pose_at(0, 0, -5, 0, 0);
+        s.mesh[1] = square;
+        if (pair_begin(&p, desc_of(400, true)))
+            for (int i = 0; i < 4; i++) {
+                s.pose[0] = pose_at(0.2 * i, 0.3, -5, 0, 0);
+                kept(&p, &s);
+            }
+    }
+}
+
 /* A filter's window has rows that go round within a tile row: all that is looked at is looked at there, too. */
 static void test_a_window_changes_no_picture(void)
 {
