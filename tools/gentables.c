@@ -8,13 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Values of a line: as many as 110 columns take. */
+/* Values of a line: as many eights as 128 columns take. */
 static int line_values(const uint32_t *value, int count)
 {
+    uint32_t most = 99;
+    int width = 4;      /* "99, " */
     for (int i = 0; i < count; i++)
-        if (value[i] > 9999)
-            return 8;
-    return 16;
+        for (; value[i] > most; most = most * 10 + 9)
+            width++;
+    return 128 / width & -8;
 }
 
 /* `more`: what its length is beside its values. */
