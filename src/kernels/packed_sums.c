@@ -7,17 +7,20 @@
 
 /* ------------------------------------------------------------------ sums */
 
+/* Reads and writes the sums of those pixels only that add to them: the barrier keeps compilers from reading ahead. */
 void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
 {
+    const uint32_t mask = all ? UINT32_MAX : 0;
     for (int32_t i = 0; i < n; i++) {
-        const uint32_t c = color[i];
-        if (c == background[i] && !all)
+        const uint32_t c = color[i], behind = background[i];
+        if (((c ^ behind) | mask) == 0)
             continue;
+        SMEAR_KEEP_BRANCH();
         struct packed_sum s = packed_sum_at(&sums, i);
+        color[i] = behind;
         s.rb += c & 0xff00ffu;
         s.gn += (c >> 8 & 0xffu) + 0x10000u;
         packed_sum_put(&sums, i, s);
-        color[i] = background[i];
     }
 }
 
@@ -34,24 +37,16 @@ SMEAR_INLINE void add4(uint32_t *color, const uint32_t *background, uint32_t *rb
 }
 
 /* The last round may take some pixels again: they look like the background by then. */
-static void add_vector(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, int32_t n, bool all)
+void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
 {
     int32_t i = 0;
     const smear_v4u may_skip = v4u_all(all ? 0 : UINT32_MAX);
     for (; i + 4 <= n; i += 4)
-        add4(color + i, background + i, rb + i, gn + i, may_skip);
-    if (i < n && n >= 4 && !all) {
-        add4(color + n - 4, background + n - 4, rb + n - 4, gn + n - 4, may_skip);
-        return;
-    }
-    for (; i < n; i++) {
-        const uint32_t c = color[i], behind = background[i];
-        if (c != behind || all) {
-            color[i] = behind;
-            rb[i] += c & 0xff00ffu;
-            gn[i] += (c >> 8 & 0xffu) + 0x10000u;
-        }
-    }
+        add4(color + i, background + i, sums.rb + i, sums.gn + i, may_skip);
+    if (i < n && n >= 4 && !all)
+        add4(color + n - 4, background + n - 4, sums.rb + n - 4, sums.gn + n - 4, may_skip);
+    else if (i < n)
+        smear_packed_add_reference(color + i, background + i, packed_sums_from(sums, i), n - i, all);
 }
 
 #elif PACKED_ASM_ARMV6M
@@ -110,95 +105,15 @@ static void add_armv6m(uint32_t *color, const uint32_t *background, struct packe
         : "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
 }
 /* clang-format on */
-#endif
-
-#if !SMEAR_VECTORS
-/* Reads and writes the sums of those pixels only that add to them: the barrier keeps compilers from reading ahead. */
-static void add_lazy(uint32_t *color, const uint32_t *background, struct packed_sum *sum, int32_t n, bool all)
-{
-    const uint32_t mask = all ? UINT32_MAX : 0;
-    for (const uint32_t *end = background + n; background != end; color++, sum++) {
-        const uint32_t c = *color, behind = *background++;
-        if (((c ^ behind) | mask) != 0) {
-            SMEAR_KEEP_BRANCH();
-            struct packed_sum s = *sum;
-            *color = behind;
-            s.rb += c & 0xff00ffu;
-            s.gn += (c >> 8 & 0xffu) + 0x10000u;
-            *sum = s;
-        }
-    }
-}
-#endif
-
-#if SMEAR_ASM_ARM
-/* clang-format off */
-/* Adds pixel C to the sum in RB and GN where it is not BEHIND, which is lost. */
-#define PACKED_ARM_ADD(C, BEHIND, RB, GN)         \
-    "cmp " C ", " BEHIND "\n\t"                   \
-    "andne " BEHIND ", r12, " C "\n\t"            \
-    "addne " RB ", " RB ", " BEHIND "\n\t"        \
-    "movne " BEHIND ", " C ", lsr #8\n\t"         \
-    "andne " BEHIND ", " BEHIND ", #0xff\n\t"     \
-    "addne " GN ", " GN ", " BEHIND "\n\t"        \
-    "addne " GN ", " GN ", #0x10000\n\t"
-
-/* Two pixels a round: slow memory takes four words of sums in four fifths of the time of single ones. */
-static void add_arm(uint32_t *color, const uint32_t *background, struct packed_sum *sum, const uint32_t *end)
-{
-    register uint32_t *r0 __asm__("r0") = color;
-    register const uint32_t *r1 __asm__("r1") = background;
-    register struct packed_sum *r2 __asm__("r2") = sum;
-    register const uint32_t *r3 __asm__("r3") = end;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "mov r12, #0xff\n\t"
-        "orr r12, r12, #0xff0000\n"
-        "1: cmp r1, r3\n\t"
-        "bhs 3f\n\t"
-        "ldm r0, {r4, r5}\n\t"
-        "ldm r1!, {r6, r7}\n\t"
-        "cmp r4, r6\n\t"
-        "cmpeq r5, r7\n\t"
-        "beq 2f\n\t"
-        "stm r0!, {r6, r7}\n\t"
-        "ldm r2, {r8, r9, r10, r11}\n\t"
-        PACKED_ARM_ADD("r4", "r6", "r8", "r9")
-        PACKED_ARM_ADD("r5", "r7", "r10", "r11")
-        "stm r2!, {r8, r9, r10, r11}\n\t"
-        "b 1b\n"
-        "2: add r0, r0, #8\n\t"
-        "add r2, r2, #16\n\t"
-        "b 1b\n"
-        "3:"
-        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
-        :
-        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "cc", "memory");
-}
-/* clang-format on */
-#endif
 
 void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
 {
-#if SMEAR_VECTORS
-    add_vector(color, background, sums.rb, sums.gn, n, all);
-#else
-#if PACKED_ASM_ARMV6M
-    if (!all) {
+    if (all)
+        smear_packed_add_reference(color, background, sums, n, true);
+    else
         add_armv6m(color, background, sums.pair, n);
-        return;
-    }
-#elif SMEAR_ASM_ARM
-    if (!all) {
-        const int32_t odd = n & 1;
-        add_lazy(color, background, sums.pair, odd, false);
-        add_arm(color + odd, background + odd, sums.pair + odd, background + n);
-        return;
-    }
-#endif
-    add_lazy(color, background, sums.pair, n, all);
-#endif
 }
+#endif
 
 #if PACKED_ASM_ARMV6M
 /* 13 instructions a pixel, 8 of the background. */

@@ -12,6 +12,13 @@
 
 enum { PACKED_INSTANTS_MAX = 256 };
 
+/* The assembly needs Thumb's high registers, which GCC keeps to itself where size counts. */
+#ifdef __OPTIMIZE_SIZE__
+#define PACKED_ASM_ARMV6M 0
+#else
+#define PACKED_ASM_ARMV6M SMEAR_ASM_ARMV6M
+#endif
+
 struct packed_sum {
     uint32_t rb;                /* red << 16 | blue */
     uint32_t gn;                /* instants << 16 | green */
@@ -80,13 +87,10 @@ static inline struct packed_sums packed_sums_from(struct packed_sums s, int32_t 
 /* Adds n >= 1 pixels to their sums and makes them background again: those that differ from it, or all of them. `color`
  * and `background` do not overlap; their upper eight bits are 0. */
 void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
+#if SMEAR_VECTORS || PACKED_ASM_ARMV6M
 void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
-
-/* The assembly needs Thumb's high registers, which GCC keeps to itself where size counts. */
-#ifdef __OPTIMIZE_SIZE__
-#define PACKED_ASM_ARMV6M 0
 #else
-#define PACKED_ASM_ARMV6M SMEAR_ASM_ARMV6M
+#define smear_packed_add smear_packed_add_reference
 #endif
 
 /* Sums are set by the first instant rather than emptied before, where nothing faster adds. */
@@ -120,11 +124,7 @@ void smear_packed_means_reference(uint32_t *color, const struct packed_sum *sum,
 #if PACKED_ASM_ARMV6M
 void smear_packed_means(uint32_t *color, const struct packed_sum *sum, int32_t n, const struct packed_mean *m);
 #else
-static inline void smear_packed_means(uint32_t *color, const struct packed_sum *sum, int32_t n,
-                                      const struct packed_mean *m)
-{
-    smear_packed_means_reference(color, sum, n, m);
-}
+#define smear_packed_means smear_packed_means_reference
 #endif
 
 #endif
