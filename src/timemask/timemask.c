@@ -145,20 +145,6 @@ static void pose_at(struct timemask_pose *p, const struct job *j, const struct m
     }
 }
 
-/* Returns the samples of a run in which a fragment is nearer than the background, where both meet: `begin` is how much
- * nearer it is in sample `from`, in 1/32, and 2 `slope` how that changes per sample. */
-static uint32_t samples_before_background(int32_t begin, int32_t slope, int32_t from, int32_t count)
-{
-    int32_t end = begin + 2 * slope * (count - 1);
-    if (begin > 0 && end > 0)
-        return UINT32_MAX >> (32 - count) << from;
-    if (begin <= 0 && end <= 0)
-        return 0;
-    int32_t before = clamp_i32(-begin / (2 * slope), 0, count - 2) + 1;     /* samples before they meet */
-    return begin > 0 ? UINT32_MAX >> (32 - before) << from
-                     : UINT32_MAX >> (32 - (count - before)) << (from + before);
-}
-
 /* How depth codes follow from units q4, below and from code 32768. */
 struct code_slope {
     int32_t add, shift;
@@ -194,8 +180,7 @@ static void paint(struct job *j, const struct timemask_cover *c, const struct pa
             struct timemask_fragment f;
             f.mask = timemask_below(p->first + to) ^ timemask_below(p->first + from);
             if (code - reach <= behind) {
-                f.mask = samples_before_background((code - behind) * 32 - slope * (to - from - 1), slope, p->first + from,
-                                                   to - from);
+                f.mask = smear_timemask_nearer((code - behind) * 32, slope, f.mask, 2 * p->first + from + to - 1);
                 if (f.mask == 0)
                     continue;
             }

@@ -135,6 +135,10 @@ static inline int32_t timemask_slope_of(uint32_t color)
     return (int32_t)color < 0 ? -size : size;
 }
 
+/* Returns the samples of `both` in which a is nearer than b, where their courses may cross: `depth` is a's less b's in 1/32, in the sample
+ * of which twice the number is given; `slope` is a's slope less b's. */
+uint32_t smear_timemask_nearer(int32_t depth, int32_t slope, uint32_t both, int32_t twice_middle);
+
 /* Adds what is seen. */
 void smear_timemask_samples_add(struct timemask_samples *b, uint32_t pixel, struct timemask_fragment f);
 
@@ -182,21 +186,13 @@ void smear_timemask_shade(struct timemask_shade *s, const struct smear_raster_fr
 /* Returns the colour of a pixel of the block over a run. */
 uint32_t smear_timemask_color(const struct timemask_shade *s, int32_t y, uint32_t run);
 
-/* floor(a time / 64) for any a. */
-static inline int32_t timemask_part(int32_t a, int32_t time)
-{
-    if (SMEAR_HAS_MUL64)
-        return mul_shift(a, time, TIMEMASK_TIME_LOG2);
-    const int32_t below = (1 << TIMEMASK_TIME_LOG2) - 1;
-    return add_wrap(mul_wrap(a >> TIMEMASK_TIME_LOG2, time), (a & below) * time >> TIMEMASK_TIME_LOG2);
-}
-
 /* Returns the value at pixel (x, y) of the block at a time. */
 static inline int32_t timemask_value(const struct timemask_timed *p, int32_t x, int32_t y, int32_t time)
 {
     const struct timemask_plane at = { p->at, p->dx, p->dy }, change = { p->change, p->change_dx, p->change_dy };
     return add_wrap(timemask_plane_at(&at, x, y),
-                    timemask_part(add_wrap(timemask_plane_at(&change, x, y), timemask_part(p->curve, time)), time));
+                    mul_shift(add_wrap(timemask_plane_at(&change, x, y), mul_shift(p->curve, time, TIMEMASK_TIME_LOG2)), time,
+                              TIMEMASK_TIME_LOG2));
 }
 
 static inline int32_t timemask_middle(const struct timemask_shade *s, uint32_t run)

@@ -41,12 +41,10 @@ uint32_t smear_timemask_slope(int32_t slope)
     return sign | (uint32_t)exponent << 3 | (size >> (exponent - 1) & 7u);
 }
 
-/* Slots of `both` in which a is nearer than b, where their courses may cross: `depth` is a's in the middle of
- * the exposure less b's, in 1/32, `slope` a's slope less b's. */
-static SMEAR_NOINLINE uint32_t nearer_samples(int32_t depth, int32_t slope, uint32_t both, int32_t last_sample)
+SMEAR_NOINLINE uint32_t smear_timemask_nearer(int32_t depth, int32_t slope, uint32_t both, int32_t twice_middle)
 {
     int32_t first = 31 - count_leading_zeros(both & (0u - both)), last = 31 - count_leading_zeros(both);
-    int32_t begin = depth + slope * (2 * first - last_sample), end = depth + slope * (2 * last - last_sample);
+    int32_t begin = depth + slope * (2 * first - twice_middle), end = depth + slope * (2 * last - twice_middle);
     if (begin > 0 && end > 0)
         return both;
     if (begin <= 0 && end <= 0)
@@ -170,7 +168,7 @@ static void contest(struct timemask_samples *b, uint32_t pixel, const struct tim
             int32_t turn = f->slope - timemask_slope_of(b->color[at]), most = abs_i32(turn) * last_sample;
             uint32_t taken = deeper > most   ? both
                            : deeper <= -most ? 0
-                                             : nearer_samples(deeper, turn, both, last_sample);
+                                             : smear_timemask_nearer(deeper, turn, both, last_sample);
             mask &= ~both | taken;
             b->held[at] &= ~taken;
             if (b->held[at] == 0) {     /* the last one takes its place */
