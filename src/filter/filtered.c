@@ -47,11 +47,6 @@ static struct smear_row_table row_table(const struct smear_filtered *f, int row,
     return (struct smear_row_table){ f->row_offset, filtered_top(f, row) - f->window->reach, y0, y1 };
 }
 
-static bool is_static(const struct smear_window *w, int row, int column)
-{
-    return window_around(w, row)[column].kind == TILE_STATIC;
-}
-
 /* Whether blocks are blurred along lines. */
 static inline bool goes_along_lines(const struct smear_filtered *f) { return SMEAR_WITH_FILTERS && f->lines; }
 
@@ -126,7 +121,7 @@ static uint32_t filter_half(const struct filter_job *r, uint32_t *tile, int colu
     const struct smear_filtered *f = r->filtered;
     const struct smear_window *w = f->window;
     const int row = r->row.row;
-    if (is_static(w, row, column)) {
+    if (window_around(w, row)[column].kind == TILE_STATIC) {
         const struct smear_row_table rows = row_table(f, row, r->row.y0, r->row.y1);
         smear_blur_copy(tile, &r->row.rows->window, &rows, column);
         return 0;

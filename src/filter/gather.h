@@ -52,19 +52,10 @@ static inline uint32_t weighed_mean(const struct weighed_sum *s, smear_transfer 
                           smear_srgb_encode[min_u32(blue, 4095u)]);
     }
     /* 8 bits more: brought to 20 bits, times 12 bits, in q23. */
-    int down = 20 - zeros;
-    uint32_t r12 = r >> 18, half = 1u << 22;
-    uint32_t red, green, blue;
-    if (down >= 0) {
-        red = s->r >> down;
-        green = s->g >> down;
-        blue = s->b >> down;
-    } else {
-        red = s->r << -down;
-        green = s->g << -down;
-        blue = s->b << -down;
-    }
-    return pixel_make(0, (red * r12 + half) >> 23, (green * r12 + half) >> 23, (blue * r12 + half) >> 23);
+    const int down = max_i32(20 - zeros, 0), up = max_i32(zeros - 20, 0);
+    const uint32_t r12 = r >> 18, half = 1u << 22;
+    return pixel_make(0, ((s->r << up >> down) * r12 + half) >> 23, ((s->g << up >> down) * r12 + half) >> 23,
+                      ((s->b << up >> down) * r12 + half) >> 23);
 }
 
 /* ------------------------------------------------------------------ even sums */

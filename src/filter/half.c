@@ -105,23 +105,17 @@ void smear_half_blend(uint32_t *out, const uint32_t *blurred, const struct smear
             int32_t right = min_i32(x + 1, full->width - 1), count_x = min_i32(2, x1 - x),
                     count_y = min_i32(2, y1 - y);
             const int32_t at[4] = { upper + x, upper + right, lower + x, lower + right };
-            uint32_t sharp = before[x >> 1], blur = blurred[(x - x0) >> 1], own[4], mixed[4] = { 0, 0, 0, 0 };
+            uint32_t own[4], mixed[4] = { 0, 0, 0, 0 };
             struct shares share[4];
-            bool is_static = sharp == blur;
             for (int i = 0; i < 4; i++) {
                 own[i] = full->color[at[i]];
                 share[i] = shares_of(full, at[i]);
-                is_static = is_static && share[i].both == 256;
             }
-            const uint32_t *shown = own;
-            if (!is_static) {
-                for (int shift = 0; shift < 24; shift += 8)
-                    blend_channel(mixed, own, blur, sharp, share, shift);
-                shown = mixed;
-            }
+            for (int shift = 0; shift < 24; shift += 8)
+                blend_channel(mixed, own, blurred[(x - x0) >> 1], before[x >> 1], share, shift);
             for (int32_t j = 0; j < count_y; j++)
                 for (int32_t i = 0; i < count_x; i++)
-                    out[j * tile + x - x0 + i] = shown[2 * j + i];
+                    out[j * tile + x - x0 + i] = mixed[2 * j + i];
         }
     }
 }

@@ -157,7 +157,7 @@ static void displacement_between(const struct setup *s, int32_t x, int32_t y, in
 
 /* A displacement between two poses, q8 px, times `scale` (q16) is half the exposure's, q16 px. It is brought within the
  * reach: the direction is kept. */
-static void velocity_store(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
+static void velocity_make(const int32_t displacement[2], int32_t scale, int32_t reach_q3, int32_t out[2])
 {
     for (int i = 0; i < 2; i++)
         out[i] = narrow_sat(mul_wide(displacement[i], scale) >> 8);
@@ -179,24 +179,13 @@ static void velocity_store(const int32_t displacement[2], int32_t scale, int32_t
 
 static void stored_velocity(const struct setup *s, const int32_t displacement[2], int32_t out[2])
 {
-    velocity_store(displacement, s->frame->velocity_scale, s->frame->reach_q3, out);
-}
-
-static inline void velocity_write(const struct smear_raster_target *t, int32_t at, int32_t x, int32_t y)
-{
-    if (t->velocity8 != NULL) {
-        t->velocity8[2 * at] = (int8_t)x;
-        t->velocity8[2 * at + 1] = (int8_t)y;
-    } else {
-        t->velocity16[2 * at] = (int16_t)x;
-        t->velocity16[2 * at + 1] = (int16_t)y;
-    }
+    velocity_make(displacement, s->frame->velocity_scale, s->frame->reach_q3, out);
 }
 
 void smear_velocity_still(const struct smear_raster_target *t, int32_t at, bool unknown)
 {
     int32_t still = !unknown ? 0 : t->velocity8 != NULL ? SMEAR_VELOCITY_UNKNOWN8 : SMEAR_VELOCITY_UNKNOWN16;
-    velocity_write(t, at, still, still);
+    velocity_store(t->velocity8, t->velocity16, at, still, still);
     if (target_is_inspected(t))
         t->inspect[2 * at] = t->inspect[2 * at + 1] = 0;
 }
@@ -260,7 +249,7 @@ void smear_span_velocity(const struct setup *s, const struct span *p)
         int32_t vx = stored[0], vy = stored[1], ix = here[0] * 64 + 32, iy = here[1] * 64 + 32;
         for (; x < stop; x++, at++, z += (uint32_t)p->dz) {
             if (is_drawn(p, x - p->a, z, depth)) {
-                velocity_write(t, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
+                velocity_store(t->velocity8, t->velocity16, at, (vx + 0x1000) >> 13, (vy + 0x1000) >> 13);
                 if (target_is_inspected(t)) {
                     t->inspect[2 * at] = mul_shift(ix, s->frame->inspect_scale, 22);
                     t->inspect[2 * at + 1] = mul_shift(iy, s->frame->inspect_scale, 22);
@@ -296,7 +285,7 @@ static struct kept velocity_of(const struct smear_reprojection *r, const struct 
 {
     int32_t displacement[2], stored[2];
     smear_reproject(r, x2, y2, smear_depth_units((uint16_t)code), displacement);
-    velocity_store(displacement, store->velocity_scale, store->reach_q3, stored);
+    velocity_make(displacement, store->velocity_scale, store->reach_q3, stored);
     struct kept k = { (stored[0] + 0x1000) >> 13, (stored[1] + 0x1000) >> 13, 0, 0 };
     if (SMEAR_WITH_DEBUG && store->inspect != NULL) {
         k.wide_x = narrow_sat(mul_wide(displacement[0], store->inspect_scale) >> 16);

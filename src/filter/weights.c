@@ -270,22 +270,15 @@ void smear_blur_copy(uint32_t *out, const struct smear_window *w, const struct s
         __builtin_memcpy(out, w->color + window_ring_row(w, y) * w->width + x0, (size_t)(x1 - x0) * sizeof *out);
 }
 
-/* The taps of a pixel: n / 2 pairs at the midpoints of n equal parts of [-v, v], all in q16 px. */
-struct uniform_taps {
-    int32_t first_x, first_y;   /* of the innermost pair: v / n */
-    int32_t step_x, step_y;     /* from pair to pair: 2 v / n */
-};
-
-/* Takes the mean of n taps. Where things that move with the camera may be in front (`held`), a tap that meets one, static and nearer,
- * counts as the pixel itself. */
+/* Takes the mean of n taps at the midpoints of n equal parts of [-v, v], where `step` is 2 v / n in q16 px. Where things that move with
+ * the camera may be in front (`held`), a tap that meets one, static and nearer, counts as the pixel itself. */
 static uint32_t mean_along(const struct smear_window *w, const uint32_t *row_offset, uint32_t at, int32_t x, int32_t y,
-                           const struct uniform_taps *taps, int32_t n, uint32_t over, const struct smear_blur_settings *settings)
+                           struct vector step, int32_t n, uint32_t over, const struct smear_blur_settings *settings)
 {
-    int32_t dx = -taps->first_x - (n / 2 - 1) * taps->step_x,
-            dy = -taps->first_y - (n / 2 - 1) * taps->step_y;
+    int32_t dx = -(step.x >> 1) - (n / 2 - 1) * step.x, dy = -(step.y >> 1) - (n / 2 - 1) * step.y;
     const bool held = SMEAR_WITH_FILTERS && settings->held;
     struct even_sum sum = { 0, 0, 0, 0, 0 };
-    for (int32_t i = n; i > 0; i--, dx += taps->step_x, dy += taps->step_y) {
+    for (int32_t i = n; i > 0; i--, dx += step.x, dy += step.y) {
         const int32_t column = clamp_i32(((x << 16) + 0x8000 + dx) >> 16, 0, w->width - 1);
         uint32_t tap = row_offset[((y << 16) + 0x8000 + dy) >> 16] + (uint32_t)column;
         if (held && w->depth[tap] > w->depth[at] && window_velocity_word(w, tap) == 0)
@@ -318,10 +311,8 @@ uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w, const s
                 out[x - x0] = w->color[at];
                 continue;
             }
-            struct uniform_taps taps = { .step_x = v.x * (int32_t)(over >> 8) >> 2, .step_y = v.y * (int32_t)(over >> 8) >> 2 };
-            taps.first_x = taps.step_x >> 1;
-            taps.first_y = taps.step_y >> 1;
-            out[x - x0] = mean_along(w, rows->offset, at, x, y - rows->first, &taps, n, over, settings);
+            const struct vector step = { v.x * (int32_t)(over >> 8) >> 2, v.y * (int32_t)(over >> 8) >> 2 };
+            out[x - x0] = mean_along(w, rows->offset, at, x, y - rows->first, step, n, over, settings);
             taken += (uint32_t)n;
         }
     }

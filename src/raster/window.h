@@ -101,15 +101,20 @@ static inline uint32_t window_velocity_word(const struct smear_window *w, uint32
     return velocity_word(w->velocity8, w->velocity16, at);
 }
 
+static inline void velocity_store(int8_t *narrow, int16_t *wide, int32_t at, int32_t x, int32_t y)
+{
+    if (narrow != NULL) {
+        narrow[2 * at] = (int8_t)x;
+        narrow[2 * at + 1] = (int8_t)y;
+    } else {
+        wide[2 * at] = (int16_t)x;
+        wide[2 * at + 1] = (int16_t)y;
+    }
+}
+
 static inline void window_velocity_store(const struct smear_window *w, int32_t at, int32_t x, int32_t y)
 {
-    if (w->velocity8 != NULL) {
-        w->velocity8[2 * at] = (int8_t)x;
-        w->velocity8[2 * at + 1] = (int8_t)y;
-    } else {
-        w->velocity16[2 * at] = (int16_t)x;
-        w->velocity16[2 * at + 1] = (int16_t)y;
-    }
+    velocity_store(w->velocity8, w->velocity16, at, x, y);
 }
 
 #endif
