@@ -55,32 +55,3 @@ uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index)
         return find_composed(l, t);
     return remember(l, t, in_codes(l, t));
 }
-
-#if TEXEL_TABLES
-/* A code in the light of one channel. */
-static uint32_t lit_code(const struct texel_light *l, uint32_t code, uint32_t light)
-{
-    return SMEAR_WITH_LINEAR && l->linear ? smear_srgb_encode[smear_srgb_decode[code] * light >> 20]
-                                          : code_times(code, light);
-}
-
-static uint32_t part_of_pixel(const struct texel_light *l, uint32_t pixel)
-{
-    return l->narrow ? rgb565_nearest(pixel) : pixel;
-}
-
-void smear_texel_light_table(struct texel_table *table, const struct texel_light *l)
-{
-    const bool is_565 = l->format == SMEAR_TEXEL_565;
-    const uint32_t five = is_565 ? 32 : 256, six = is_565 ? 64 : 256;
-    for (uint32_t i = 0; i < five; i++) {
-        const uint32_t code = is_565 ? (i * 527u + 23u) >> 6 : i;
-        table->red[i] = part_of_pixel(l, pixel_make(0, lit_code(l, code, l->red), 0, 0));
-        table->blue[i] = part_of_pixel(l, lit_code(l, code, l->blue));
-    }
-    for (uint32_t i = 0; i < six; i++) {
-        const uint32_t code = is_565 ? (i * 259u + 33u) >> 6 : i;
-        table->green[i] = part_of_pixel(l, pixel_make(0, 0, lit_code(l, code, l->green), 0));
-    }
-}
-#endif

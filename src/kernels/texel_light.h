@@ -20,15 +20,6 @@ SMEAR_INLINE uint32_t texel_fetch(const void *texels, const uint32_t *palette, u
     return pixel_make(255, (r * 527u + 23u) >> 6, (g * 259u + 33u) >> 6, (b * 527u + 23u) >> 6);
 }
 
-/* What each level of a channel becomes in a light, as a part of a pixel. Worth it where many pixels show other texels than
- * those before them. */
-struct texel_table {
-    uint32_t red[256], green[256], blue[256];
-};
-
-/* Tables take 3 kB of stack: for machines that have it. */
-#define TEXEL_TABLES (UINTPTR_MAX > 0xffffffffu)
-
 /* Light that is the same throughout a triangle, its texture, and the last texel with the pixel that it became: where
  * textures are magnified, most pixels look like those before them. */
 struct texel_light {
@@ -45,7 +36,6 @@ struct texel_light {
     bool narrow;                        /* pixels are RGB565 */
     bool linear;
     bool composed;                      /* linear, or in fog: not what most texels become */
-    const struct texel_table *table;    /* or null */
     uint32_t fog;                       /* 0x00RRGGBB, of which pixels have so much of 65536 */
     int32_t fog_part;
     uint32_t clear, fog_pair, fog_green;    /* of 256; what fog adds to red and blue, and to green, 8 bits more */
@@ -66,7 +56,6 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->format = format;
     l->narrow = narrow;
     l->linear = l->composed = SMEAR_WITH_LINEAR && linear;
-    l->table = NULL;
     l->fog_part = 0;
     l->from_v = 32u - (uint32_t)log2_height - (uint32_t)log2_width;
     l->mask_v = ((1u << log2_height) - 1u) << log2_width;
@@ -99,26 +88,10 @@ static inline void texel_light_fog(struct texel_light *l, int32_t part)
 /* Returns the pixel of another texel than the last one. Rarely called, where textures are magnified. */
 uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index);
 
-/* Makes the table of a light. */
-void smear_texel_light_table(struct texel_table *table, const struct texel_light *l);
-
-/* The pixel of a texel, by the table if `tables` and there is one. */
-SMEAR_INLINE uint32_t texel_light_pixel(struct texel_light *l, uint32_t index, bool tables)
+/* The pixel of a texel. */
+SMEAR_INLINE uint32_t texel_light_pixel(struct texel_light *l, uint32_t index)
 {
-    if (index == l->index)
-        return l->pixel;
-    if (!TEXEL_TABLES || !tables || l->table == NULL)
-        return smear_texel_light_find(l, index);
-    const struct texel_table *const k = l->table;
-    l->index = index;
-    if (l->format == SMEAR_TEXEL_565) {
-        const uint32_t t = ((const uint16_t *)l->texels)[index];
-        l->pixel = k->red[t >> 11] | k->green[t >> 5 & 63u] | k->blue[t & 31u];
-    } else {
-        const uint32_t t = texel_fetch(l->texels, l->palette, index, l->format);
-        l->pixel = k->red[pixel_red(t)] | k->green[pixel_green(t)] | k->blue[pixel_blue(t)];
-    }
-    return l->pixel;
+    return index == l->index ? l->pixel : smear_texel_light_find(l, index);
 }
 
 #endif

@@ -174,9 +174,9 @@ SMEAR_INLINE void texel_put(void *color, int32_t i, const void *texels, struct t
     else if (kind == TEXELS_WIDE)
         ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
     else if (kind == TEXELS_LIT_NARROW)
-        ((uint16_t *)color)[i] = (uint16_t)texel_light_pixel(light, index, true);
+        ((uint16_t *)color)[i] = (uint16_t)texel_light_pixel(light, index);
     else
-        ((uint32_t *)color)[i] = texel_light_pixel(light, index, false);
+        ((uint32_t *)color)[i] = texel_light_pixel(light, index);
 }
 
 /* One pixel, where it is nearer. */

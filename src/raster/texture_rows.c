@@ -515,23 +515,6 @@ SMEAR_INLINE void draw_curves(const struct setup *s, const struct span_rows *r, 
     }
 }
 
-/* Whether rows have so many pixels that a table for their light is worth it, of 32 and 64 levels. */
-static bool rows_are_many(const struct span_rows *r)
-{
-    int32_t pixels = 0;
-    for (int32_t i = 0; i < r->count; i++)
-        pixels += max_i32(r->side[i].right - r->side[i].left, 0);
-    return pixels >= 256;
-}
-
-#define LIGHT_TABLE(LIGHT, R) \
-    struct texel_table table; \
-    if (TEXEL_TABLES && !(SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) && (LIGHT).narrow && (LIGHT).format == SMEAR_TEXEL_565 \
-        && rows_are_many(R)) { \
-        smear_texel_light_table(&table, &(LIGHT)); \
-        (LIGHT).table = &table; \
-    }
-
 #define BLOCK_ROWS(NAME, LOG2_WIDTH, LOG2_HEIGHT, KIND) \
     static void rows_##NAME(const struct setup *s, const struct span_rows *r) \
     { \
@@ -552,7 +535,6 @@ static bool rows_are_many(const struct span_rows *r)
         struct row_list list; \
         struct texel_light light; \
         light_start(&light, s); \
-        LIGHT_TABLE(light, r) \
         draw_blocks(s, r, &list, &light, ANY_WIDTH, ANY_HEIGHT, KIND); \
         if (list.count != 0) \
             draw_places(s, r, &list, &light); \
@@ -561,7 +543,6 @@ static bool rows_are_many(const struct span_rows *r)
     { \
         struct texel_light light; \
         light_start(&light, s); \
-        LIGHT_TABLE(light, r) \
         draw_curves(s, r, &light, ANY_WIDTH, ANY_HEIGHT, KIND); \
     }
 #define ANY_WIDTH  s->draw->sampler.log2_width

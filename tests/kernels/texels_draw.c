@@ -42,13 +42,6 @@ SMEAR_INLINE void call(struct kernel_call *c, enum texel_kind kind, int log2_wid
     light.red = pixel_red(c->word[LIGHT]) * (is_linear ? 257u : 1u);
     light.green = pixel_green(c->word[LIGHT]) * (is_linear ? 257u : 1u);
     light.blue = pixel_blue(c->word[LIGHT]) * (is_linear ? 257u : 1u);
-#if TEXEL_TABLES
-    struct texel_table table;
-    if ((c->word[LIGHT] >> 25 & 1u) != 0 && draw != texels_draw_reference) {
-        smear_texel_light_table(&table, &light);
-        light.table = &table;
-    }
-#endif
     texel_run_start(&run, log2_width, log2_height);
 #if TEXELS_PACKED
     run.uv = packed_uv(c->word[U], c->word[V]);
