@@ -68,15 +68,9 @@ SMEAR_INLINE bool hidden_box_lanes(const pixel_word *depth, ptrdiff_t stride, in
     }
     return true;
 }
-#endif
-
-SMEAR_INLINE bool hidden_box(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
-{
-#if SMEAR_VECTORS
-    return hidden_box_lanes(depth, stride, n, rows, half);
+#define hidden_box hidden_box_lanes
 #else
-    return hidden_box_unrolled(depth, stride, n, rows, half);
+#define hidden_box hidden_box_unrolled
 #endif
-}
 
 #endif

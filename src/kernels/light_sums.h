@@ -46,19 +46,12 @@ uint32_t smear_light_most(uint32_t instants);
 void smear_light_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                                const struct light_instant *instant, bool all);
 #if SMEAR_VECTORS
+#define smear_light_add smear_light_add_vector
 void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
                             const struct light_instant *instant, bool all);
-#endif
-
-static inline void smear_light_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                                   const struct light_instant *instant, bool all)
-{
-#if SMEAR_VECTORS
-    smear_light_add_vector(color, background, sums, n, instant, all);
 #else
-    smear_light_add_reference(color, background, sums, n, instant, all);
+#define smear_light_add smear_light_add_reference
 #endif
-}
 
 /* How the sums at a pixel and at its taps become its mean: weights in q16, which add up to one. */
 struct light_mean {
@@ -77,18 +70,11 @@ struct light_mean smear_light_mean(uint32_t full, int32_t pairs, uint32_t unit, 
 void smear_light_means_reference(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                                  const struct light_mean *mean, enum gap_cover cover);
 #if SMEAR_VECTORS
+#define smear_light_means smear_light_means_vector
 void smear_light_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
                               const struct light_mean *mean, enum gap_cover cover);
-#endif
-
-static inline void smear_light_means(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_pairs *taps,
-                                     const struct light_mean *mean, enum gap_cover cover)
-{
-#if SMEAR_VECTORS
-    smear_light_means_vector(p, at, n, taps, mean, cover);
 #else
-    smear_light_means_reference(p, at, n, taps, mean, cover);
+#define smear_light_means smear_light_means_reference
 #endif
-}
 
 #endif

@@ -38,15 +38,9 @@ static inline int32_t next_step_vector(const uint32_t *a, const uint32_t *b, int
         i += 4;
     return next_step_reference(a, b, i, n, least);
 }
-#endif
-
-static inline int32_t next_step(const uint32_t *a, const uint32_t *b, int32_t i, int32_t n, int32_t least)
-{
-#if SMEAR_VECTORS
-    return next_step_vector(a, b, i, n, least);
+#define next_step next_step_vector
 #else
-    return next_step_reference(a, b, i, n, least);
+#define next_step next_step_reference
 #endif
-}
 
 #endif

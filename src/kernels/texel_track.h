@@ -231,7 +231,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, du) == 4 && offsetof(struct texel
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r12", "lr", "cc", "memory")
 
 /* 115 instructions, and 150 where blocks are bent: half of the compiler's. */
-static SMEAR_NOINLINE void texel_track_next_armv6m(struct texel_track *k)
+SMEAR_CALLED void texel_track_next_armv6m(struct texel_track *k)
 {
     register struct texel_track *r0 __asm__("r0") = k;
     if (k->parabolic)
@@ -241,7 +241,7 @@ static SMEAR_NOINLINE void texel_track_next_armv6m(struct texel_track *k)
         ARMV6M_TRACK("76", "80", "84", "", "", "", "", ARMV6M_WHOLE_SLOPE);
 }
 
-static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_t n)
+SMEAR_CALLED void texel_track_part_armv6m(struct texel_track *k, int32_t n)
 {
     register struct texel_track *r0 __asm__("r0") = k;
     k->n = n;
@@ -252,25 +252,12 @@ static SMEAR_NOINLINE void texel_track_part_armv6m(struct texel_track *k, int32_
     else
         ARMV6M_TRACK("116", "120", "124", "", "", "", ARMV6M_PART_TIMES, ARMV6M_PART_SLOPE);
 }
-#endif
-
-static inline void texel_track_next(struct texel_track *k)
-{
-#if SMEAR_ASM_ARMV6M
-    texel_track_next_armv6m(k);
+#define texel_track_next texel_track_next_armv6m
+#define texel_track_part texel_track_part_armv6m
 #else
-    texel_track_next_reference(k);
+#define texel_track_next texel_track_next_reference
+#define texel_track_part texel_track_part_reference
 #endif
-}
-
-static inline void texel_track_part(struct texel_track *k, int32_t n)
-{
-#if SMEAR_ASM_ARMV6M
-    texel_track_part_armv6m(k, n);
-#else
-    texel_track_part_reference(k, n);
-#endif
-}
 
 /* Functions of their own where registers are few: the loops over pixels take them all. The assembly is a function. */
 #if SMEAR_ON_64

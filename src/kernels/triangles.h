@@ -246,17 +246,10 @@ SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct sme
     seen &= large | (smear_v4i)(covered != 0);
     out->seen = v4i_signs(seen);
 }
-#endif
-
-SMEAR_INLINE void triangles_look(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
-                                 const struct triangles_setup *s)
-{
-#if SMEAR_VECTORS
-    triangles_vector(out, place, index, s);
+#define triangles_look triangles_vector
 #else
-    triangles_reference(out, place, index, s);
+#define triangles_look triangles_reference
 #endif
-}
 
 /* ------------------------------------------------------------------ indices */
 
@@ -294,15 +287,9 @@ static inline struct index_range indices_range_vector(const uint16_t *index, int
     }
     return r;
 }
-#endif
-
-static inline struct index_range indices_range(const uint16_t *index, int32_t n)
-{
-#if SMEAR_VECTORS
-    return indices_range_vector(index, n);
+#define indices_range indices_range_vector
 #else
-    return indices_range_reference(index, n);
+#define indices_range indices_range_reference
 #endif
-}
 
 #endif
