@@ -19,20 +19,13 @@ static int line_values(const uint32_t *value, int count)
     return 128 / width & -8;
 }
 
-/* `more`: what its length is beside its values. */
-static void print_long_table(const char *comment, const char *type, const char *name, const uint32_t *value, int count,
-                             const char *more)
+static void print_table(const char *comment, const char *type, const char *name, const uint32_t *value, int count)
 {
     const int per_line = line_values(value, count);
-    printf("\n/* %s */\nconst %s %s[%d%s] = {", comment, type, name, count, more);
+    printf("\n/* %s */\nconst %s %s[%d] = {", comment, type, name, count);
     for (int i = 0; i < count; i++)
         printf("%s%u,", i % per_line == 0 ? "\n    " : " ", value[i]);
     printf("\n};\n");
-}
-
-static void print_table(const char *comment, const char *type, const char *name, const uint32_t *value, int count)
-{
-    print_long_table(comment, type, name, value, count, "");
 }
 
 static void print_signed_table(const char *comment, const char *name, const uint32_t *value, int count)
@@ -165,7 +158,7 @@ int main(void)
 
     for (int i = 0; i < 4096; i++)
         t[i] = (uint32_t)floor(255 * srgb_encode((i + 0.5) / 4096) + 0.5);
-    print_long_table("linear light >> 4 to sRGB code", "uint8_t", "smear_srgb_encode", t, 4096, " + SMEAR_TABLE_TAIL");
+    print_table("linear light >> 4 to sRGB code", "uint8_t", "smear_srgb_encode", t, 4096);
 
     for (uint32_t i = 0; i < 256; i++) {        /* as light_sums.c has it: products of 16 bits */
         const uint32_t high = (i * i * (((i << 8) * 2501 >> 16) + 5742) >> 16) + 23,

@@ -7,7 +7,7 @@
 
 extern const uint16_t smear_recip_seed[512];    /* fixmath.h */
 extern const uint16_t smear_srgb_decode[256];   /* code to linear light, 65535 is one */
-extern const uint8_t smear_srgb_encode[4096 + SMEAR_TABLE_TAIL];    /* linear light >> 4 to code */
+extern const uint8_t smear_srgb_encode[4096];   /* linear light >> 4 to code */
 extern const uint16_t smear_srgb_light[256];    /* code to linear light, 4095 is one, nearly: light_sums.h */
 extern const uint8_t smear_sqrt_q3[1024];       /* 8 sqrt(i), at most 255 */
 extern const int8_t smear_sine[256];            /* 127 sin(i 2 pi / 256) */

@@ -101,13 +101,6 @@
 /* 1 where words of 64 bits are those of the core. */
 #define SMEAR_ON_64 (UINTPTR_MAX > 0xffffffffu)
 
-/* Bytes behind a table of bytes of which lanes read words. */
-#ifdef __x86_64__
-#define SMEAR_TABLE_TAIL 4
-#else
-#define SMEAR_TABLE_TAIL 0
-#endif
-
 /* Clang would call functions that are nowhere for atomic words of ARMv6-M (jobs.h). */
 #if SMEAR_GNU && defined(__clang__) && defined(__ARM_ARCH_6M__) && !defined(SMEAR_BARRIER)
 #define SMEAR_BARRIER __asm__ volatile ("dmb" : : : "memory")
