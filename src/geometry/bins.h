@@ -36,7 +36,7 @@ enum { POINT_X, POINT_Y, POINT_DEPTH };      /* pixel and depth code of a point 
 struct smear_path_bounds {
     int16_t x0, y0, x1, y1; /* pixels of the frame whose centres may be covered */
     uint16_t travel;        /* the longest travel of a vertex from open to close, 1/16 px, saturated */
-    uint16_t curvature;     /* the largest path_curvature of a vertex, 1/16 px, saturated */
+    uint16_t curvature;     /* the largest of a vertex, 1/16 px, saturated: |open + close - 2 middle| along x or y */
     uint16_t nearest;       /* depth code that is not exceeded */
     uint8_t flags;          /* PATH_TEXTURED ... */
     uint8_t space;          /* bit k: vertex k moves along a path in space (space.h); PATH_REVERSED */

@@ -59,6 +59,16 @@ void smear_part_within(struct smear_part *p, const struct smear_assembler *a)
     p->as.path_static_count = p->as.triangles_drawn = p->as.triangles_dropped = 0;
 }
 
+/* Empties a part's rings, three of each row. */
+static void place_rings(struct smear_part *p, const struct smear_bins *g, uint32_t *ring, size_t rows)
+{
+    for (size_t i = 0; i < 3 * rows; i++)
+        ring[i] = SMEAR_NO_TRIANGLE;
+    p->bins.opaque_last = ring;
+    p->bins.blend_last = ring + rows;
+    p->bins.moving_last = g->moving_last != NULL ? ring + 2 * rows : NULL;
+}
+
 bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, void *memory, size_t bytes)
 {
     struct smear_arena arena = { (uint8_t *)memory, 0 };
@@ -71,11 +81,7 @@ bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, voi
     if (arena.used + APART_WORDS_LEAST * 4 > bytes)
         return false;
     smear_assembler_reset(&p->as);
-    for (size_t i = 0; i < 3 * rows; i++)
-        ring[i] = SMEAR_NO_TRIANGLE;
-    p->bins.opaque_last = ring;
-    p->bins.blend_last = ring + rows;
-    p->bins.moving_last = a->bins->moving_last != NULL ? ring + 2 * rows : NULL;
+    place_rings(p, a->bins, ring, rows);
     p->bins.pool_words = (uint32_t)((bytes - arena.used) / 16 * 4);
     p->bins.pool = arena_take(&arena, p->bins.pool_words, 4);
     return true;
@@ -189,11 +195,7 @@ void smear_part_in_pool(struct smear_part *part, const struct smear_assembler *a
     p->segment = p->bins.segment_count = segment;
     if (k != 0)
         part[k - 1].bins.segment_limit = segment;
-    for (uint32_t i = 0; i < 3 * rows; i++)
-        ring[i] = SMEAR_NO_TRIANGLE;
-    p->bins.opaque_last = ring;
-    p->bins.blend_last = ring + rows;
-    p->bins.moving_last = g->moving_last != NULL ? ring + 2 * rows : NULL;
+    place_rings(p, g, ring, rows);
     smear_assembler_reset(&p->as);
 }
 

@@ -104,16 +104,6 @@ static inline void path_at(int32_t out[3], const int32_t *record, const struct s
     path_place(out, record, record + s->motion, path_phase(time));
 }
 
-/* Returns twice the distance of the middle from the chord, in q8 px: |open + close - 2 middle|, the larger of x and
- * y. */
-static inline int32_t path_curvature(const int32_t *record, const struct smear_segment *s)
-{
-    const int32_t *open = record + s->motion, *close = open + PATH_POSE_WORDS;
-    int32_t x = open[PATH_X] + close[PATH_X] - 2 * record[VERTEX_X];
-    int32_t y = open[PATH_Y] + close[PATH_Y] - 2 * record[VERTEX_Y];
-    return max_i32(x < 0 ? -x : x, y < 0 ? -y : y);
-}
-
 /* Makes the samples of a shutter whose openness is given at SMEAR_SHUTTER_POINTS even steps over the exposure, with
  * straight lines between; null is a box. Returns false where it is closed throughout. */
 bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness);

@@ -160,10 +160,8 @@ static void object_poses(struct smear_draw_poses *p, const struct smear_shot *sh
         p->object[1] = d->open;
     if (shot_spans_exposure(shot) && d->close != NULL)
         p->object[2] = d->close;
-    if (shot_spans_exposure(shot)) {
-        if (d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
-            p->position[2] = d->close_position;
-    }
+    if (shot_spans_exposure(shot) && d->close_position != NULL && (d->close_count == 0 || d->close_count == d->mesh->vertex_count))
+        p->position[2] = d->close_position;
     if (SMEAR_WITH_SCALES && shot->object_scale != 256)
         scale_object(p, shot->object_scale, shot_is_curved(shot));
 }

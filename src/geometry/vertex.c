@@ -6,13 +6,6 @@
 #include "geometry/clip.h"
 #include "geometry/path.h"
 
-/* Triples of indices; of each vertex a colour of four bytes and a normal of three, or null. */
-struct even_faces {
-    const uint16_t *index;
-    uint32_t triangles, vertices;
-    const uint8_t *normal, *color;
-};
-
 /* Compares without a loop or branch. */
 static inline bool even_normal(const uint8_t *a, const uint8_t *b)
 {
@@ -25,23 +18,6 @@ static inline bool even_color(const uint8_t *a, const uint8_t *b)
     __builtin_memcpy(&first, a, sizeof first);
     __builtin_memcpy(&second, b, sizeof second);
     return first == second;
-}
-
-/* False, too, if an index is too large. */
-static inline bool even_faces(const struct even_faces *f)
-{
-    const uint8_t *normal = f->normal, *color = f->color;
-    const uint16_t *index = f->index, *const end = index + 3 * f->triangles;
-    for (; index < end; index += 3) {
-        const uint32_t a = index[0], b = index[1], c = index[2];
-        if (max_u32(a, max_u32(b, c)) >= f->vertices)
-            return false;
-        if (normal != NULL && !(even_normal(normal + 3 * a, normal + 3 * b) && even_normal(normal + 3 * a, normal + 3 * c)))
-            return false;
-        if (color != NULL && !(even_color(color + 4 * a, color + 4 * b) && even_color(color + 4 * a, color + 4 * c)))
-            return false;
-    }
-    return true;
 }
 
 enum { FLAT_CODES = 3 };       /* triangles whose channels differ by no more are of one colour */
@@ -182,12 +158,24 @@ struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const stru
     return s;
 }
 
+/* False, too, if an index is too large. */
 bool smear_vertex_is_flat(const smear_mesh *mesh, bool lit)
 {
-    const struct even_faces faces = {
-        mesh->index, mesh->triangle_count, mesh->vertex_count, lit ? (const uint8_t *)mesh->normal : NULL, mesh->color
-    };
-    return (faces.normal != NULL || faces.color != NULL) && even_faces(&faces);
+    const uint8_t *const normal = lit ? (const uint8_t *)mesh->normal : NULL, *const color = mesh->color;
+    const uint16_t *index = mesh->index, *const end = index + 3 * mesh->triangle_count;
+    const uint32_t vertices = mesh->vertex_count;
+    if (normal == NULL && color == NULL)
+        return false;
+    for (; index < end; index += 3) {
+        const uint32_t a = index[0], b = index[1], c = index[2];
+        if (max_u32(a, max_u32(b, c)) >= vertices)
+            return false;
+        if (normal != NULL && !(even_normal(normal + 3 * a, normal + 3 * b) && even_normal(normal + 3 * a, normal + 3 * c)))
+            return false;
+        if (color != NULL && !(even_color(color + 4 * a, color + 4 * b) && even_color(color + 4 * a, color + 4 * c)))
+            return false;
+    }
+    return true;
 }
 
 /* Returns the cosine of the light at a vertex with a normal, or at its back. */

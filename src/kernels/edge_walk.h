@@ -256,11 +256,4 @@ SMEAR_INLINE void edge_right(struct span_side *side, struct edge_walk *edge, int
     *edge = e;
 }
 
-/* Both sides of n > 0 rows. */
-static inline void edge_sides(struct span_side *side, struct edge_walk *left, struct edge_walk *right, int32_t n, int32_t width)
-{
-    edge_left(side, left, n);
-    edge_right(side, right, n, width);
-}
-
 #endif

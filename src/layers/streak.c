@@ -98,26 +98,25 @@ static inline int32_t passes(const struct smear_streak *s, int32_t i)
     return s->slope * i;
 }
 
-/* Returns the first step at which a line is at or beyond `side` in its direction; `bias` rounds its places. */
-static int32_t step_to(const struct smear_streak *s, int32_t side, int32_t bias)
+/* Returns the first step at which a line is at or beyond `side` in its direction. */
+static int32_t step_to(const struct smear_streak *s, int32_t side)
 {
     int32_t rest;
     if (s->slope > 0)
-        return divide_floor(side * 65536 - bias + s->slope - 1, s->slope, &rest);
-    return divide_floor(bias - (side + 1) * 65536, -s->slope, &rest) + 1;
+        return divide_floor(side * 65536 + s->slope - 1, s->slope, &rest);
+    return divide_floor(-(side + 1) * 65536, -s->slope, &rest) + 1;
 }
 
 /* Narrows steps [*first, *end) to those at which a line from `start` is within [low, high) across. */
-static void steps_within(const struct smear_streak *s, int32_t start, int32_t low, int32_t high, int32_t bias,
-                         int32_t *first, int32_t *end)
+static void steps_within(const struct smear_streak *s, int32_t start, int32_t low, int32_t high, int32_t *first, int32_t *end)
 {
     if (s->slope == 0) {
         if (start < low || start >= high)
             *end = *first;
         return;
     }
-    *first = max_i32(*first, step_to(s, (s->slope > 0 ? low : high - 1) - start, bias));
-    *end = min_i32(*end, step_to(s, (s->slope > 0 ? high : low - 1) - start, bias));
+    *first = max_i32(*first, step_to(s, (s->slope > 0 ? low : high - 1) - start));
+    *end = min_i32(*end, step_to(s, (s->slope > 0 ? high : low - 1) - start));
 }
 
 /* ------------------------------------------------------------------ sums and means along a line */
@@ -191,7 +190,7 @@ static void add_line(const struct part *m, int32_t start)
     const int32_t n = 1 << s->node;
     /* Only nodes within the part's places count. */
     int32_t first = m->first, end = m->first + ((m->nodes - 1) << s->node) + 1;
-    steps_within(s, start, m->low - 1, m->high, 0, &first, &end);
+    steps_within(s, start, m->low - 1, m->high, &first, &end);
     first = (first + n - 1) & -n;
     const int32_t from = max_i32(first - s->half - 1, s->upright ? 0 : m->a->group->x0);
     const int32_t to = min_i32(end + s->half + 1, s->upright ? m->a->rows : m->a->group->x1);

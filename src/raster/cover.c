@@ -237,7 +237,8 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
         int32_t stop = sides_part(&d, g.rows.y);
         while (g.rows.y < stop) {
             int32_t n = min_i32(min_i32(stop - g.rows.y, SPAN_ROWS), s->target->window_rows.ring - g.ring_row);
-            edge_sides(g.rows.side, &d.left, &d.right, n, s->frame->width);
+            edge_left(g.rows.side, &d.left, n);
+            edge_right(g.rows.side, &d.right, n, s->frame->width);
             g.rows.count = n;
             g.ring_row += n;
             gather_draw(&g, s, draw);

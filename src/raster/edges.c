@@ -160,12 +160,8 @@ static inline void move(struct moved *m, const struct smear_bins *g, const struc
 static inline bool find_bounds(struct bounds *b, const struct smear_bins *g, const struct smear_triangle *t, int k)
 {
     const struct smear_segment *s = &g->segment[t->segment];
-    const int32_t *v0 = bins_vertex(g, s, t->vertex[0]), *v1 = bins_vertex(g, s, t->vertex[1]),
-                  *v2 = bins_vertex(g, s, t->vertex[2]);
-    b->x0 = min_i32(v0[VERTEX_X], min_i32(v1[VERTEX_X], v2[VERTEX_X])) + place[k][0];
-    b->y0 = min_i32(v0[VERTEX_Y], min_i32(v1[VERTEX_Y], v2[VERTEX_Y])) + place[k][1];
-    b->x1 = max_i32(v0[VERTEX_X], max_i32(v1[VERTEX_X], v2[VERTEX_X])) + place[k][0];
-    b->y1 = max_i32(v0[VERTEX_Y], max_i32(v1[VERTEX_Y], v2[VERTEX_Y])) + place[k][1];
+    const struct bounds own = bounds_of(bins_vertex(g, s, t->vertex[0]), bins_vertex(g, s, t->vertex[1]), bins_vertex(g, s, t->vertex[2]));
+    *b = (struct bounds){ own.x0 + place[k][0], own.y0 + place[k][1], own.x1 + place[k][0], own.y1 + place[k][1] };
     return ((b->x0 + 127) >> 8) < ((b->x1 + 127) >> 8) && ((b->y0 + 127) >> 8) < ((b->y1 + 127) >> 8);
 }
 

@@ -18,13 +18,10 @@ static inline void draw_point(const struct smear_raster_frame *frame,
                               const struct smear_raster_target *target, const struct smear_triangle *t,
                               bool moved)
 {
-    int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y] - target->y0;
-    if (x < target->x0 || x >= target->x1 || (uint32_t)y >= (uint32_t)(target->y1 - target->y0))
+    const int32_t x = t->vertex[POINT_X], y = t->vertex[POINT_Y];
+    if (x < target->x0 || x >= target->x1 || y < target->y0 || y >= target->y1)
         return;
-    int32_t ring_row = target->window_rows.ring_row + y;
-    if (ring_row >= target->window_rows.ring)
-        ring_row -= target->window_rows.ring;
-    int32_t at = ring_row * target->window_rows.stride + x - target->window_rows.x0;
+    const int32_t at = target_row(&target->window_rows, target, y) + x;
     if (t->vertex[POINT_DEPTH] <= target->depth[at])
         return;
     target->depth[at] = t->vertex[POINT_DEPTH];
@@ -94,14 +91,6 @@ static SMEAR_NOINLINE const uint32_t *draw_numbered_points(const struct points_p
 static inline bool has_levels(const struct setup *s)
 {
     return SMEAR_WITH_TEXTURE && SMEAR_WITH_BOUNDS && segment_textured(s->segment) && s->draw->sampler.levels != 0;
-}
-
-static inline struct bounds bounds_of(const int32_t *const v[3])
-{
-    return (struct bounds){ min_i32(v[0][VERTEX_X], min_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-                            min_i32(v[0][VERTEX_Y], min_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])),
-                            max_i32(v[0][VERTEX_X], max_i32(v[1][VERTEX_X], v[2][VERTEX_X])),
-                            max_i32(v[0][VERTEX_Y], max_i32(v[1][VERTEX_Y], v[2][VERTEX_Y])) };
 }
 
 static inline void start(struct setup *s, const struct smear_raster_frame *frame, const struct smear_raster_target *target,
@@ -195,7 +184,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
                                     const struct bounds *given)
 {
     const struct smear_raster_target *const target = p->target;
-    const struct bounds bounds = given != NULL ? *given : bounds_of(v);
+    const struct bounds bounds = given != NULL ? *given : bounds_of(v[0], v[1], v[2]);
     const int32_t left = (bounds.x0 + 127) >> 8, right = (bounds.x1 + 127) >> 8;
     const int32_t top = (bounds.y0 + 127) >> 8, bottom = (bounds.y1 + 127) >> 8;
     const int32_t most = segment_textured(p->segment) ? (int32_t)FEW_PX : (int32_t)SMALL_PX;

@@ -84,6 +84,14 @@ struct bounds {
     int32_t x0, y0, x1, y1;
 };
 
+static inline struct bounds bounds_of(const int32_t *v0, const int32_t *v1, const int32_t *v2)
+{
+    return (struct bounds){ min_i32(v0[VERTEX_X], min_i32(v1[VERTEX_X], v2[VERTEX_X])),
+                            min_i32(v0[VERTEX_Y], min_i32(v1[VERTEX_Y], v2[VERTEX_Y])),
+                            max_i32(v0[VERTEX_X], max_i32(v1[VERTEX_X], v2[VERTEX_X])),
+                            max_i32(v0[VERTEX_Y], max_i32(v1[VERTEX_Y], v2[VERTEX_Y])) };
+}
+
 /* What stays the same for the frame. */
 struct smear_raster_draw {          /* one per draw, indexed by smear_segment.draw */
     struct smear_sampler sampler;
