@@ -5,7 +5,6 @@
 #define SMEAR_KERNELS_FLAT_LINES_ARMV7EM_H
 
 #include "kernels/flat_lines.h"
-#include "kernels/flat_run.h"
 
 #if SMEAR_ASM_ARMV7EM
 
@@ -13,6 +12,81 @@ SMEAR_STATIC_ASSERT(offsetof(struct flat_lines, step) == 16 && offsetof(struct f
                         && offsetof(struct flat_lines, dz) == 40 + 12 && offsetof(struct flat_lines, row) == 40 + 24
                         && offsetof(struct flat_lines, color) == 40 + 28,
                     "the assembly knows struct flat_lines");
+
+/* Pixels are in r0, depths in r1, z in r2, dz in r3, the colour in r7. */
+
+/* The last pixel. */
+#define FLAT_ARMV7EM_LAST(STORE) \
+    "lsrs r4, r2, #16\n\t"       \
+    "ldrh r5, [r1]\n\t"          \
+    "cmp r5, r4\n\t"             \
+    "bhs 9f\n\t"                 \
+    "strh r4, [r1]\n\t"          \
+    STORE " r7, [r0]\n"          \
+    "9:\n\t"
+
+/* Two pixels, if both are seen; else at SLOW. Halves of r5 are 0 where the old depth is not less, and so is their product where one
+ * of them is. */
+#define FLAT_ARMV7EM_PAIR(STORE_TWO, SLOW) \
+    "adds r4, r2, r3\n\t"                  \
+    "pkhtb r4, r4, r2, asr #16\n\t"        \
+    "ldr r5, [r1], #4\n\t"                 \
+    "uqsub16 r5, r4, r5\n\t"               \
+    "add r2, r2, r3, lsl #1\n\t"           \
+    "smulbt r6, r5, r5\n\t"                \
+    "cbz r6, " SLOW "f\n\t"                \
+    "str r4, [r1, #-4]\n\t" STORE_TWO
+
+/* Two pixels of which one at most is seen. */
+#define FLAT_ARMV7EM_SLOW_NARROW \
+    "cbz r5, 9f\n\t"             \
+    "ldr r5, [r1, #-4]\n\t"      \
+    "usub16 r6, r5, r4\n\t"      \
+    "sel r4, r5, r4\n\t"         \
+    "str r4, [r1, #-4]\n\t"      \
+    "ldr r5, [r0]\n\t"           \
+    "sel r5, r5, r7\n\t"         \
+    "str r5, [r0]\n"             \
+    "9: adds r0, #4\n\t"
+
+#define FLAT_ARMV7EM_SLOW_WIDE   \
+    "cbz r5, 9f\n\t"             \
+    "lsls r6, r5, #16\n\t"       \
+    "itt ne\n\t"                 \
+    "strne r7, [r0]\n\t"         \
+    "strhne r4, [r1, #-4]\n\t"   \
+    "lsrs r4, r4, #16\n\t"       \
+    "lsrs r6, r5, #16\n\t"       \
+    "itt ne\n\t"                 \
+    "strne r7, [r0, #4]\n\t"     \
+    "strhne r4, [r1, #-2]\n"     \
+    "9: adds r0, #8\n\t"
+
+/* The pixels of a row, whose number, one at least, is in COUNT; then comes NEXT, which is 8. COLOR brings the colour, ELSE is anything
+ * that others go to. r8 has two less than what is left of rounds of four: odd where a last one is left. */
+#define FLAT_ARMV7EM_PIXELS(COUNT, COLOR, NEXT, ELSE, STORE, STORE_TWO, SLOW) \
+    "sub r8, " COUNT ", #2\n\t"                                         \
+    "lsls r6, " COUNT ", #31\n\t"                                       \
+    COLOR                                                               \
+    "bcs 4f\n\t"                                                        \
+    "cmp r8, #0\n\t"                                                    \
+    "blt 5f\n"                                                          \
+    "3: " FLAT_ARMV7EM_PAIR(STORE_TWO, "6")                             \
+    "4: " FLAT_ARMV7EM_PAIR(STORE_TWO, "7")                             \
+    "subs r8, r8, #4\n\t"                                               \
+    "bge 3b\n"                                                          \
+    "5: lsls r6, r8, #31\n\t"                                           \
+    "beq 8f\n\t"                                                        \
+    FLAT_ARMV7EM_LAST(STORE)                                            \
+    "8: " NEXT                                                          \
+    "b 2f\n"                                                            \
+    "6: " SLOW "b 4b\n"                                                 \
+    "7: " SLOW                                                          \
+    "subs r8, r8, #4\n\t"                                               \
+    "bge 3b\n\t"                                                        \
+    "b 5b\n"                                                            \
+    ELSE                                                                \
+    "2:\n\t"
 
 /* The last instructions of a row: the next, or on to 2. */
 #define FLAT_LINES_NEXT         \
