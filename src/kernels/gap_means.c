@@ -84,22 +84,15 @@ static void sums_uncovered(struct packed_sum *out, const struct packed_sums *sum
     const int32_t *offset = taps->at.offset;
     const int32_t pairs = taps->at.pairs;
     const int unit_log2 = taps->unit_log2;
-    if (pairs <= 1)
-        for (int32_t i = 0; i < n; i++) {
-            const struct packed_sum here = packed_sum_at(sums, at + i);
-            out[i] = (struct packed_sum){ here.rb << unit_log2, here.gn << unit_log2 };
+    for (int32_t i = 0; i < n; i++) {
+        struct packed_sum all = packed_sum_at(sums, at + i);
+        for (int32_t k = 0; k < pairs - 1; k++) {
+            const struct packed_sum a = packed_sum_at(sums, at + i - offset[k]), b = packed_sum_at(sums, at + i + offset[k]);
+            all.rb += a.rb + b.rb;
+            all.gn += a.gn + b.gn;
         }
-    else
-        for (int32_t i = 0; i < n; i++) {
-            struct packed_sum all = packed_sum_at(sums, at + i);
-            for (int32_t k = 0; k < pairs - 1; k++) {
-                const struct packed_sum a = packed_sum_at(sums, at + i - offset[k]),
-                                        b = packed_sum_at(sums, at + i + offset[k]);
-                all.rb += a.rb + b.rb;
-                all.gn += a.gn + b.gn;
-            }
-            out[i] = (struct packed_sum){ all.rb << unit_log2, all.gn << unit_log2 };
-        }
+        out[i] = (struct packed_sum){ all.rb << unit_log2, all.gn << unit_log2 };
+    }
     if (pairs == 0)
         return;
     const uint32_t weight = taps->last;
@@ -269,6 +262,4 @@ void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, c
     smear_gap_means_two_passes(p, &rest, taps, cover);
 }
 #endif
-
-/* ------------------------------------------------------------------ eight pixels at once */
 

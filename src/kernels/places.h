@@ -169,24 +169,18 @@ static inline bool places_vector(struct smear_place out[4], const int16_t v[12],
     v4i_store_columns((int32_t *)(void *)out, x, y, depth, (smear_v4i)first);
     return true;
 }
+#define places_find places_vector
 #else
 struct place_rows {
     const struct place_setup *s;
 };
 
-static inline void place_rows_make(struct place_rows *rows, const struct place_setup *s)
-{
-    rows->s = s;
-}
-#endif
+static inline void place_rows_make(struct place_rows *rows, const struct place_setup *s) { rows->s = s; }
 
 static inline bool places_find(struct smear_place out[4], const int16_t v[12], const struct place_rows *rows)
 {
-#if SMEAR_VECTORS
-    return places_vector(out, v, rows);
-#else
     return places_reference(out, v, rows->s);
-#endif
 }
+#endif
 
 #endif
