@@ -274,4 +274,20 @@ static inline int64_t edges_area(int32_t x1, int32_t y1, int32_t x2, int32_t y2)
     return cross_wide(x1, y1, x2, y2);
 }
 
+/* Finds the first pixel whose centre may be covered, and that behind the last one, of three places q8. */
+static inline void box_span(int32_t *first, int32_t *end, int32_t a, int32_t b, int32_t c)
+{
+    int32_t low = a, high = b;
+    if (b < a) {
+        low = b;
+        high = a;
+    }
+    if (c < low)
+        low = c;
+    else if (c > high)
+        high = c;
+    *first = (low + 127) >> 8;
+    *end = (high + 127) >> 8;
+}
+
 #endif

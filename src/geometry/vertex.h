@@ -340,22 +340,6 @@ struct box {
     int32_t x0, y0, x1, y1;
 };
 
-/* Finds the first pixel whose centre may be covered, and that behind the last one, of three places q8. */
-static inline void box_span(int32_t *first, int32_t *end, int32_t a, int32_t b, int32_t c)
-{
-    int32_t low = a, high = b;
-    if (b < a) {
-        low = b;
-        high = a;
-    }
-    if (c < low)
-        low = c;
-    else if (c > high)
-        high = c;
-    *first = (low + 127) >> 8;
-    *end = (high + 127) >> 8;
-}
-
 static inline struct box box_of(const struct smear_screen *a, const struct smear_screen *b, const struct smear_screen *c)
 {
     struct box box;

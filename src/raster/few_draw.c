@@ -443,9 +443,10 @@ static inline bool few_draw(const struct few_look *l, const struct smear_raster_
 {
     const int32_t x = v[0][VERTEX_X], x1 = v[1][VERTEX_X] - x, x2 = v[2][VERTEX_X] - x;
     const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
-    int32_t left = (x + min_i32(min_i32(x1, x2), 0) + 127) >> 8, right = (x + max_i32(max_i32(x1, x2), 0) + 127) >> 8;
-    int32_t top = (y + min_i32(min_i32(y1, y2), 0) + 127) >> 8, bottom = (y + max_i32(max_i32(y1, y2), 0) + 127) >> 8;
+    int32_t left, right, top, bottom;
     struct few k;
+    box_span(&left, &right, x, v[1][VERTEX_X], v[2][VERTEX_X]);
+    box_span(&top, &bottom, y, v[1][VERTEX_Y], v[2][VERTEX_Y]);
     if (right - left > FEW_PX || bottom - top > FEW_PX)
         return false;
     const bool cut = right > t->x1;

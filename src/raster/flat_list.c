@@ -13,15 +13,13 @@ struct columns {
     int32_t left, right;
 };
 
-static SMEAR_NOINLINE struct columns columns_of(const int32_t *const v[3])
+static SMEAR_NOINLINE struct columns columns_of(const int32_t *const v[3], const struct bounds *given)
 {
-    const int32_t x0 = v[0][VERTEX_X], x1 = v[1][VERTEX_X], x2 = v[2][VERTEX_X];
-    return (struct columns){ (min_i32(x0, min_i32(x1, x2)) + 127) >> 8, (max_i32(x0, max_i32(x1, x2)) + 127) >> 8 };
-}
-
-static inline struct columns columns_within(const struct bounds *b)
-{
-    return (struct columns){ (b->x0 + 127) >> 8, (b->x1 + 127) >> 8 };
+    struct columns c;
+    if (given != NULL)
+        return (struct columns){ (given->x0 + 127) >> 8, (given->x1 + 127) >> 8 };
+    box_span(&c.left, &c.right, v[0][VERTEX_X], v[1][VERTEX_X], v[2][VERTEX_X]);
+    return c;
 }
 
 /* How depths change, as smear_setup has it. */
@@ -238,7 +236,7 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     const int32_t y = max_i32(c.first, t->y0), end = min_i32(c.end, t->y1);
     const bool low = c.end - c.first <= SMALL_PX;
     if (low || !whole) {
-        const struct columns columns = given != NULL ? columns_within(given) : columns_of(v);
+        const struct columns columns = columns_of(v, given);
         if (low && columns.right - columns.left <= SMALL_PX && (columns.right - columns.left) * (c.end - c.first) <= TINY_PIXELS)
             return false;
         if (!whole && max_i32(columns.left, t->x0) >= min_i32(columns.right, t->x1))
