@@ -30,8 +30,7 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
 
 /* Draws the target's rows of a triangle of a list that is kept, of which rows just above were drawn last, in pixels of this kind. False for
  * others. */
-bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bins *bins, const struct smear_triangle *triangle,
-                      uint32_t number);
+bool smear_flat_go_on(const struct smear_raster_target *t, uint32_t number);
 
 /* Darkens what lies behind a shadow's triangle of this colour, which may be tiny. */
 void smear_flat_shadow(const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color, smear_transfer transfer);

@@ -174,7 +174,7 @@ struct kept_flat {
     struct flat_lines lines;    /* of the next row */
     int32_t row;                /* that row */
     int32_t knee;               /* struct corners */
-    uint8_t middle, bottom;     /* corners' numbers */
+    const int32_t *middle, *bottom;
     bool whole_is_left;
 };
 size_t smear_flat_kept_bytes(void) { return sizeof(struct kept_flat); }
@@ -190,8 +190,7 @@ static inline struct kept_flat *flat_slot(const struct smear_raster_target *t, u
     return (struct kept_flat *)(void *)kept_at(&t->cache, second ? n - 1 - at : at);
 }
 
-bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bins *bins, const struct smear_triangle *triangle,
-                      uint32_t number)
+bool smear_flat_go_on(const struct smear_raster_target *t, uint32_t number)
 {
     struct kept_flat *k = flat_slot(t, number, false);
     if (k->kept.triangle != (number | FLAT_KEPT))
@@ -200,9 +199,7 @@ bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bi
         return false;
     k->lines.to_pixels = to_pixels_of(t, k->lines.narrow);      /* a band may have memory of its own */
     k->row = t->y1;
-    const struct smear_segment *const s = &bins->segment[triangle->segment];
-    const struct corners c = { NULL, bins_vertex(bins, s, triangle->vertex[k->middle]), bins_vertex(bins, s, triangle->vertex[k->bottom]),
-                               0, k->knee, k->kept.end, k->whole_is_left };
+    const struct corners c = { NULL, k->middle, k->bottom, 0, k->knee, k->kept.end, k->whole_is_left };
     draw_rows(t, &k->lines, &c, t->y0, min_i32(c.end, t->y1), true);
     if (k->kept.end <= t->y1)
         k->kept.triangle = SMEAR_NO_TRIANGLE;
@@ -210,8 +207,7 @@ bool smear_flat_go_on(const struct smear_raster_target *t, const struct smear_bi
 }
 
 /* Where the lines of one that goes on below are drawn, to be kept; null where others are. */
-static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, const struct corners *c, const int32_t *const v[3],
-                                           uint32_t number)
+static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, const struct corners *c, uint32_t number)
 {
     struct kept_flat *k = flat_slot(t, number, false);
     if (!entry_is_free(&k->kept, t))
@@ -221,8 +217,8 @@ static inline struct flat_lines *keep_rows(const struct smear_raster_target *t, 
     k->kept = (struct kept){ number | FLAT_KEPT, c->end };
     k->row = t->y1;
     k->knee = c->knee;
-    k->middle = (uint8_t)(c->middle == v[0] ? 0 : c->middle == v[1] ? 1 : 2);
-    k->bottom = (uint8_t)(c->bottom == v[0] ? 0 : c->bottom == v[1] ? 1 : 2);
+    k->middle = c->middle;
+    k->bottom = c->bottom;
     k->whole_is_left = c->whole_is_left;
     return &k->lines;
 }
@@ -245,7 +241,7 @@ bool smear_flat_triangle(const struct smear_raster_target *t, const int32_t *con
     if (y >= end)
         return true;
     if (SMEAR_RASTER_CACHE && number != SMEAR_NO_TRIANGLE && c.end > t->y1) {
-        struct flat_lines *const kept = keep_rows(t, &c, v, number);
+        struct flat_lines *const kept = keep_rows(t, &c, number);
         l = kept != NULL ? kept : l;
     }
     lines_start(l, t, color);

@@ -297,7 +297,7 @@ SMEAR_INLINE_ALWAYS void draw_listed(struct smear_raster_pass *p, const struct s
     const struct smear_segment *const segment = &bins->segment[t->segment];
     if (segment != p->segment)
         take_segment(p, segment);
-    if (HAS_FLAT_ROWS && p->goes_on && smear_flat_go_on(p->target, bins, t, number))
+    if (HAS_FLAT_ROWS && p->goes_on && smear_flat_go_on(p->target, number))
         return;
     const int32_t *const v[3] = { bins_vertex(bins, segment, t->vertex[0]), bins_vertex(bins, segment, t->vertex[1]),
                                   bins_vertex(bins, segment, t->vertex[2]) };
