@@ -288,8 +288,8 @@ static inline uint32_t beyond(int32_t at, int32_t w, int32_t size)
     return (uint32_t)((uint64_t)(border + twice) >> 63) | (uint32_t)((uint64_t)(border - twice) >> 63) << 1;
 }
 
-int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport)
+int smear_outcode_behind(struct smear_homogeneous h, const struct smear_viewport *viewport)
 {
     SMEAR_STATIC_ASSERT(OUT_LEFT == 1 && OUT_RIGHT == 2 && OUT_TOP == 4 && OUT_BOTTOM == 8, "sides");
-    return (int)(beyond(h->x, h->w, viewport->width) | beyond(h->y, h->w, viewport->height) << 2);
+    return (int)(beyond(h.x, h.w, viewport->width) | beyond(h.y, h.w, viewport->height) << 2);
 }

@@ -48,9 +48,10 @@ struct smear_viewport {
  * summed one by one: the lower ones have 14 bits, so three products fit. */
 static inline int32_t transform_row(const int32_t m[4], const int16_t v[3], int up)
 {
-    const int32_t x = shl_wrap(v[0], up), y = shl_wrap(v[1], up), z = shl_wrap(v[2], up);
+    const int high_up = SMEAR_HAS_MUL64 ? up + 16 : up;     /* a sum's high word takes no shift */
+    const int32_t x = shl_wrap(v[0], high_up), y = shl_wrap(v[1], high_up), z = shl_wrap(v[2], high_up);
     if (SMEAR_HAS_MUL64)
-        return (int32_t)(((int64_t)x * m[0] + (int64_t)y * m[1] + (int64_t)z * m[2]) >> 16) + m[3];
+        return (int32_t)(((uint64_t)((int64_t)x * m[0]) + (uint64_t)((int64_t)y * m[1]) + (uint64_t)((int64_t)z * m[2])) >> 32) + m[3];
     uint32_t high = (uint32_t)(x * (m[0] >> 16)) + (uint32_t)(y * (m[1] >> 16)) + (uint32_t)(z * (m[2] >> 16));
     int32_t low = x * (int32_t)((uint32_t)m[0] << 16 >> 18) + y * (int32_t)((uint32_t)m[1] << 16 >> 18)
                 + z * (int32_t)((uint32_t)m[2] << 16 >> 18);
@@ -97,7 +98,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_d
     int zeros = count_leading_zeros((uint32_t)in->w);
     const int down = 21 - zeros;
     if (down <= 0 || depths_are_even(d)) {
-        smear_project(out, d, in, viewport);
+        const struct smear_homogeneous apart = *in;     /* so that *in itself may be in registers */
+        smear_project(out, d, &apart, viewport);
         return;
     }
     const int32_t r = (int32_t)recip_norm((uint32_t)in->w << zeros);        /* 1/w = r 2^(zeros - 61) */
@@ -105,13 +107,16 @@ static inline void project_inline(struct smear_screen *out, const struct smear_d
     const int32_t half = 1 << (down - 1);
     out->x = (viewport->width << 7) + ((mulh_i32(in->x, r) + half) >> down);
     out->y = (viewport->height << 7) + ((mulh_i32(in->y, r) + half) >> down);
-    const int32_t depth = scale_sat(mulh_i32(d->depth_mantissa, r), clamp_i32(d->depth_shift + zeros, -31, 31));
+    const int up = d->depth_shift + zeros;
+    int32_t depth = mulh_i32(d->depth_mantissa, r);
+    if (up != 0)
+        depth = scale_sat(depth, clamp_i32(up, -31, 31));
     out->depth = clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
 /* Returns the sides of a vertex that has no place on the screen: those of the planes through the eye and the frame's
  * borders that it lies beyond. All that lies beyond one of them is not seen, in front of the near plane or not. */
-int smear_outcode_behind(const struct smear_homogeneous *h, const struct smear_viewport *viewport);
+int smear_outcode_behind(struct smear_homogeneous h, const struct smear_viewport *viewport);
 
 /* Brings a place that rounding left outside the guard band back to its border. */
 static inline void screen_clamp(struct smear_screen *s, const struct smear_viewport *viewport)

@@ -41,7 +41,7 @@ static int sides_beside(const struct smear_placement *p, const smear_mesh *m, co
         const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
         struct smear_homogeneous h;
         smear_transform_vertex(&h, &p->now, corner);
-        sides &= smear_outcode_behind(&h, viewport) | (h.distance < p->now.depths.near_distance ? OUT_NEAR : 0)
+        sides &= smear_outcode_behind(h, viewport) | (h.distance < p->now.depths.near_distance ? OUT_NEAR : 0)
                | (h.distance > p->now.depths.far_distance ? OUT_FAR : 0);
     }
     return sides;

@@ -201,8 +201,12 @@ static inline bool assembly_is_textured(const struct smear_assembly *d)
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
     transform_vertex(h, &p->now, p->position + 3 * index);
-    if (SMEAR_WITH_DEFORM && p->extra_count != 0)
-        smear_placement_add(h, p, index);
+    if (SMEAR_WITH_DEFORM && p->extra_count != 0) {
+        struct smear_homogeneous sum = *h;
+        smear_placement_add(SMEAR_ONE_COPY ? h : &sum, p, index);
+        if (!SMEAR_ONE_COPY)
+            *h = sum;
+    }
 }
 
 /* Transforms a vertex as it is in a pose of the assembly. */
@@ -223,7 +227,7 @@ static inline int placement_project_inline(struct smear_screen *screen, struct s
 {
     placement_transform(h, p, index);
     if (h->distance < p->now.depths.near_distance)
-        return OUT_NEAR | smear_outcode_behind(h, viewport);
+        return OUT_NEAR | smear_outcode_behind(*h, viewport);
     project(screen, &p->now.depths, h, viewport);
     int code = outcode_sides(screen, viewport);
     return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
