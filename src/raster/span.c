@@ -30,30 +30,32 @@ void smear_span_level(const struct setup *s, const struct span *p)
 
 uint32_t smear_span_darkened(uint32_t pixel, uint32_t over, smear_transfer t) { return blended_pixel(pixel, over, true, t); }
 
-/* By polynomials, of any row. Codes that have no shadow yet become darker by two products. */
+/* By polynomials, of any row; what is as before becomes what that did. Codes that have no shadow yet become darker by two products. */
 void smear_span_texels_shadow(const struct setup *s, const struct span *p)
 {
     const struct smear_sampler *const m = &s->draw->sampler;
     const smear_transfer transfer = frame_transfer(s->frame);
-    struct texcoord c = texcoord_curved(&s->texture, m, p->a, p->y);
+    struct texcoord c = texcoord_curved(&s->texture, m, p->a, p->y, true);
     const uint8_t *const texels = (const uint8_t *)m->texels;
     const uint32_t *const palette = m->palette, dz = (uint32_t)p->dz, pair = 0xff00ffu;
     const int up = m->log2_width, from_u = 31 - up, from_v = 31 - m->log2_height;      /* sampler_index */
-    uint32_t *color = (uint32_t *)p->color, z = p->z;
+    uint32_t *color = (uint32_t *)p->color, z = p->z, last = 0, from = 0, dark = 0;
     const uint16_t *depth = p->depth, *const end = depth + (p->b - p->a);
     for (; !SMEAR_SMALL_CODE && depth != end; depth++, color++, z += dz) {
         const uint32_t over = palette[texels[(c.v >> 1 >> from_v) << up | c.u >> 1 >> from_u]], was = *color;
-        const uint32_t rest = 256u - (over >> 24) - (over >> 31);
-        c.u += c.du;
-        c.v += c.dv;
-        c.du -= c.curvature_u;
-        c.dv -= c.curvature_v;
+        c.u += c.du, c.du -= c.curvature_u;
+        c.v += c.dv, c.dv -= c.curvature_v;
         if (over >> 24 <= was >> 24 || z >> 16 <= *depth)
             continue;
-        if ((over << 8 | was >> 24 | transfer) != 0)
-            *color = smear_span_darkened(was, over, transfer);
-        else
-            *color = over | (((was & pair) * rest + 0x800080u) >> 8 & pair) | (pixel_green(was) * rest + 0x80u) >> 8 << 8;
+        if (over != last || was != from) {
+            const uint32_t rest = 256u - (over >> 24) - (over >> 31);
+            last = over, from = was;
+            if ((over << 8 | was >> 24 | transfer) != 0)
+                dark = smear_span_darkened(was, over, transfer);
+            else
+                dark = over | (((was & pair) * rest + 0x800080u) >> 8 & pair) | (pixel_green(was) * rest + 0x80u) >> 8 << 8;
+        }
+        *color = dark;
     }
 }
 
@@ -80,7 +82,7 @@ static int32_t walk_next(struct walk *w, const struct setup *s)
     w->start = w->x;
     w->x += n;
     if (t->mode == TEXTURE_CURVED) {
-        w->run = texcoord_packed(texcoord_curved(t, &s->draw->sampler, w->start, w->y));
+        w->run = texcoord_packed(texcoord_curved(t, &s->draw->sampler, w->start, w->y, t->turns));
         return count;
     }
     w->q = add_wrap(w->q, mul_wrap(t->q.dx, n));

@@ -34,8 +34,8 @@ SMEAR_INLINE struct texcoord texcoord_between(const struct texture_setup *t, str
 }
 
 /* Where polynomials hold: from pixel (x, y) on. */
-static inline struct texcoord texcoord_curved(const struct texture_setup *t, const struct smear_sampler *m,
-                                              int32_t x, int32_t y)
+SMEAR_INLINE struct texcoord texcoord_curved(const struct texture_setup *t, const struct smear_sampler *m,
+                                             int32_t x, int32_t y, bool turns)
 {
     uint32_t word[2][3];
     x -= t->x0;
@@ -47,7 +47,7 @@ static inline struct texcoord texcoord_curved(const struct texture_setup *t, con
         int32_t value[3] = { add_wrap(at, mul_wrap(add_wrap(dx, along), x)),
                              add_wrap(dx, mul_wrap(c->dxx, 2 * x + 1)), mul_wrap(c->dxx, -2) };
         for (int k = 0; k < 3; k++)
-            word[i][k] = (uint32_t)(t->turns ? value[k] : smear_sampler_texel(m, i, value[k]));
+            word[i][k] = (uint32_t)(turns ? value[k] : smear_sampler_texel(m, i, value[k]));
     }
     return (struct texcoord){ word[0][0], word[1][0], word[0][1], word[1][1], word[0][2], word[1][2] };
 }
