@@ -17,17 +17,17 @@
 /* ------------------------------------------------------------------ SMEAR_AUTO, SMEAR_SUBFRAMES, SMEAR_TIMEMASK */
 
 /* What is static is drawn once; tiles in which something moves draw their moving triangles at several instants. Along lines a
- * row is finished late, with the triangles that move in it; what a display shows is not what is static then. Where lines do not do
- * for what is left of the frame, all that moves does so along paths. */
+ * row is finished late, with the triangles that move in it; what a display shows is not what is static then, nor is it where one
+ * instant is all. Where lines do not do for what is left of the frame, all that moves does so along paths. */
 static int render_temporal(struct smear_context *c)
 {
     const struct smear_instant middle = smear_instant_middle(&c->shot);
-    const bool lines = frame_has_lines(c);
+    const bool keeps = !frame_has_lines(c) && c->assembler.keep_paths;
     int result = SMEAR_OK;
-    if (lines)
-        damage_forget(c->damage);
-    else
+    if (keeps)
         smear_draws_find_damage(c);
+    else
+        damage_forget(c->damage);
     for (int row = 0, end; row < c->rows.window.rows && result == SMEAR_OK; row = end) {
         struct smear_refill refill;
         const int top = frame_has_lines(c) ? c->temporal.lines->finished : row;
@@ -38,7 +38,7 @@ static int render_temporal(struct smear_context *c)
             smear_draws_classify(c);
         }
     }
-    if (!lines)
+    if (keeps)
         smear_draws_end_damage(c, result);
     return result;
 }
@@ -89,7 +89,9 @@ static void prepare_stages(struct smear_context *c, bool by_depth)
     if (rows_have_sky(rows))
         aim_sky(c);
     rows->keeps_motion = c->assembler.keep_motion = smear_method_is_filter(method);
-    c->assembler.keep_paths = smear_method_is_temporal(method);
+    /* One instant is drawn as if nothing moved, but where what moves has edges of its own. */
+    c->assembler.keep_paths = smear_method_is_temporal(method)
+                           && !(temporal_is_sharp(&c->temporal) && c->frame.edges == SMEAR_EDGES_HARD);
     c->assembler.lines = frame_has_lines(c);
     c->assembler.damaged = NULL;        /* until smear_draws_find_damage */
     c->assembler.triangles_drawn = c->assembler.triangles_dropped = 0;

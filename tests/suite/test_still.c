@@ -107,17 +107,17 @@ static void test_pictures_are_the_same_and_the_still_layer_is_drawn_once(void)
             struct pair p OWNED(pair_end);
             struct set s;
             set_up(&s, methods[m]);
-            s.frame.samples = m >= 3;           /* one instant, which is drawn without paths where nothing is kept */
+            s.frame.samples = m >= 3;           /* one instant, of which nothing is kept, but where edges are smooth */
             s.frame.edges = m == 4 ? SMEAR_EDGES_SMOOTH : SMEAR_EDGES_HARD;
             if (pair_begin(&p, desc_of(triangles, m != 1)))
                 for (int i = 0; i < 8; i++) {
                     move_on(&s, i);
-                    CHECK_EQ(kept(&p, &s), i >= 2);     /* the cube stands still where it is first seen */
+                    CHECK_EQ(kept(&p, &s), i >= 2 && m != 3);   /* the cube stands still where it is first seen */
                 }
         }
 }
 
-/* Of what is as near the first wins, and what stands still is before what moves. */
+/* Of what is as near the first wins; of more than one instant what stands still is before what moves. */
 static void test_one_instant_shows_the_same_of_what_is_as_near(void)
 {
     for (int samples = 1; samples <= 2; samples++) {
