@@ -13,7 +13,6 @@
 
 #if SMEAR_WITH_LINES
 
-enum { MEASURED = SMEAR_SKETCH - 65 };      /* the coarsest target of which it is measured how many instants it takes */
 enum { WAIT = 16 };         /* frames by instants, until it is seen again whether lines do */
 
 static void lines_job(void *argument, int job, int worker)
@@ -229,7 +228,6 @@ static SMEAR_RARE void go_on_with(struct smear_temporal *self, struct smear_rows
     self->lines->on = false;
     lines_forget(self->lines);
     self->lines->wait = WAIT;
-    self->target = min_i32(self->target, MEASURED);
 }
 
 int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int *end)

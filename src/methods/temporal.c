@@ -180,8 +180,7 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
     travel_set_method(&travel[first], TILE_SUBFRAMES);
     for (; next < end && !is_static(&travel[next]); next++) {
         smear_tile_method_choose(&choice, &self->chooser, &travel[next]);
-        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0
-            || (choice.instants == 0) != (instants == 0))
+        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0)
             break;
         travel_set_method(&travel[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);

@@ -395,13 +395,6 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     make(&f, &space, t, instants);
     f.closes = plan != NULL;
     f.plans = f.closes && plan->chooser != NULL;
-    bool is_still = false;
-    if (f.plans && target_is_sketch(plan->chooser->target)) {
-        const int32_t sketched = smear_tile_sketch_instants(plan, t);
-        is_still = sketched == 0;
-        f.plans = sketched < 0;
-        f.instants = (uint32_t)(f.plans ? instants : max_i32(sketched, 1));
-    }
     if (t->fill != NULL)
         f.refilled = t;
     smear_subframe_take_background(&f);
@@ -409,10 +402,6 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     uint32_t samples = 0;
     if (list(&f, f.plans, &middle)) {
         all = no_box;
-        if (is_still && !f.blends) {
-            all = draw_instant(&f, SHUTTER_CLOSE / 2);
-            return (uint32_t)pixels_in(&all);
-        }
         samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)

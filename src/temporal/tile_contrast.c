@@ -14,16 +14,19 @@ struct difference_block {
     int32_t there, there_behind;        /* where the pixels lie that they are compared with, in pixels from these: in color and
                                          * depth, and in behind and deep */
     int32_t pitch, pitch_behind, first, end, n; /* pitches: from one row to the next; first: its number, as rows may come one by one */
+    int32_t across;                     /* from one pixel that is looked at to the next */
+    uint32_t fours;                     /* of how many times four pixels it stands */
 };
 
-/* Returns the squared differences of every other pixel, twice, and adds to *moving how many of them are not as what is static: of a row
- * those that lie between those of the row before. An edge between two pixels counts where it moves: what is static must lie behind,
- * else it hides the edge. Upper eight bits of pixels may be anything: they tell pixels apart, but are no difference. */
+/* Returns the squared differences of some pixels, times half of those that each stands for, and adds to *moving how many of four are not
+ * as what is static: of a row those that lie between those of the row before. An edge between two pixels counts where it moves: what
+ * is static must lie behind, else it hides the edge. Upper eight bits of pixels may be anything: they tell pixels apart, but are no
+ * difference. */
 static uint32_t differences(struct difference_block b, uint32_t *moving)
 {
     uint32_t sum = 0, count = 0;
     for (; b.first < b.end; b.first++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
-        for (int32_t i = b.first & 1; i < b.n; i += 2) {
+        for (int32_t i = (b.first & 1) * (b.across >> 1); i < b.n; i += b.across) {
             const uint32_t here = b.color[i], next = b.color[b.there + i], depth = b.depth[i], depth_there = b.depth[b.there + i];
             const bool moves = depth != b.deep[i] || here != b.behind[i];
             count += moves;
@@ -33,15 +36,16 @@ static uint32_t differences(struct difference_block b, uint32_t *moving)
                 continue;
             sum += pixel_square_between(here, next);
         }
-    *moving += count;
-    return 2 * sum;
+    *moving += count * b.fours;
+    return 2 * b.fours * sum;
 }
 
 /* A block [x, x1) x [y, y1) of pixels of a tile, its displacement, and the same to the next pixels that are looked at: 2 px. */
 struct look {
     const struct smear_tile_travel *tile;
     int32_t x, y, x1, y1;
-    int32_t first; /* row: every other one is looked at from there on */
+    int32_t first, down; /* rows: those are looked at that lie 2^down apart, from the first on */
+    int32_t across; /* and of each every so many pixels */
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
     bool at_border; /* the tiles end above or below */
@@ -60,25 +64,26 @@ static inline int32_t way_to(const struct smear_raster_target *s, int32_t y, int
     return y + dy >= s->y0 && y + dy < s->y1 ? 1 : y - dy >= s->y0 && y - dy < s->y1 ? -1 : 0;
 }
 
-/* Returns the differences of every other row's pixels to those that lie (dx, dy) farther, or nearer where those are not in
+/* Returns the differences of some rows' pixels to those that lie (dx, dy) farther, or nearer where those are not in
  * the tiles. All rows left are looked at together whose pixels lie in the same direction, unless those of what is static go round. */
 static uint32_t look_along(const struct subframes *f, const struct look *l, int32_t dx, int32_t dy, uint32_t *moving)
 {
     const struct smear_raster_target *s = &f->t->background;
     const struct smear_plane_rows *c = &s->color_rows;
-    const int32_t pitch = f->t->pitch, last = l->first + ((l->y1 - 1 - l->first) & ~1);
+    const int32_t pitch = f->t->pitch, next = 1 << l->down, last = l->first + ((l->y1 - 1 - l->first) & -next);
     const bool round = c->ring_row + (s->y1 - s->y0) > c->ring;
     uint32_t sum = 0;
     for (int32_t y = l->first, end; y < l->y1; y = end) {
         const int32_t way = way_to(s, y, dy), x = way * dx, down = way * dy;
-        end = !round && way_to(s, last, dy) == way ? last + 2 : y + 2;
+        end = !round && way_to(s, last, dy) == way ? last + next : y + next;
         const int32_t first = max_i32(l->x, s->x0 - x), n = min_i32(l->x1, s->x1 - x) - first;
         if (way == 0 || n <= 0)
             continue;
         const int32_t at = (y - s->y0) * pitch - s->x0 + first, row = target_row(c, s, y), behind = row + first;
         const struct difference_block block = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
-                                                down * pitch + x, target_row(c, s, y + down) - row + x, 2 * pitch, 2 * c->stride,
-                                                (y - l->first) >> 1, (end - l->first) >> 1, n };
+                                                down * pitch + x, target_row(c, s, y + down) - row + x, pitch << l->down,
+                                                c->stride << l->down, (y - l->first) >> l->down, (end - l->first) >> l->down, n,
+                                                l->across, (uint32_t)l->across << l->down >> 2 };
         sum += differences(block, moving);
     }
     return sum;
@@ -91,7 +96,7 @@ static struct look_sums sums_of_look(const struct subframes *f, const struct loo
     struct look_sums d = { 0, 0, 0 };
     uint32_t ignored = 0;
     d.along = look_along(f, l, l->dx, l->dy, &d.moving);
-    if (is_slant(l) || l->spreads)
+    if (l->down == 1 && (is_slant(l) || l->spreads))
         d.beside = look_along(f, l, -l->dy, l->dx, &ignored);
     return d;
 }
@@ -188,11 +193,11 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
 }
 
 /* Returns the first row of a block that is looked at: of the rows that end the tiles, above or below, none is left out, as an edge
- * may reach just one of them. Blocks that are all of a tile's height take turns. */
+ * may reach just one of them. Blocks that are all of a tile's height take turns. Of a sketch it is the middle one. */
 static int32_t first_row(const struct look *l, int32_t y0, int32_t y1)
 {
     const bool is_last = l->y1 == y1 && (l->y != y0 || (l->x & BLOCK_PX) != 0);
-    return l->y + (is_last ? (y1 - 1 - l->y) & 1 : 0);
+    return l->down == BLOCK_SHIFT ? (l->y + l->y1) >> 1 : l->y + (is_last ? (y1 - 1 - l->y) & 1 : 0);
 }
 
 /* ------------------------------------------------------------------ what is small */
@@ -342,7 +347,9 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
 {
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
-    struct look look = { .shortness = shortness_of(f, transfer_is_linear(plan->chooser->transfer)) };
+    const bool is_sketch = target_is_sketch(plan->chooser->target);
+    struct look look = { .across = is_sketch ? 4 : 2, .down = is_sketch ? BLOCK_SHIFT : 1,
+                         .shortness = shortness_of(f, transfer_is_linear(plan->chooser->transfer)) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
     for (look.y = y0; look.y < y1; look.y = look.y1) {

@@ -19,7 +19,7 @@ enum { CLOSING_CLASSES = (BLOCK_INSTANTS_MAX + 1) / 2 + 1 };
  * that gaps leave, what closed gaps leave of them, and the floor of those, as in struct smear_closing. */
 struct smear_contrast {
     uint32_t blocks; /* of the run */
-    uint32_t moving; /* pixels that move, of every other one in every other row */
+    uint32_t moving; /* pixels that move, of four */
     uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], floor[CLOSING_CLASSES];
     uint32_t unseen; /* the same of what passes at other times, about */
     uint32_t changed; /* and by more than that, as instants show */

@@ -8,7 +8,8 @@
 
 enum {
     INSTANTS_MAX = 255,     /* within SMEAR_PACKED_INSTANTS */
-    STEP_MAX = 256 /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
+    STEP_MAX = 16 * 16,     /* wider gaps between instants are not closed, 1/16 px: subframe_gap.c */
+    SKETCH_STEP_MAX = 32 * 16 /* of a sketch */
 };
 
 static int32_t largest(int32_t low, int32_t high)
@@ -133,9 +134,9 @@ static inline uint32_t over(uint32_t a, uint32_t b) { return a < b ? 0 : a / b; 
 
 /* Returns what `instants` leave of the squared error. At the ends of a run, `width` pixels, half a gap stays open: that counts where a
  * gap is wider than an eighth of the run. */
-static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, int32_t reach, int32_t width)
+static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_t instants, int32_t reach, int32_t widest, int32_t width)
 {
-    const bool may_close = instants > reach / STEP_MAX;
+    const bool may_close = instants > reach / widest;
     const uint32_t open = reach > 2 * width * instants ? min_u32((uint32_t)(8 * reach / (width * instants)), 256) : 0;   /* q8 of it */
     const uint32_t square = (uint32_t)(instants * instants);
     uint32_t sum = over(unseen, square);
@@ -154,6 +155,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     const int tiles = tiles_in(t);
+    const int32_t widest = target_is_sketch(chooser->target) ? SKETCH_STEP_MAX : STEP_MAX;
     int32_t least = first, reach = 0, instants;
     uint32_t left = 0, unseen = c->unseen;
     bool alone = chooser->target < 64;
@@ -171,42 +173,10 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
     for (instants = first; instants + 2 <= INSTANTS_MAX; instants += 2)
-        if (instants >= least && error_of(c, unseen, instants, reach, t->x1 - t->x0) <= most)
+        if (instants >= least && error_of(c, unseen, instants, reach, widest, t->x1 - t->x0) <= most)
             break;
     for (int i = 0; i < tiles; i++)
         plan->travel[i].instants = (uint16_t)instants;
-    return instants;
-}
-
-/* Returns how many instants a tile takes of a sketch; INSTANTS_MAX: it is to be measured, as gaps are not closed there. */
-static int32_t sketch_instants(const struct smear_chooser *chooser, const struct smear_tile_travel *tile)
-{
-    enum { WAY = 20 * 16,           /* that a gap may be wide, 1/16 px: a quarter up and down, as it is closed within tile rows */
-           UNLIKE = 16 * 16,        /* and by how much displacements in a tile may differ, from instant to instant */
-           STILL = 24 };            /* a way that is not seen */
-    const int32_t way = reach_of(tile), steep = 4 * largest(tile->y0, tile->y1);
-    if (!smear_tile_may_close(chooser, tile) || (tile->flags & PATH_SUBFRAMES) != 0)
-        return INSTANTS_MAX;
-    return way <= STILL ? 0 : min_i32(max_i32(max_i32(way, steep) / WAY, spread_of(tile) / UNLIKE) + 1, INSTANTS_MAX - 1);
-}
-
-int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t)
-{
-    const int tiles = tiles_in(t);
-    int32_t instants = 0;
-    for (int i = 0; i < tiles; i++)
-        instants = max_i32(instants, sketch_instants(plan->chooser, &plan->travel[i]));
-    if (instants == INSTANTS_MAX)
-        return -1;
-    for (int i = 0; i < tiles; i++)
-        plan->travel[i].instants = (uint16_t)instants;
-    const int32_t rows = (t->background.y1 - t->background.y0 + BLOCK_PX - 1) >> BLOCK_SHIFT;
-    for (int32_t row = 0; instants != 0 && row < rows; row++)
-        for (int32_t x = t->x0; x < t->x1; x += BLOCK_PX) {
-            struct smear_block *b = block_at(plan->blocks, x >> BLOCK_SHIFT, row);
-            b->last = (uint8_t)(b->depth != 0 ? smear_block_closing(plan->blocks, x >> BLOCK_SHIFT, row, rows)
-                                              : smear_tile_closing(&plan->travel[(x - t->x0) / t->tile])).last;
-        }
     return instants;
 }
 
@@ -222,8 +192,7 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
         choice->timemask = (struct smear_timemask_settings){ chooser->samples, 16, 6, 256 };
     } else {
         choice->method = TILE_SUBFRAMES;
-        choice->instants = chooser->method != SMEAR_AUTO ? instants_for(tile, chooser->samples)
-                         : target_is_sketch(chooser->target) ? sketch_instants(chooser, tile) : INSTANTS_MAX;
+        choice->instants = chooser->method == SMEAR_AUTO ? INSTANTS_MAX : instants_for(tile, chooser->samples);
     }
 }
 

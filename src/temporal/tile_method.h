@@ -102,11 +102,6 @@ struct smear_step smear_tile_way(const struct smear_tile_travel *tile);
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *contrast,
                                  uint32_t cost, int32_t first);
 
-/* Returns how many instants the tiles of a run take of a sketch: so many that gaps between them are closed well enough by the
- * displacement of the blocks, which are told to close them; 0: what moves is where it is in the middle, as near as can be seen;
- * -1: that is to be measured, as of other targets. */
-int32_t smear_tile_sketch_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t);
-
 /* Returns the displacement of a tile from one instant to the next along x, 1/16 px, at most, before it is known how many
  * there will be. */
 int32_t smear_tile_widest_step(const struct smear_chooser *chooser, const struct smear_tile_travel *tile);
