@@ -92,13 +92,5 @@ struct depth_range smear_subframe_depths(const struct subframes *f, const struct
     const struct smear_raster_target *s = &f->t->background;
     const struct subframe_box near = { max_i32(b->x0 - margin, s->x0), max_i32(b->y0 - margin, s->y0),
                                        min_i32(b->x1 + margin, s->x1), min_i32(b->y1 + margin, s->y1) };
-    struct depth_range r = { UINT16_MAX, 0 };
-    for (int32_t y = near.y0; y < near.y1; y++) {
-        const uint16_t *const depth = f->work.depth + work_row(f, &near, y);
-        for (int32_t x = 0; x < near.x1 - near.x0; x++) {
-            r.least = min_u32(r.least, depth[x]);
-            r.most = max_u32(r.most, depth[x]);
-        }
-    }
-    return r;
+    return depth_range(f->work.depth + work_row(f, &near, near.y0), f->t->pitch, near.x1 - near.x0, near.y1 - near.y0);
 }

@@ -4,6 +4,7 @@
 #define SMEAR_SUBFRAME_TILE_H
 
 #include "geometry/space.h"
+#include "kernels/depth_range.h"
 #include "kernels/packed_sums.h"
 #include "temporal/subframes.h"
 
@@ -109,10 +110,6 @@ void smear_subframe_take_background(const struct subframes *f);
 
 /* Copies its depths in a box and, where tiles begin with whole words, perhaps one pixel more to either side. */
 void smear_subframe_restore_depth(const struct subframes *f, const struct subframe_box *b);
-
-struct depth_range {
-    uint32_t least, most;       /* codes */
-};
 
 /* The range of its depth codes in a box of the work planes, and up to `margin` pixels beyond. */
 struct depth_range smear_subframe_depths(const struct subframes *f, const struct subframe_box *b, int32_t margin);
