@@ -13,6 +13,7 @@
 
 #if SMEAR_WITH_LINES
 
+enum { LEFT = SMEAR_SKETCH - 65 };  /* the coarsest target of what is left of a frame whose lines give way: above it errs already */
 enum { WAIT = 16 };         /* frames by instants, until it is seen again whether lines do */
 
 static void lines_job(void *argument, int job, int worker)
@@ -228,6 +229,7 @@ static SMEAR_RARE void go_on_with(struct smear_temporal *self, struct smear_rows
     self->lines->on = false;
     lines_forget(self->lines);
     self->lines->wait = WAIT;
+    self->target = min_i32(self->target, LEFT);
 }
 
 int smear_draw_along_lines(struct smear_temporal *self, struct smear_rows *rows, int row, int *end)
