@@ -171,12 +171,16 @@ static inline bool is_steady(const struct subframes *f, const struct gap *gap, s
 static inline int32_t pairs_before_edge(const struct subframes *f, const struct gap *gap, int32_t at, int32_t pairs)
 {
     const struct packed_sum here = packed_sum_at(&f->sums, at);
-    if (!is_steady(f, gap, here))
-        return pairs;
+    bool is_known = false;      /* to be steady */
     for (int32_t i = 0; i < pairs; i++) {
         const struct packed_sum a = packed_sum_at(&f->sums, at - gap->offset[i]), b = packed_sum_at(&f->sums, at + gap->offset[i]);
-        if ((((a.rb ^ here.rb) | (a.gn ^ here.gn)) != 0 && is_steady(f, gap, a))
-            || (((b.rb ^ here.rb) | (b.gn ^ here.gn)) != 0 && is_steady(f, gap, b)))
+        const bool before = ((a.rb ^ here.rb) | (a.gn ^ here.gn)) != 0, behind = ((b.rb ^ here.rb) | (b.gn ^ here.gn)) != 0;
+        if (!before && !behind)
+            continue;
+        if (!is_known && !is_steady(f, gap, here))
+            return pairs;
+        is_known = true;
+        if ((before && is_steady(f, gap, a)) || (behind && is_steady(f, gap, b)))
             return i;
     }
     return pairs;
