@@ -179,6 +179,14 @@ static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int3
     }
 }
 
+/* Of blocks that are bare at their corners, a row in their midst shows what is small. */
+static void note_midst(struct smear_line_seen *seen, const uint16_t *depth, int32_t x0, int32_t x1)
+{
+    for (int32_t x = x0 + BLOCK / 2 - 1; x < x1; x += BLOCK, seen++)
+        if (seen->depth == 0)
+            seen->depth = (uint16_t)max_u32(depth[x], depth[min_i32(x + 1, x1 - 1)]);
+}
+
 void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     const bool first = lines->picture == 0;
@@ -196,6 +204,8 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
         }
         for (int32_t v = y; v < end; v += BLOCK - 1)
             note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
+        const int32_t v = min_i32(y + BLOCK / 2 - 1, end - 1);
+        note_midst(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
     }
 }
 
