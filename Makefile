@@ -418,7 +418,7 @@ run-suite: $(TESTS)
 
 # Suites of seconds that reach into every room of src/.
 COVERAGE_SUITES := $(filter-out accuracy apart blur bounds chart cover edges_truth failures filters foreign guess image jpeg json memory metrics \
-                   model near near_sweep present ref room rooms scenes sight sketch sketch_truth small view x11,$(SUITES))
+                   model near near_sweep present ref room rooms scenes sight sketch sketch_truth small turns view x11,$(SUITES))
 .PHONY: coverage run-coverage
 ## tests: branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
 coverage:
