@@ -286,7 +286,7 @@ bool smear_damage_next_run(const struct smear_damage *d, const struct smear_rows
     const int columns = (int)rows->window.columns;
     int first = run->end;
     run->end = columns;
-    if (damage_has_tiles(d)) {
+    if (damage_has_tiles(d) && d->is_same) {    /* where a frame forgets, nothing is known of tiles */
         const uint8_t *tile = &d->tiles.tile[row * columns];
         while (first < columns && tile[first] == 0)
             first++;
@@ -304,7 +304,7 @@ void smear_damage_row_sent(struct smear_damage *d, const struct smear_rows *rows
         return;
     uint8_t *tile = &d->tiles.tile[row * rows->window.columns];
     for (int32_t i = 0; i < rows->window.columns; i++) {
-        rows->stats->tiles_kept += tile[i] == 0;
+        rows->stats->tiles_kept += d->is_same && tile[i] == 0;
         tile[i] = (tile[i] & TILE_DAMAGED_NOW) != 0 ? rows->desc->reuse.buffer_age
                 : tile[i] != 0 ? (uint8_t)(tile[i] - 1) : 0;
     }

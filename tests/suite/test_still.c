@@ -295,6 +295,26 @@ static void test_a_display_is_sent_what_it_does_not_show(void)
             }
 }
 
+/* Of one instant nothing is kept, before frames of which tiles are and after them. */
+static void test_a_display_is_sent_all_of_one_instant(void)
+{
+    for (int buffers = 1; buffers <= 3; buffers++) {
+        struct display d OWNED(display_end);
+        struct set s;
+        set_up(&s, SMEAR_SUBFRAMES);
+        if (display_begin(&d, desc_of(buffers == 2 ? 16 : 400, buffers != 3), buffers))
+            for (int i = 0; i < 24; i++) {
+                s.frame.samples = i / 6 % 2 == 0 ? 1 : 4;
+                move_on(&s, i);
+                const uint32_t kept = shown(&d, &s);
+                if (i % 12 <= 6 + buffers - 1)
+                    CHECK_EQ(kept, 0);
+                else
+                    CHECK(kept != 0);
+            }
+    }
+}
+
 /* Of the floor, parts of a single tile, narrower than lanes, are drawn again below wide ones. */
 static void test_narrow_parts_are_drawn_again_below_wide_ones(void)
 {
