@@ -304,6 +304,8 @@ claim "it leaves distances alone" eval 'render $shade --depth bare.pfm -o bare.p
 claim "a round one" render $shade --shadow blob -o blob.ppm
 claim "is darker in the middle" eval 'set -- $(ppm_pixel blob.ppm 48 24 11) $(ppm_pixel blob.ppm 48 15 13) &&
     [ "$1" -lt "$4" ] && [ "$4" -lt 255 ]'
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{}]}' >"$base/in/bare.gltf"
+claim "none of nothing" render "$base/in/bare.gltf" $small --frames 1-1 --shadow blob -o bare.ppm
 claim "shadows move" render $moving --clear ffffff --eye 0,9,6 --look 0,-1,0 --sun ffffff,0,1,1 --shadow planar -o slide.ppm
 claim "as their things do" render $moving --clear ffffff --eye 0,9,6 --look 0,-1,0 --sun ffffff,0,1,1 --shadow planar \
     --method accumulate --exact --samples 64 -o shadows.ppm

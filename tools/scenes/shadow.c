@@ -65,7 +65,7 @@ void shadow_close(struct shadow *shadow) { free(shadow->surface); }
 
 int shadow_draws(const struct shadow *shadow, int count)
 {
-    return shadow->wish.kind == SCENE_SHADOW_NONE ? 0 : shadow->wish.kind == SCENE_SHADOW_BLOB ? 1 : count;
+    return shadow->wish.kind == SCENE_SHADOW_NONE ? 0 : shadow->wish.kind == SCENE_SHADOW_BLOB ? count > 0 : count;
 }
 
 static bool casts(const struct scene_draw *d) { return !d->hidden && d->surface->material.alpha != MODEL_ALPHA_BLEND; }
@@ -123,7 +123,7 @@ static void cast_round(const struct shadow *shadow, struct scene_draw *out, cons
 void shadow_cast(const struct shadow *shadow, const struct scene_surface *first, struct scene_instant *instant)
 {
     const int count = instant->draw_count;
-    if (shadow->wish.kind == SCENE_SHADOW_BLOB)
+    if (shadow->wish.kind == SCENE_SHADOW_BLOB && count > 0)
         cast_round(shadow, &instant->draw[count], instant->draw, count);
     for (int i = 0; i < count && shadow->wish.kind == SCENE_SHADOW_PLANAR; i++)
         cast_flat(shadow, first, &instant->draw[count + i], &instant->draw[i]);
