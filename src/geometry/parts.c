@@ -56,6 +56,7 @@ void smear_part_within(struct smear_part *p, const struct smear_assembler *a)
     }
     p->done = true;
     p->as.bins = &p->bins;
+    p->as.ranges = NULL;        /* those of the frame before may be left */
     p->as.path_static_count = p->as.triangles_drawn = p->as.triangles_dropped = 0;
 }
 

@@ -109,6 +109,41 @@ static void test_the_store_is_not_filled_for_each_instant(void)
     free(s);
 }
 
+/* Frames of few triangles, which one core fills the store with in turn, before such of many, of which it has room for what is seen. */
+static void test_what_is_filled_in_turn_is_nothing_to_cores_later(void)
+{
+    struct shape *s = calloc(2, sizeof *s);
+    const smear_camera camera = camera_at(0, 0, 1.8, 0);
+    uint32_t filled = 0;
+    random_state = 5;
+    make_grid(&s[0], 11, true, false);
+    make_grid(&s[1], 40, true, false);
+    smear_desc desc = small_desc(96, 16);
+    desc.methods = SMEAR_SET(SMEAR_NONE) | SMEAR_SET(SMEAR_AUTO);
+    desc.tile = 16;
+    desc.max_triangles = 20000;
+    RIG(ample, &desc, false);
+    for (desc.workers = 2; desc.workers <= 4; desc.workers++)
+        for (desc.max_triangles = 16; desc.max_triangles <= 416; desc.max_triangles += 40) {
+            RIG(tight, &desc, false);
+            for (int k = 0; k < 8; k++) {
+                smear_stats stats;
+                const smear_transform now = pose_at(k % 2 == 0 ? 0 : -2.2 + 0.1 * k, 0, k % 2 == 0 ? 0 : -1, 0.2 * k, 0);
+                const smear_transform open = pose_at(0, 0.3, 0, 0, 0);
+                const smear_draw draw = { .mesh = &s[k % 2].mesh, .now = &now, .open = k % 2 == 0 ? &open : NULL };
+                const smear_frame frame = { .camera = &camera, .method = k % 2 == 0 ? SMEAR_AUTO : SMEAR_NONE };
+                uint8_t *want = rig_copy(&ample, &frame, &draw, 1);
+                CHECK_EQ(rig_frame(&tight, &frame, &draw, 1), SMEAR_OK);
+                CHECK(want != NULL && same_picture(&tight, want));
+                smear_get_stats(tight.ctx, &stats);
+                filled += k % 2 == 0 ? stats.parts_added : 0;
+                free(want);
+            }
+        }
+    CHECK(filled > 0);
+    free(s);
+}
+
 /* ------------------------------------------------------------------ ranges */
 
 enum { ROW_PX = 16, ROWS = HEIGHT / ROW_PX, POOL_WORDS = 1 << 19, SEGMENTS = 64, CACHE = 256 };
