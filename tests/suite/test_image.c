@@ -10,6 +10,7 @@
 #include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
+#include "tools/image/palette.h"
 #include "tools/image/png.h"
 
 #include <stdio.h>
@@ -1788,6 +1789,22 @@ static void test_animations_that_fail_or_are_cancelled_leave_no_file(void)
         image_free(&other);
     }
     animation_cancel(NULL);
+}
+
+/* Of so many colours that low bits are dropped. */
+static void test_palettes_keep_what_is_opaque_and_what_is_clear(void)
+{
+    enum { COLORS = 200000 };
+    uint32_t *argb = malloc(COLORS * sizeof *argb), palette[256];
+    for (uint32_t alpha = 0; alpha < 256; alpha += 255) {
+        for (uint32_t i = 0; i < COLORS; i++)
+            argb[i] = alpha << 24 | (i * 2654435761u >> 8);
+        const int count = palette_of(argb, COLORS, 16, 4096, 2, palette);
+        CHECK_EQ(count, 16);
+        for (int i = 0; i < count; i++)
+            CHECK_EQ(palette[i] >> 24, alpha);
+    }
+    free(argb);
 }
 
 #include "build/suites/image.h"

@@ -170,9 +170,9 @@ int palette_of(uint32_t *argb, size_t count, int limit, int distinct, int refine
     int swatches = 0, boxes = 0;
     if (swatch == NULL)
         return 0;
-    for (int dropped = 0; swatches == 0; dropped++) {      /* bits of each channel, in whose middle the colours go on */
+    for (int dropped = 0; swatches == 0; dropped++) {      /* bits of each colour, in whose middle it goes on; alpha stays */
         for (size_t i = 0; i < count; i++)
-            argb[i] = (argb[i] & 0x01010101u * (255u << dropped & 255u)) | 0x01010101u * ((1u << dropped) >> 1);
+            argb[i] = (argb[i] & (0xff000000u | 0x010101u * (255u << dropped & 255u))) | 0x010101u * ((1u << dropped) >> 1);
         qsort(argb, count, sizeof *argb, by_color);
         swatches = list_swatches(argb, count, swatch, distinct);
     }
