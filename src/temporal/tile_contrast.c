@@ -348,7 +348,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
     const bool is_sketch = target_is_sketch(plan->chooser->target);
-    struct look look = { .across = is_sketch ? 4 : 2, .down = is_sketch ? BLOCK_SHIFT : 1,
+    struct look look = { .down = is_sketch ? BLOCK_SHIFT : 1, .across = is_sketch ? 4 : 2,
                          .shortness = shortness_of(f, transfer_is_linear(plan->chooser->transfer)) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;
