@@ -89,7 +89,7 @@ bus() { # BOARD BUS BITS-PER-SECOND BYTES
 }
 # Of every row of boards.h that the emulator has run, and that does not wait for the panel: 16 bits a pixel.
 sed -n '/^\/\*.*Run in the emulator/{s/^\/\* *\([^:,]*\)[:,].*/\1/;h;};/^BOARD(/{G;s/\n/\t/;p;}' platform/pico/boards.h |
-    awk -F '\t' '$1 ~ /RP2040.* NO\)$/ { split($1, f, /[^A-Za-z0-9_]+/); printf "%s\t%s\t%s\t%s\t%s\n", $2, f[4], f[5], f[10], f[18] }' |
+    awk -F '\t' '$1 ~ /RP2040.* NO, [0-9NO]+\)$/ { split($1, f, /[^A-Za-z0-9_]+/); printf "%s\t%s\t%s\t%s\t%s\n", $2, f[4], f[5], f[10], f[18] }' |
     while IFS="$(printf '\t')" read -r board width height wires khz; do
         [ "$wires" = 8 ] && lanes=8 || lanes=1
         bus "$board" "$([ $lanes = 8 ] && echo "8 wires" || echo SPI) at $(awk "BEGIN { print $khz / 1000 }") MHz" $((khz * 1000 * lanes)) $((width * height * 2))
