@@ -108,6 +108,8 @@ static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const
                                         .tiles = damaged, .seen = seen, .over = over };
     if (over != NULL)
         __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
+    if (tiles)                      /* counted on where a frame finds out nothing, too */
+        __builtin_memset(damaged.tile, 0, (size_t)w->columns * (size_t)w->rows);
 }
 
 static void lay_out_draws(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
