@@ -47,15 +47,15 @@ static inline void add_pixel(const struct packed_sums *sums, int32_t at, uint32_
 }
 
 void smear_light_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                               const struct light_instant *instant, bool all)
+                               const struct light_instant *instant)
 {
     const struct light_instant t = *instant;
     for (int32_t i = 0; i < n; i++) {
         const uint32_t c = color[i];
-        if (c == background[i] && !all)
+        if (c == PACKED_NOTHING && background == NULL)
             continue;
         SMEAR_KEEP_BRANCH();
-        color[i] = background[i];
+        color[i] = background != NULL ? background[i] : PACKED_NOTHING;
         add_pixel(&sums, i, c, &t);
     }
 }
@@ -81,56 +81,55 @@ static inline smear_v4u added_light8(smear_v4u code, const struct light_instant 
     return v4u_left16(v4u_right16(twice_light8(code) + v4u_all16(2 * t->threshold), t->down + 1), t->up);
 }
 
-/* Takes eight pixels, whose greens share a vector. What looks like the background is black that adds no white. */
+/* Takes eight pixels, whose greens share a vector. Nothing is black that adds no white. */
 SMEAR_INLINE void add8(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t at,
-                       const struct light_instant *t, bool all)
+                       const struct light_instant *t)
 {
-    smear_v4u a = v4u_load(color + at), b = v4u_load(color + at + 4), white = { 0, 0, 0, 0 };
-    const smear_v4u behind_a = v4u_load(background + at), behind_b = v4u_load(background + at + 4);
-    white += t->white << 16;
-    smear_v4u white_a = white, white_b = white;
-    if (!all) {
-        const smear_v4u alike_a = (smear_v4u)(a == behind_a), alike_b = (smear_v4u)(b == behind_b);
-        if (v4u_all_set(alike_a & alike_b))
+    const smear_v4u nothing = v4u_all(PACKED_NOTHING), white = v4u_all(t->white << 16);
+    smear_v4u a = v4u_load(color + at), b = v4u_load(color + at + 4), white_a = white, white_b = white;
+    if (background == NULL) {
+        const smear_v4u none_a = (smear_v4u)(a == nothing), none_b = (smear_v4u)(b == nothing);
+        if (v4u_all_set(none_a & none_b))
             return;
-        a &= ~alike_a;
-        b &= ~alike_b;
-        white_a &= ~alike_a;
-        white_b &= ~alike_b;
+        a &= ~none_a;
+        b &= ~none_b;
+        white_a &= ~none_a;
+        white_b &= ~none_b;
     }
+    SMEAR_KEEP_VALUE(at);       /* one index for all planes */
     const smear_v4u green = added_light8((a >> 8 & 0xffu) | (b << 8 & 0xff0000u), t);
     uint32_t *rb = sums->rb + at, *gn = sums->gn + at;
-    v4u_store(color + at, behind_a);
-    v4u_store(color + at + 4, behind_b);
+    v4u_store(color + at, background != NULL ? v4u_load(background + at) : nothing);
+    v4u_store(color + at + 4, background != NULL ? v4u_load(background + at + 4) : nothing);
     v4u_store(rb, v4u_load(rb) + added_light8(a & 0xff00ffu, t));
     v4u_store(rb + 4, v4u_load(rb + 4) + added_light8(b & 0xff00ffu, t));
     v4u_store(gn, v4u_load(gn) + ((green & 0xffffu) | white_a));
     v4u_store(gn + 4, v4u_load(gn + 4) + (green >> 16 | white_b));
 }
 
-/* The last round may take some pixels again: they look like the background by then. */
+/* The last round may take some pixels again: there is nothing by then. */
 SMEAR_INLINE void add_linear(uint32_t *color, const uint32_t *background, const struct packed_sums *sums, int32_t n,
-                             const struct light_instant *instant, bool all)
+                             const struct light_instant *instant)
 {
     const struct light_instant t = *instant;
     int32_t i = 0;
     for (; i + 8 <= n; i += 8)
-        add8(color, background, sums, i, &t, all);
-    if (i < n && n >= 8 && !all)
-        add8(color, background, sums, n - 8, &t, all);
+        add8(color, background, sums, i, &t);
+    if (i < n && n >= 8 && background == NULL)
+        add8(color, NULL, sums, n - 8, &t);
     else if (i < n)
-        smear_light_add_reference(color + i, background + i, packed_sums_from(*sums, i), n - i, &t, all);
+        smear_light_add_reference(color + i, background != NULL ? background + i : NULL, packed_sums_from(*sums, i), n - i, &t);
 }
 
 void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                            const struct light_instant *instant, bool all)
+                            const struct light_instant *instant)
 {
-    if (instant->linear && all)
-        add_linear(color, background, &sums, n, instant, true);
+    if (instant->linear && background != NULL)
+        add_linear(color, background, &sums, n, instant);
     else if (instant->linear)
-        add_linear(color, background, &sums, n, instant, false);
+        add_linear(color, NULL, &sums, n, instant);
     else
-        smear_light_add_reference(color, background, sums, n, instant, all);
+        smear_light_add_reference(color, background, sums, n, instant);
 }
 #endif
 

@@ -41,14 +41,14 @@ uint32_t smear_light_full(uint32_t instants);
 /* Returns the most that white adds at one of so many instants. */
 uint32_t smear_light_most(uint32_t instants);
 
-/* Adds n >= 1 pixels to their sums and makes them background again: those that differ from it, or all of them. `color`
- * and `background` do not overlap; their upper eight bits are 0. */
+/* Adds n >= 1 pixels to their sums: those that are not PACKED_NOTHING, which they become, or, where `background` is not null, all of
+ * them, which become that again. The two do not overlap. */
 void smear_light_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                               const struct light_instant *instant, bool all);
+                               const struct light_instant *instant);
 #if SMEAR_VECTORS
 #define smear_light_add smear_light_add_vector
 void smear_light_add_vector(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                            const struct light_instant *instant, bool all);
+                            const struct light_instant *instant);
 #else
 #define smear_light_add smear_light_add_reference
 #endif

@@ -8,55 +8,67 @@
 /* ------------------------------------------------------------------ sums */
 
 /* Reads and writes the sums of those pixels only that add to them: the barrier keeps compilers from reading ahead. */
-void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
+SMEAR_INLINE void packed_add_pixels(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
 {
-    const uint32_t mask = all ? UINT32_MAX : 0;
     for (int32_t i = 0; i < n; i++) {
-        const uint32_t c = color[i], behind = background[i];
-        if (((c ^ behind) | mask) == 0)
+        const uint32_t c = color[i];
+        if (c == PACKED_NOTHING && background == NULL)
             continue;
         SMEAR_KEEP_BRANCH();
         struct packed_sum s = packed_sum_at(&sums, i);
-        color[i] = behind;
+        color[i] = background != NULL ? background[i] : PACKED_NOTHING;
         s.rb += c & 0xff00ffu;
         s.gn += (c >> 8 & 0xffu) + 0x10000u;
         packed_sum_put(&sums, i, s);
     }
 }
 
-#if SMEAR_VECTORS
-/* Takes four pixels without a branch: what looks like the background adds nothing. */
-SMEAR_INLINE void add4(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn, smear_v4u may_skip)
+void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
 {
+    if (background == NULL)
+        packed_add_pixels(color, NULL, sums, n);
+    else
+        packed_add_pixels(color, background, sums, n);
+}
+
+#if SMEAR_VECTORS
+/* Takes four pixels without a branch. */
+SMEAR_INLINE void add4(uint32_t *color, const uint32_t *background, uint32_t *rb, uint32_t *gn)
+{
+    const smear_v4u nothing = v4u_all(PACKED_NOTHING);
     smear_v4u c = v4u_load(color);
-    const smear_v4u behind = v4u_load(background), skips = (smear_v4u)(c == behind) & may_skip;
-    v4u_store(color, behind);
-    c = ((c & 0xffffffu) | 0x1000000u) & ~skips;
+    const smear_v4u none = background == NULL ? (smear_v4u)(c == nothing) : v4u_all(0);
+    v4u_store(color, background != NULL ? v4u_load(background) : nothing);
+    c = ((c & 0xffffffu) | 0x1000000u) & ~none;
     v4u_store(rb, v4u_load(rb) + (c & 0xff00ffu));
     v4u_store(gn, v4u_load(gn) + v4u_right16(c, 8));
 }
 
-/* The last round may take some pixels again: they look like the background by then. */
-void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
+/* The last round may take some pixels again: there is nothing by then. */
+void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
 {
     int32_t i = 0;
-    const smear_v4u may_skip = v4u_all(all ? 0 : UINT32_MAX);
-    for (; i + 4 <= n; i += 4)
-        add4(color + i, background + i, sums.rb + i, sums.gn + i, may_skip);
-    if (i < n && n >= 4 && !all)
-        add4(color + n - 4, background + n - 4, sums.rb + n - 4, sums.gn + n - 4, may_skip);
-    else if (i < n)
-        smear_packed_add_reference(color + i, background + i, packed_sums_from(sums, i), n - i, all);
+    if (background != NULL) {
+        for (; i + 4 <= n; i += 4)
+            add4(color + i, background + i, sums.rb + i, sums.gn + i);
+    } else {
+        for (; i + 4 <= n; i += 4)
+            add4(color + i, NULL, sums.rb + i, sums.gn + i);
+        if (i < n && n >= 4) {
+            add4(color + n - 4, NULL, sums.rb + n - 4, sums.gn + n - 4);
+            return;
+        }
+    }
+    smear_packed_add_reference(color + i, background != NULL ? background + i : NULL, packed_sums_from(sums, i), n - i);
 }
 
 #elif PACKED_ASM_ARMV6M
 /* clang-format off */
-/* A pixel; where it is the background, the way to `next`. */
+/* A pixel; where nothing moves, the way to `next`. */
 #define PACKED_ADD(next)                \
     "ldr r4, [%[color]]\n\t"            \
-    "ldm %[background]!, {r5}\n\t"      \
-    "stm %[color]!, {r5}\n\t"           \
-    "cmp r4, r5\n\t"                    \
+    "stm %[color]!, {%[nothing]}\n\t"   \
+    "cmp r4, %[nothing]\n\t"            \
     "beq " #next "f\n\t"                \
     "mov r5, r8\n\t"                    \
     "ands r5, r4\n\t"                   \
@@ -69,11 +81,11 @@ void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed
     "add r7, r9\n\t"                    \
     "stm %[sum]!, {r6, r7}\n"
 
-/* 15 instructions a pixel, 7 of the background, and 2 for each two; compilers, which keep half of what the loop needs on the
+/* 14 instructions a pixel, 6 where nothing moves, and 2 for each two; compilers, which keep half of what the loop needs on the
  * stack, take 24. */
-static void add_armv6m(uint32_t *color, const uint32_t *background, struct packed_sum *sum, int32_t n)
+static void add_armv6m(uint32_t *color, struct packed_sum *sum, int32_t n)
 {
-    const uint32_t *end = background + n;
+    const uint32_t *end = color + n;
     __asm__ volatile(
         ".syntax unified\n\t"
         "movs r4, #255\n\t"
@@ -89,7 +101,7 @@ static void add_armv6m(uint32_t *color, const uint32_t *background, struct packe
         PACKED_ADD(3)
         "2:\n\t"
         PACKED_ADD(4)
-        "cmp %[background], %[end]\n\t"
+        "cmp %[color], %[end]\n\t"
         "bne 1b\n\t"
         "b 5f\n"
         "3:\n\t"
@@ -97,78 +109,21 @@ static void add_armv6m(uint32_t *color, const uint32_t *background, struct packe
         "b 2b\n"
         "4:\n\t"
         "adds %[sum], #8\n\t"
-        "cmp %[background], %[end]\n\t"
+        "cmp %[color], %[end]\n\t"
         "bne 1b\n"
         "5:"
-        : [color] "+&l"(color), [background] "+&l"(background), [sum] "+&l"(sum)
-        : [end] "h"(end), [n] "l"(n)
+        : [color] "+&l"(color), [sum] "+&l"(sum)
+        : [end] "h"(end), [n] "l"(n), [nothing] "l"(PACKED_NOTHING)
         : "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
 }
 /* clang-format on */
 
-void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all)
+void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
 {
-    if (all)
-        smear_packed_add_reference(color, background, sums, n, true);
+    if (background != NULL)
+        smear_packed_add_reference(color, background, sums, n);
     else
-        add_armv6m(color, background, sums.pair, n);
-}
-#endif
-
-#if PACKED_ASM_ARMV6M
-/* 13 instructions a pixel, 8 of the background. */
-void smear_packed_set(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
-{
-    const uint32_t *end = background + n;
-    struct packed_sum *sum = sums.pair;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "movs r4, #255\n\t"
-        "lsls r5, r4, #16\n\t"
-        "orrs r4, r5\n\t"
-        "mov r8, r4\n\t"                /* 0xff00ff */
-        "movs r4, #1\n\t"
-        "lsls r4, r4, #16\n\t"
-        "mov r9, r4\n\t"                /* an instant */
-        "movs r3, #0\n\t"
-        "movs r7, #0\n"
-        "1:\n\t"
-        "ldr r4, [%[color]]\n\t"
-        "ldm %[background]!, {r5}\n\t"
-        "stm %[color]!, {r5}\n\t"
-        "cmp r4, r5\n\t"
-        "beq 2f\n\t"
-        "mov r5, r8\n\t"
-        "ands r5, r4\n\t"
-        "lsrs r4, r4, #8\n\t"
-        "uxtb r6, r4\n\t"
-        "add r6, r9\n\t"
-        "stm %[sum]!, {r5, r6}\n\t"     /* c & 0xff00ff, (c >> 8 & 0xff) + 0x10000 */
-        "cmp %[background], %[end]\n\t"
-        "bne 1b\n\t"
-        "b 3f\n"
-        "2:\n\t"
-        "stm %[sum]!, {r3, r7}\n\t"
-        "cmp %[background], %[end]\n\t"
-        "bne 1b\n"
-        "3:"
-        : [color] "+l"(color), [background] "+l"(background), [sum] "+l"(sum)
-        : [end] "h"(end)
-        : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
-}
-#elif PACKED_SETS
-void smear_packed_set(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n)
-{
-    struct packed_sum *sum = sums.pair;
-    for (const uint32_t *end = background + n; background != end; color++, sum++) {
-        const uint32_t c = *color, behind = *background++;
-        struct packed_sum s = { 0, 0 };
-        if (c != behind) {
-            *color = behind;
-            s = (struct packed_sum){ c & 0xff00ffu, (c >> 8 & 0xffu) + 0x10000u };
-        }
-        *sum = s;
-    }
+        add_armv6m(color, sums.pair, n);
 }
 #endif
 

@@ -2,8 +2,8 @@
 /* packed_sums.h - sums of pixels over instants, and the means of them.
  *
  * A sum is packed into two words: red and blue in 16 bits each, and green beside the number of instants it has. So it
- * holds PACKED_INSTANTS_MAX codes and, while a mean is made, half as many more. Instants that show the background are
- * not added: the mean gives it the weight of those that are left. */
+ * holds PACKED_INSTANTS_MAX codes and, while a mean is made, half as many more. Instants in which nothing moves are
+ * not added: the mean gives the background the weight of those that are left. */
 #ifndef SMEAR_KERNELS_PACKED_SUMS_H
 #define SMEAR_KERNELS_PACKED_SUMS_H
 
@@ -11,6 +11,10 @@
 #include "kernels/kernels.h"
 
 enum { PACKED_INSTANTS_MAX = 256 };
+
+/* What pixels of an instant are where nothing moves: no colour has it, but a texel that is as good as a hole. Its bytes are alike, so
+ * memset writes it. */
+#define PACKED_NOTHING 0x01010101u
 
 /* The assembly needs Thumb's high registers, which GCC keeps to itself where size counts. */
 #ifdef __OPTIMIZE_SIZE__
@@ -84,20 +88,14 @@ static inline struct packed_sums packed_sums_from(struct packed_sums s, int32_t 
 #endif
 }
 
-/* Adds n >= 1 pixels to their sums and makes them background again: those that differ from it, or all of them. `color`
- * and `background` do not overlap; their upper eight bits are 0. */
-void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
+/* Adds n >= 1 pixels to their sums: those that are not PACKED_NOTHING, which they become, or, where `background` is not null, all of
+ * them, which become that again. The two do not overlap. */
+void smear_packed_add_reference(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n);
 #if SMEAR_VECTORS || PACKED_ASM_ARMV6M
-void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n, bool all);
+void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n);
 #else
 #define smear_packed_add smear_packed_add_reference
 #endif
-
-/* Sums are set by the first instant rather than emptied before, where nothing faster adds. */
-#define PACKED_SETS (!SMEAR_VECTORS)
-
-/* Does what smear_packed_add does for sums that are not yet begun, whatever they hold. */
-void smear_packed_set(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n);
 
 /* Divides by n, 2 .. PACKED_INSTANTS_MAX, in 16 bits: (sum + n / 2) times 2^(16 + shift) / n, rounded up. A mean that is
  * whole stays so, and others go up from 1/2 - 1/128 on. */

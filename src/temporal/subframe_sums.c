@@ -12,23 +12,14 @@ static struct subframe_box read_box(const struct subframes *f)
                                   min_i32(f->area.x1 + reach, s->x1), min_i32(f->area.y1 + reach, s->y1) };
 }
 
-SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set)
+SMEAR_NOINLINE void smear_subframe_sums_clear(const struct subframes *f)
 {
     const struct subframe_box b = read_box(f);
-    for (int32_t y = b.y0; y < b.y1; y++) {
-        const int32_t at = work_row(f, &b, y);
-        if (y < set->y0 || y >= set->y1) {
-            packed_sums_clear(&f->sums, at, b.x1 - b.x0);
-            continue;
-        }
-        if (set->x0 > b.x0)
-            packed_sums_clear(&f->sums, at, set->x0 - b.x0);
-        if (set->x1 < b.x1)
-            packed_sums_clear(&f->sums, at + set->x1 - b.x0, b.x1 - set->x1);
-    }
+    for (int32_t y = b.y0; y < b.y1; y++)
+        packed_sums_clear(&f->sums, work_row(f, &b, y), b.x1 - b.x0);
 }
 
-/* Vectors take whole rounds: pixels beside a box look like the background and add nothing. */
+/* Vectors take whole rounds: beside a box is nothing. */
 static struct subframe_box whole_rounds(const struct subframes *f, const struct subframe_box *box)
 {
     enum { ROUND = 8 };
@@ -41,7 +32,7 @@ static struct subframe_box whole_rounds(const struct subframes *f, const struct 
     return b;
 }
 
-void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets)
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k)
 {
     const struct smear_raster_target *s = &f->t->background;
     const struct subframe_box bounds = whole_rounds(f, box), *b = &bounds;
@@ -50,18 +41,14 @@ void smear_subframe_sums_add(const struct subframes *f, const struct subframe_bo
     if (sums_light(f))
         light = smear_light_instant(k, f->instants, frame_transfer(f->t->frame));
     for (int32_t y = b->y0; y < b->y1; y++) {
-        const uint32_t *background = s->color + target_row(&s->color_rows, s, y) + b->x0;
+        const uint32_t *background = f->blends ? s->color + target_row(&s->color_rows, s, y) + b->x0 : NULL;
         const int32_t at = work_row(f, b, y);
         uint32_t *color = f->work.color + at;
         const struct packed_sums sums = packed_sums_from(f->sums, at);
-        if (sums_light(f)) {
-            smear_light_add(color, background, sums, n, &light, f->blends);
-            continue;
-        }
-        if (PACKED_SETS && sets)
-            smear_packed_set(color, background, sums, n);
+        if (sums_light(f))
+            smear_light_add(color, background, sums, n, &light);
         else
-            smear_packed_add(color, background, sums, n, f->blends);
+            smear_packed_add(color, background, sums, n);
     }
 }
 
@@ -77,14 +64,16 @@ void smear_subframe_restore_depth(const struct subframes *f, const struct subfra
                          (size_t)(wide.x1 - wide.x0) * sizeof *s->depth);
 }
 
-void smear_subframe_take_background(const struct subframes *f)
+void smear_subframe_take_background(const struct subframes *f, bool nothing)
 {
     const struct smear_raster_target *s = &f->t->background;
-    const struct subframe_box all = { s->x0, s->y0, s->x1, s->y1 };
-    for (int32_t y = s->y0; y < s->y1; y++)
-        __builtin_memcpy(f->work.color + work_row(f, &all, y), s->color + target_row(&s->color_rows, s, y) + s->x0,
-                         (size_t)(s->x1 - s->x0) * sizeof *s->color);
-    smear_subframe_restore_depth(f, &all);
+    const size_t bytes = (size_t)(s->x1 - s->x0) * sizeof *s->color;
+    uint32_t *color = f->work.color;
+    for (int32_t y = s->y0; y < s->y1; y++, color += f->t->pitch)
+        if (nothing)
+            __builtin_memset(color, (int)(PACKED_NOTHING & 255u), bytes);
+        else
+            __builtin_memcpy(color, s->color + target_row(&s->color_rows, s, y) + s->x0, bytes);
 }
 
 struct depth_range smear_subframe_depths(const struct subframes *f, const struct subframe_box *b, int32_t margin)

@@ -96,17 +96,14 @@ struct smear_tile_plan;
  * blocks say, unless it is null. */
 void smear_subframe_average(const struct subframes *f, const struct subframe_box *all, const struct smear_tile_plan *plan);
 
-/* The first instant sets the sums of its box, which need not be emptied. */
-static inline bool sums_are_set(const struct subframes *f) { return PACKED_SETS && !sums_light(f) && !f->blends; }
+/* Empties the sums wherever they will be read. */
+void smear_subframe_sums_clear(const struct subframes *f);
 
-/* Empties the sums wherever they will be read, but for those in the box that the first instant sets. */
-void smear_subframe_sums_clear(const struct subframes *f, const struct subframe_box *set);
+/* Adds the box of instant k to the sums, and makes its colours nothing again, or background where draws are blended. */
+void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k);
 
-/* Adds the box of instant k to the sums, or sets them, and makes its colours background again. */
-void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k, bool sets);
-
-/* Copies its colours and depths. */
-void smear_subframe_take_background(const struct subframes *f);
+/* Copies its colours, or puts PACKED_NOTHING in their place. */
+void smear_subframe_take_background(const struct subframes *f, bool nothing);
 
 /* Copies its depths in a box and, where tiles begin with whole words, perhaps one pixel more to either side. */
 void smear_subframe_restore_depth(const struct subframes *f, const struct subframe_box *b);

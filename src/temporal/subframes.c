@@ -3,7 +3,8 @@
  *
  * Where no moving triangle is at an instant, a tile looks as it does without moving triangles: that picture, the
  * background (what does not move, with its blended draws), is made once and weighs for all instants that show nothing
- * else. At each instant only the box around the moving triangles is drawn, summed and made background again.
+ * else. At each instant only the box around the moving triangles is drawn, summed and emptied again: before nothing, as
+ * what moves may have the colours of the background. What is blended is drawn over the background.
  *
  *     list        what may be seen in the tiles
  *     for each instant:
@@ -198,13 +199,11 @@ static struct subframe_box draw_instant(struct subframes *f, int32_t time)
     return all;
 }
 
-/* Finds what may be seen, fill by fill; true when something moves. What moves is drawn in the middle of the exposure with it, where
- * that is `wanted`. */
-static SMEAR_NOINLINE bool list(struct subframes *f, bool wanted, struct subframe_box *middle)
+/* Finds what may be seen, fill by fill; true when something moves. */
+static SMEAR_NOINLINE bool list(struct subframes *f)
 {
     const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
-    const int32_t time = smear_shutter_instant(t->shutter, 0, 1);
     const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
     bool moves = false;
     begin_list(f, &whole);
@@ -215,27 +214,22 @@ static SMEAR_NOINLINE bool list(struct subframes *f, bool wanted, struct subfram
         for (uint32_t i = t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(g, i)->next)
             if (touches(f, i))
                 note_blended(f, i, &moves);
-        if (wanted)
-            draw_filled(f, time, middle);
         f->fills++;
     } while (f->refilled != NULL && fill(f, FILL_MOVING | FILL_BLENDED, true));
     end_list(f, &whole);
-    if (wanted && f->blends)
-        blend_instant(f, time, middle);
     return moves || f->moving_seen != 0;
 }
 
-/* Adds the box of instant k to the sums and makes it background again. `samples`: taken before. Returns how many it
+/* Adds the box of instant k to the sums and empties it. `samples`: taken before. Returns how many it
  * has. */
 static uint32_t add_instant(const struct subframes *f, const struct subframe_box *box, int32_t k, uint32_t samples,
                             struct subframe_box *all)
 {
     if (subframe_box_is_empty(box))
         return 0;
-    const bool sets = samples == 0 && sums_are_set(f);
     if (samples == 0)
-        smear_subframe_sums_clear(f, sets ? box : &no_box);
-    smear_subframe_sums_add(f, box, (uint32_t)k, sets);
+        smear_subframe_sums_clear(f);
+    smear_subframe_sums_add(f, box, (uint32_t)k);
     smear_subframe_restore_depth(f, box);
     box_add(all, box);
     return (uint32_t)pixels_in(box);
@@ -334,24 +328,24 @@ static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, 
     return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
 }
 
-/* Draws and sums as many instants as the plan says, of which the middle one has been drawn. Where something passes the eye they show
+/* Draws and sums as many instants as the plan says, the middle one first. Where something passes the eye they show
  * what the middle does not: what changes from one to the next is planned for, too. Up to half as many more are done without. */
-static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, const struct subframe_box *middle,
-                             struct subframe_box *all)
+static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
 {
     enum { LOOKS = 5 };         /* at least, where something passes */
     const struct smear_shares before = *plan->own;
-    const uint32_t cost = cost_of(f, middle);
+    const struct subframe_box middle = draw_instant(f, smear_shutter_instant(f->t->shutter, 0, 1));
+    const uint32_t cost = cost_of(f, &middle);
     struct subframe_changes changes = { .sum = 0 };
     struct smear_contrast contrast;
-    smear_tile_contrast(&contrast, f, plan, middle);
+    smear_tile_contrast(&contrast, f, plan, &middle);
     const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
     const int32_t first = f->passing.in_space ? max_i32(planned, LOOKS) : planned;
     f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
     f->space->seen = 0;
-    const uint32_t samples = draw_rest(f, first, add_instant(f, middle, first / 2, 0, all), all);
+    const uint32_t samples = draw_rest(f, first, add_instant(f, &middle, first / 2, 0, all), all);
     if (f->changes == NULL)
         return samples;
     f->changes = NULL;
@@ -397,15 +391,18 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     f.plans = f.closes && plan->chooser != NULL;
     if (t->fill != NULL)
         f.refilled = t;
-    smear_subframe_take_background(&f);
-    struct subframe_box middle = no_box;
+    smear_subframe_restore_depth(&f, &(struct subframe_box){ f.work.x0, f.work.y0, f.work.x1, f.work.y1 });
     uint32_t samples = 0;
-    if (list(&f, f.plans, &middle)) {
+    const bool moves = list(&f);
+    smear_subframe_take_background(&f, !f.blends);
+    if (moves) {
         all = no_box;
-        samples = f.plans ? draw_planned(&f, plan, &middle, &all) : draw_rest(&f, 0, 0, &all);
+        samples = f.plans ? draw_planned(&f, plan, &all) : draw_rest(&f, 0, 0, &all);
     }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
+    else
+        smear_subframe_take_background(&f, false);
     if (samples != 0)
         smear_subframe_average(&f, &all, plan);
     return samples;

@@ -7,6 +7,9 @@
 #include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
+/* Returns a pixel at an instant: where nothing moves, what is static there. */
+static inline uint32_t pixel_shown(uint32_t color, const uint32_t *behind) { return color != PACKED_NOTHING ? color : *behind; }
+
 /* Some rows of n pixels at an instant, what is static behind them, and depth codes of both: larger is nearer. */
 struct difference_block {
     const uint32_t *color, *behind;
@@ -20,21 +23,22 @@ struct difference_block {
 
 /* Returns the squared differences of some pixels, times half of those that each stands for, and adds to *moving how many of four are not
  * as what is static: of a row those that lie between those of the row before. An edge between two pixels counts where it moves: what
- * is static must lie behind, else it hides the edge. Upper eight bits of pixels may be anything: they tell pixels apart, but are no
- * difference. */
+ * is static must lie behind, else it hides the edge: it is shown where nothing moves. Upper eight bits of pixels may be anything: they
+ * tell pixels apart, but are no difference. */
 static uint32_t differences(struct difference_block b, uint32_t *moving)
 {
     uint32_t sum = 0, count = 0;
     for (; b.first < b.end; b.first++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
         for (int32_t i = (b.first & 1) * (b.across >> 1); i < b.n; i += b.across) {
             const uint32_t here = b.color[i], next = b.color[b.there + i], depth = b.depth[i], depth_there = b.depth[b.there + i];
-            const bool moves = depth != b.deep[i] || here != b.behind[i];
+            const bool moves = depth != b.deep[i] || (here != PACKED_NOTHING && here != b.behind[i]);
             count += moves;
             if (here == next || (!moves && depth_there < depth))
                 continue;
-            if (depth_there + !moves > depth && depth_there == b.deep[b.there_behind + i] && next == b.behind[b.there_behind + i])
+            if (depth_there + !moves > depth && depth_there == b.deep[b.there_behind + i]
+                && (next == PACKED_NOTHING || next == b.behind[b.there_behind + i]))
                 continue;
-            sum += pixel_square_between(here, next);
+            sum += pixel_square_between(pixel_shown(here, b.behind + i), pixel_shown(next, b.behind + b.there_behind + i));
         }
     *moving += count * b.fours;
     return 2 * b.fours * sum;
@@ -280,6 +284,13 @@ void smear_note_passing(struct subframes *f, uint32_t triangle, bool blended)
     p->sparks = p->sparks || (blended && b->travel >= 3 * FAR);
 }
 
+/* Returns a pixel of the tiles at an instant, of a row and column. */
+static uint32_t pixel_shown_at(const struct subframes *f, int32_t row, int32_t column)
+{
+    const struct smear_raster_target *s = &f->t->background;
+    return pixel_shown(f->work.color[row * f->t->pitch + column - s->x0], s->color + target_row(&s->color_rows, s, s->y0 + row) + column);
+}
+
 /* Returns how much larger the squared error of what moves is where it covers each pixel for a short time only, q4. There are
  * few edges, whose errors may all be large: up to twice as much. And in linear light a little on what is dark is many codes:
  * light over dark ones errs by as much as it is shorter there, and by 16 at most (the mean of all colours over black, those of
@@ -292,10 +303,11 @@ static uint32_t shortness_of(const struct subframes *f, bool linear)
     if (p->covered == 0)
         return 16;
     const uint32_t parts = min_u32(p->ways, area_of(f)) / p->covered, few = min_u32(max_u32(parts, 4), 8) << 2;
-    const uint32_t *middle = f->work.color + (tall >> 1) * t->pitch + t->x0 - t->background.x0;
     uint32_t most = 0, n = 0;
-    for (int32_t x = 0; linear && x < wide; x += BLOCK_PX, n += 3)
-        most += (16u >> (pixel_red(middle[x]) >> 5)) + (16u >> (pixel_green(middle[x]) >> 5)) + (16u >> (pixel_blue(middle[x]) >> 5));
+    for (int32_t x = 0; linear && x < wide; x += BLOCK_PX, n += 3) {
+        const uint32_t c = pixel_shown_at(f, tall >> 1, t->x0 + x);
+        most += (16u >> (pixel_red(c) >> 5)) + (16u >> (pixel_green(c) >> 5)) + (16u >> (pixel_blue(c) >> 5));
+    }
     return few * (linear ? max_u32(min_u32(parts + (parts >> 1), most / n), 1) : 1);
 }
 
@@ -323,7 +335,7 @@ void smear_note_changes(const struct subframes *f, bool is_first)
         const int32_t column = t->x0 + ((2 * i + 1) * (step >> 1) >> 16), row = (s->y1 - s->y0) * (i * APART & 63) >> 6;
         if (column < f->work.x0 || column >= f->work.x1)
             continue;
-        const uint32_t here = f->work.color[row * t->pitch + column - s->x0];
+        const uint32_t here = pixel_shown_at(f, row, column);
         if (!is_first)
             c->sum = add_saturated(c->sum, pixel_square_between(here, c->shown[i]));
         c->shown[i] = here;

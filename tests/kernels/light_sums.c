@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* light_sums.c - how check_kernels calls kernels/light_sums.h: colours and backgrounds that are often alike, sums with room
+/* light_sums.c - how check_kernels calls kernels/light_sums.h: colours of which many are nothing, sums with room
  * for one instant more; up to eight pairs of taps, up to 17 pixels away, around sums of instants that were added. */
 #include "kernels/light_sums.h"
 
@@ -28,13 +28,12 @@ static void make_instants(struct kernel_call *c)
 static void prepare_sums(struct kernel_call *c)
 {
     uint32_t *color = c->plane[COLOR], *sum = c->plane[SUMS];
-    const uint32_t *background = c->plane[OTHER];
     make_pixels(c->plane[COLOR], c->n);
     make_pixels(c->plane[OTHER], c->n);
     make_instants(c);
     for (int32_t i = 0; i < c->n; i++)
         if ((kernel_random() & 1u) != 0)
-            color[i] = background[i];
+            color[i] = PACKED_NOTHING;
     for (int32_t i = 0; i < 2 * c->n; i++)
         sum[i] &= c->word[INSTANTS] == 1 ? 0 : 0x7fff7fffu;
     c->word[ALL] = (c->word[ALL] & 3u) == 0;
@@ -42,13 +41,12 @@ static void prepare_sums(struct kernel_call *c)
 }
 
 typedef void light_add_fn(uint32_t *color, const uint32_t *background, struct packed_sums sums, int32_t n,
-                          const struct light_instant *instant, bool all);
+                          const struct light_instant *instant);
 
 static void add(struct kernel_call *c, light_add_fn *light_add)
 {
     const struct light_instant instant = smear_light_instant(c->word[INSTANT], c->word[INSTANTS], c->word[LINEAR] != 0);
-    light_add(c->plane[COLOR], c->plane[OTHER], packed_sums_in(c->plane[SUMS], c->n), c->n, &instant,
-              c->word[ALL] != 0);
+    light_add(c->plane[COLOR], c->word[ALL] != 0 ? c->plane[OTHER] : NULL, packed_sums_in(c->plane[SUMS], c->n), c->n, &instant);
 }
 
 static void add_reference(struct kernel_call *c)
@@ -79,7 +77,7 @@ static void make_sums(struct kernel_call *c)
         for (uint32_t k = 0; k < min_u32(times, instants); k++) {
             const struct light_instant instant = smear_light_instant(k, all, c->word[LINEAR] != 0);
             uint32_t color = kernel_random() & 0xffffffu, background = ~color;
-            smear_light_add_reference(&color, &background, packed_sums_from(sums, i), 1, &instant, true);
+            smear_light_add_reference(&color, &background, packed_sums_from(sums, i), 1, &instant);
         }
     }
 }

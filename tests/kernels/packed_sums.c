@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* packed_sums.c - how check_kernels calls kernels/packed_sums.h: colours and backgrounds that are often alike, sums of any
+/* packed_sums.c - how check_kernels calls kernels/packed_sums.h: colours of which many are nothing, sums of any
  * value that has room for one instant more; means of sums that are whole. */
 #include "kernels/packed_sums.h"
 
@@ -33,41 +33,28 @@ static struct packed_sum any_sum(uint32_t instants)
 static void prepare_sums(struct kernel_call *c)
 {
     uint32_t *color = c->plane[COLOR];
-    const uint32_t *background = c->plane[OTHER];
     const struct packed_sums sums = sums_of(c);
     make_pixels(c, COLOR);
     make_pixels(c, OTHER);
     for (int32_t i = 0; i < c->n; i++) {
         if ((kernel_random() & 1u) != 0)
-            color[i] = background[i];
+            color[i] = PACKED_NOTHING;
         packed_sum_put(&sums, i, any_sum(PACKED_INSTANTS_MAX - 1));
     }
     c->word[ALL] = (c->word[ALL] & 3u) == 0;
 }
 
+static const uint32_t *background_of(const struct kernel_call *c) { return c->word[ALL] != 0 ? c->plane[OTHER] : NULL; }
+
 static void add_reference(struct kernel_call *c)
 {
-    smear_packed_add_reference(c->plane[COLOR], c->plane[OTHER], sums_of(c), c->n, c->word[ALL] != 0);
+    smear_packed_add_reference(c->plane[COLOR], background_of(c), sums_of(c), c->n);
 }
 
 static void add_best(struct kernel_call *c)
 {
-    smear_packed_add(c->plane[COLOR], c->plane[OTHER], sums_of(c), c->n, c->word[ALL] != 0);
+    smear_packed_add(c->plane[COLOR], background_of(c), sums_of(c), c->n);
 }
-
-#if PACKED_SETS
-static void set_reference(struct kernel_call *c)
-{
-    const struct packed_sums sums = sums_of(c);
-    packed_sums_clear(&sums, 0, c->n);
-    smear_packed_add_reference(c->plane[COLOR], c->plane[OTHER], sums, c->n, false);
-}
-
-static void set_best(struct kernel_call *c)
-{
-    smear_packed_set(c->plane[COLOR], c->plane[OTHER], sums_of(c), c->n);
-}
-#endif
 
 /* ------------------------------------------------------------------ means */
 
@@ -106,16 +93,6 @@ const struct kernel kernels_packed_sums[] = {
                               { "lazy", add_best },
 #endif
       } },
-#if PACKED_SETS
-    { .name = "packed_set", .least = 1, .most = 35, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
-      .timed = 128, .form = { { "reference", set_reference },
-#if PACKED_ASM_ARMV6M
-                              { "armv6m", set_best },
-#else
-                              { "in one go", set_best },
-#endif
-      } },
-#endif
     { .name = "packed_means", .least = 1, .most = 35, .size = { 4, 8 }, .align = { 4, 4 }, .prepare = prepare_means,
       .timed = 128, .form = { { "reference", means_reference },
 #if PACKED_ASM_ARMV6M
