@@ -417,7 +417,7 @@ run-suite: $(TESTS)
 	SMEAR_ASSETS=$${SMEAR_ASSETS-$(wildcard ../shared/assets)} $(TESTS) --suite $(or $(SUITE),$(error which? SUITE=api; make print-suites lists them))
 
 # Suites of seconds that reach into every room of src/.
-COVERAGE_SUITES := $(filter-out accuracy apart blur bounds chart cover edges_truth failures filters foreign guess image jpeg json memory metrics \
+COVERAGE_SUITES := $(filter-out accuracy alike apart blur bounds chart cover edges_truth failures filters foreign guess image jpeg json memory metrics \
                    model near near_sweep present ref room rooms scenes sight sketch sketch_truth small turns view x11,$(SUITES))
 .PHONY: coverage run-coverage
 ## tests: branches of src/ that suites and the generator take, against tests/coverage.txt: at least 95 %
