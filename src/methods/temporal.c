@@ -185,8 +185,7 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
         travel_set_method(&travel[next], TILE_SUBFRAMES);
         instants = max_i32(instants, choice.instants);
     }
-    const struct smear_tile_plan plan = { &self->chooser, &travel[first], &self->moving.blocks, &self->before, self->still,
-                                          &self->shares[worker] };
+    const struct smear_tile_plan plan = { &self->chooser, &travel[first], &self->moving.blocks, self->tiles };
     const bool plans = self->chooser.method == SMEAR_AUTO && self->moving.measures;
     struct smear_tile_run t = tiles_of(f, first, next, worker);
     widen(&t, f);
@@ -360,34 +359,18 @@ static void list_row(struct smear_temporal *self, struct smear_rows *rows, int r
     smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));
 }
 
-/* Tells the next rows of this one: not which worker drew what. Tiles that stand still have no error, and others may have theirs: of no
- * more than there are of these. */
-static void add_shares(struct smear_temporal *self, const struct smear_rows *rows)
-{
-    const uint32_t tile = (uint32_t)(block_rows(rows->window.tile) * block_rows(rows->window.tile));
-    uint32_t still = 0, blocks = 0;
-    for (int32_t i = 0; i < rows->window.columns; i++)
-        still += is_static(&self->moving.travel[i]) ? tile : 0;
-    for (int i = 0; i < rows->jobs.workers; i++) {
-        self->before.sum += min_u32(self->shares[i].sum, UINT32_MAX / 2 - min_u32(self->before.sum, UINT32_MAX / 2));
-        blocks += self->shares[i].blocks;
-        self->shares[i] = (struct smear_shares){ 0, 0 };
-    }
-    self->before.blocks += blocks;
-    self->still += min_u32(still, blocks);
-}
-
 void smear_temporal_begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const uint32_t start = stage_start(rows);
     list_row(self, rows, row);
+    for (int32_t i = 0; i < rows->window.columns; i++)
+        self->tiles[!is_static(&self->moving.travel[i])]++;
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
 void smear_temporal_end_row(struct smear_temporal *self, const struct smear_rows *rows)
 {
     count_tiles(self, rows);
-    add_shares(self, rows);
 }
 
 /* Draws and finishes a row whose tiles are listed. Not part of what calls it: listing needs the stack, too. */
@@ -464,10 +447,7 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
     }
     self->target = frame->target;
     self->budget = frame->budget;
-    self->before = (struct smear_shares){ 0, 0 };
-    self->still = 0;
-    for (int i = 0; i < SMEAR_WORKERS_MAX; i++)
-        self->shares[i] = (struct smear_shares){ 0, 0 };
+    self->tiles[0] = self->tiles[1] = 0;
 }
 
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int *end)

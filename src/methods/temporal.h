@@ -17,9 +17,7 @@ struct smear_temporal {
     int32_t strip;                      /* tiles that share instants are so many pixels wide together, at most */
     int32_t target;                     /* smear_frame.target: the chooser's follows from it and the budget */
     uint32_t budget;                    /* smear_frame.budget */
-    struct smear_shares before;         /* of the frame's tile rows so far */
-    uint32_t still;                     /* and their blocks that have no error, no more than there are of others */
-    struct smear_shares shares[SMEAR_WORKERS_MAX];      /* of the row being drawn */
+    uint32_t tiles[2];                  /* of the frame's rows so far: that stand still, and others */
     struct smear_damage *damage;        /* null without desc.reuse */
     struct smear_lines *lines;          /* of the still scene of a frame whose camera moves; null: the desc has no room for them */
 };

@@ -9,7 +9,7 @@
 enum {
     BLOCK_SHIFT = 3,
     BLOCK_PX = 1 << BLOCK_SHIFT,
-    BLOCK_INSTANTS_MAX = 63     /* gaps between more are never closed */
+    BLOCK_INSTANTS_MAX = 47     /* gaps between more are never closed */
 };
 
 struct smear_block {
@@ -59,16 +59,17 @@ static inline int32_t closed_instants(uint32_t n, uint32_t d)
     uint32_t k = 0;
     if (d > n)
         return 0;
-    for (uint32_t bit = d < 1u << 20 ? (BLOCK_INSTANTS_MAX + 1) / 2 : 2; bit != 0; bit >>= 1)     /* 2: n / d is 4 at most */
+    for (uint32_t bit = d < 1u << 20 ? 32 : 2; bit != 0; bit >>= 1)     /* 2: n / d is 4 at most */
         if ((k + bit) * (k + bit) * d <= n)
             k += bit;
-    return (int32_t)k;
+    return min_i32((int32_t)k, BLOCK_INSTANTS_MAX);
 }
 
-/* What closing the gaps leaves of the squared error of one instant: with N of them, left / N^2 and the floor, which no
- * number of instants takes away. */
+/* What closing the gaps leaves of the squared error of one instant: with N of them, left / N^2, what is rounded, as taps lie on pixels,
+ * but 1 / 2 N^2 at most where instants are not a pixel apart, and the floor, which no number of instants takes away. */
 struct smear_closing {
     uint32_t left;              /* q8; 256: gaps are not closed */
+    uint32_t rounded;           /* q16 */
     uint32_t floor;             /* q16 */
     int32_t last;               /* instants up to which it pays, where nothing else is known; 0: never */
     int32_t unlike;             /* by how much the displacement is not what it is beside it, 1/16 px */

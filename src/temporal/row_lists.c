@@ -9,16 +9,19 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
 {
     enum {
         LEFT = 13,              /* q8: of the squared error where all goes alike: instants are sharp, pixels square */
+        WON = 65536 / 4,        /* q16: by closing; so it pays for instants two thirds of a pixel apart or farther */
         UNLIKE_LOG2 = 6,        /* the rest goes with the square of what is unlike, q8 */
-        FLOOR = 11744051        /* q24: 0.7 of what an instant per pixel of the path leaves */
+        ROUNDED = 10066330,     /* q24: 0.6 of what an instant per pixel of the path leaves */
+        FLOOR = 1677722         /* q24: 0.1 of that: ends of edges' ways are rounded */
     };
     const uint32_t square = (uint32_t)(x * x + y * y) + 1u, apart = (uint32_t)min_i32(unlike, 32767) * (uint32_t)min_i32(unlike, 32767);
-    struct smear_closing c = { 256, 0, 0, unlike };
+    struct smear_closing c = { 256, 0, 0, 0, unlike };
     if (apart >> 1 >= 2 * square || unlike == INT16_MAX)
         return c;
     c.left = min_u32(LEFT + apart / max_u32(square >> UNLIKE_LOG2, 1), 256);
-    c.floor = min_u32(FLOOR / square, 65536);
-    c.last = closed_instants((256 - c.left) * 256, max_u32(c.floor, 1));
+    c.rounded = min_u32(ROUNDED / square, 65536);
+    c.floor = min_u32((FLOOR + (c.left - LEFT) * 4 * 65536) / square, 65536);
+    c.last = closed_instants(WON, max_u32(c.floor, 1));
     return c;
 }
 
@@ -38,7 +41,7 @@ struct smear_closing smear_block_closing(const struct smear_row_blocks *b, int32
             unlike = max_i32(unlike, max_i32(abs_i32(here->x - there->x), abs_i32(here->y - there->y)));
     }
     if (here->last != 0 && here->last < SPARSE && 2 * unlike > max_i32(abs_i32(here->x), abs_i32(here->y)))
-        return (struct smear_closing){ 256, 0, 0, unlike };
+        return (struct smear_closing){ 256, 0, 0, 0, unlike };
     return smear_closing_of(here->x, here->y, unlike);
 }
 

@@ -233,6 +233,18 @@ static const struct smear_tile_travel *tile_at(const struct smear_tile_run *t, c
     return &plan->travel[(x - t->x0) / t->tile];
 }
 
+/* Returns a step as gaps are closed for it: two pixels at least, of which a quarter, half and a quarter is the mean. Instants less than
+ * a pixel apart are as far from pixels on the one side as pixels beside them on the other. */
+static struct smear_step widened(int32_t x, int32_t y)
+{
+    enum { LEAST = 2 * 16 };
+    const int32_t longer = max_i32(abs_i32(x), abs_i32(y));
+    if (longer == 0 || longer >= LEAST)
+        return (struct smear_step){ (int16_t)x, (int16_t)y };
+    return (struct smear_step){ (int16_t)(2 * abs_i32(x) < longer ? 0 : x < 0 ? -LEAST : LEAST),
+                                (int16_t)(2 * abs_i32(y) < longer ? 0 : y < 0 ? -LEAST : LEAST) };
+}
+
 /* Returns how what is seen in the block at a pixel goes on from one instant to the next, if gaps are closed there. */
 static struct smear_step step_at(const struct subframes *f, const struct smear_tile_plan *plan, int32_t x, int32_t y)
 {
@@ -244,9 +256,9 @@ static struct smear_step step_at(const struct subframes *f, const struct smear_t
     if (instants > b->last)
         return (struct smear_step){ 0, 0 };
     if (b->depth != 0)
-        return (struct smear_step){ (int16_t)(b->x / instants), (int16_t)(b->y / instants) };
+        return widened(b->x / instants, b->y / instants);
     const struct smear_tile_travel *tile = tile_at(t, plan, x);
-    return (struct smear_step){ (int16_t)(tile->x / instants), (int16_t)(tile->y / instants) };
+    return widened(tile->x / instants, tile->y / instants);
 }
 
 static inline bool is_alike(struct smear_step a, struct smear_step b) { return a.x == b.x && a.y == b.y; }

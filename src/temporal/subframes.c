@@ -235,13 +235,6 @@ static uint32_t add_instant(const struct subframes *f, const struct subframe_box
     return (uint32_t)pixels_in(box);
 }
 
-/* Returns what an instant costs, about, in instructions. */
-static uint32_t cost_of(const struct subframes *f, const struct subframe_box *box)
-{
-    enum { TRIANGLE = 1500, PIXEL = 40, RUN = 1000, MOST = 128 };
-    return min_u32(f->moving_seen, MOST) * TRIANGLE + (uint32_t)pixels_in(box) * PIXEL + RUN;
-}
-
 /* Returns the least number from `part` of n, in 1/256, on that shares no divisor with n. */
 static int32_t coprime(int32_t n, int32_t part)
 {
@@ -333,13 +326,11 @@ static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, 
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
 {
     enum { LOOKS = 5 };         /* at least, where something passes */
-    const struct smear_shares before = *plan->own;
     const struct subframe_box middle = draw_instant(f, smear_shutter_instant(f->t->shutter, 0, 1));
-    const uint32_t cost = cost_of(f, &middle);
     struct subframe_changes changes = { .sum = 0 };
     struct smear_contrast contrast;
     smear_tile_contrast(&contrast, f, plan, &middle);
-    const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, cost, 1);
+    const int32_t planned = smear_tile_plan_instants(plan, f->t, &contrast, 1);
     const int32_t first = f->passing.in_space ? max_i32(planned, LOOKS) : planned;
     f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
@@ -349,9 +340,8 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     if (f->changes == NULL)
         return samples;
     f->changes = NULL;
-    *plan->own = before;
     smear_add_changes(&contrast, f, &changes);
-    int32_t wanted = smear_tile_plan_instants(plan, f->t, &contrast, cost, first);
+    int32_t wanted = smear_tile_plan_instants(plan, f->t, &contrast, first);
     if (first < 2 * LOOKS && (wanted > first || (passing & ~f->space->seen) != 0))          /* few see little of it */
         wanted = max_i32(wanted, 3 * first);
     if (2 * wanted <= 3 * first)

@@ -10,6 +10,8 @@
 /* Returns a pixel at an instant: where nothing moves, what is static there. */
 static inline uint32_t pixel_shown(uint32_t color, const uint32_t *behind) { return color != PACKED_NOTHING ? color : *behind; }
 
+enum { ACROSS = 4 };    /* pixels from one that is looked at to the next of its row */
+
 /* Some rows of n pixels at an instant, what is static behind them, and depth codes of both: larger is nearer. */
 struct difference_block {
     const uint32_t *color, *behind;
@@ -17,7 +19,6 @@ struct difference_block {
     int32_t there, there_behind;        /* where the pixels lie that they are compared with, in pixels from these: in color and
                                          * depth, and in behind and deep */
     int32_t pitch, pitch_behind, first, end, n; /* pitches: from one row to the next; first: its number, as rows may come one by one */
-    int32_t across;                     /* from one pixel that is looked at to the next */
     uint32_t fours;                     /* of how many times four pixels it stands */
 };
 
@@ -29,7 +30,7 @@ static uint32_t differences(struct difference_block b, uint32_t *moving)
 {
     uint32_t sum = 0, count = 0;
     for (; b.first < b.end; b.first++, b.color += b.pitch, b.depth += b.pitch, b.behind += b.pitch_behind, b.deep += b.pitch_behind)
-        for (int32_t i = (b.first & 1) * (b.across >> 1); i < b.n; i += b.across) {
+        for (int32_t i = (b.first & 1) * (ACROSS >> 1); i < b.n; i += ACROSS) {
             const uint32_t here = b.color[i], next = b.color[b.there + i], depth = b.depth[i], depth_there = b.depth[b.there + i];
             const bool moves = depth != b.deep[i] || (here != PACKED_NOTHING && here != b.behind[i]);
             count += moves;
@@ -49,7 +50,6 @@ struct look {
     const struct smear_tile_travel *tile;
     int32_t x, y, x1, y1;
     int32_t first, down; /* rows: those are looked at that lie 2^down apart, from the first on */
-    int32_t across; /* and of each every so many pixels */
     int32_t way_x, way_y; /* 1/16 px */
     int32_t dx, dy;
     bool at_border; /* the tiles end above or below */
@@ -87,7 +87,7 @@ static uint32_t look_along(const struct subframes *f, const struct look *l, int3
         const struct difference_block block = { f->work.color + at, s->color + behind, f->work.depth + at, s->depth + behind,
                                                 down * pitch + x, target_row(c, s, y + down) - row + x, pitch << l->down,
                                                 c->stride << l->down, (y - l->first) >> l->down, (end - l->first) >> l->down, n,
-                                                l->across, (uint32_t)l->across << l->down >> 2 };
+                                                1u << l->down };
         sum += differences(block, moving);
     }
     return sum;
@@ -139,15 +139,17 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     const uint32_t plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
-    const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11);
-    int32_t last = closing->last;
-    if (last != 0 && d->along + d->beside >= FLAT)
-        last = closed_instants(plain * (256 - closing->left) >> 8, max_u32(floor, 1));
-    const int at = (last + 1) >> 1;
-    c->plain[at] = add_saturated(c->plain[at], whole);
     /* Where displacements go apart, taps of a gap leave the path for what lies beside it. */
     const uint32_t beside = l->spreads ? min_u32((d->beside >> 6) * (uint32_t)min_i32(closing->unlike, 1024) >> 7, MOST) : 0;
+    const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11)
+                         + beside / max_u32((uint32_t)(longer * longer) >> 10, 1);
+    int32_t last = closing->last;
+    if (last != 0 && d->along + d->beside >= FLAT)
+        last = min_i32(closed_instants(plain >> 1, max_u32(floor, 1)), last);
+    const int at = (last + 1) >> 1;
+    c->plain[at] = add_saturated(c->plain[at], whole);
     c->closed[at] = add_saturated(c->closed[at], (plain * closing->left >> 8) + beside);
+    c->rounded[at] = add_saturated(c->rounded[at], (plain >> 7) * closing->rounded >> 9);
     c->floor[at] = add_saturated(c->floor[at], floor);
     if (l->at_border && last != 0)
         add_border(c, plain, y, last);
@@ -174,7 +176,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
                   column = l->x >> BLOCK_SHIFT, row = (l->y - y0) >> BLOCK_SHIFT;
     struct smear_block *b = block_at(plan->blocks, column, row);
-    struct smear_closing closing = { 256, 0, 0, 0 };
+    struct smear_closing closing = { 256, 0, 0, 0, 0 };
     const bool has_surface = b->depth != 0;
     if (!f->blends && smear_tile_may_close(plan->chooser, tile))
         closing = has_surface ? smear_block_closing(plan->blocks, column, row, rows) : smear_tile_closing(tile);
@@ -360,7 +362,7 @@ void smear_tile_contrast(struct smear_contrast *c, const struct subframes *f, co
     const struct smear_tile_run *t = f->t;
     const int32_t y0 = t->background.y0, y1 = t->background.y1;
     const bool is_sketch = target_is_sketch(plan->chooser->target);
-    struct look look = { .down = is_sketch ? BLOCK_SHIFT : 1, .across = is_sketch ? 4 : 2,
+    struct look look = { .down = is_sketch ? BLOCK_SHIFT : 1,
                          .shortness = shortness_of(f, transfer_is_linear(plan->chooser->transfer)) };
     __builtin_memset(c, 0, sizeof *c);
     c->unseen = (unseen_of(&f->passing, area_of(f)) >> 4) * look.shortness;

@@ -16,11 +16,11 @@ struct smear_tile_plan;
 enum { CLOSING_CLASSES = (BLOCK_INSTANTS_MAX + 1) / 2 + 1 };
 
 /* Squared differences times lengths, in codes^2 px, summed over red, green and blue, and over the blocks of a run: those
- * that gaps leave, what closed gaps leave of them, and the floor of those, as in struct smear_closing. */
+ * that gaps leave, what closed gaps leave of them, and the parts of that, as in struct smear_closing. */
 struct smear_contrast {
     uint32_t blocks; /* of the run */
     uint32_t moving; /* pixels that move, of four */
-    uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], floor[CLOSING_CLASSES];
+    uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], rounded[CLOSING_CLASSES], floor[CLOSING_CLASSES];
     uint32_t unseen; /* the same of what passes at other times, about */
     uint32_t changed; /* and by more than that, as instants show */
 };

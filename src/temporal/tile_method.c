@@ -89,48 +89,31 @@ static int32_t least_instants(const struct smear_chooser *chooser, const struct 
     return target < 64 ? max_i32(n, 288 / target) : n;      /* pictures of slow things jump where the number changes */
 }
 
-/* Return logarithms to base 2 and the way back, q8, with straight lines between powers of two. */
-static uint32_t log2_q8(uint32_t x)
-{
-    const int log = 31 - count_leading_zeros(x | 1u);
-    return ((uint32_t)log << 8) + (((x | 1u) << (31 - log) >> 23) & 255u);
-}
-
-static uint32_t exp2_q8(uint32_t x)
-{
-    const uint32_t log = x >> 8;
-    return log >= 31 ? UINT32_MAX : log >= 8 ? (256 + (x & 255u)) << (log - 8)
-                                             : (256 + (x & 255u)) >> (8 - log);
-}
-
-/* Returns the part of the mean squared error that a run may have, q8. A frame of a given error costs least where each
- * run's squared error goes with the cube root of what one instant leaves of it and with the square of the cube root of
- * what an instant costs. The mean is that of the rows before, as the others are not known yet. What stands still counts
- * but with `alone`: where something passes the eye, of which little is known, and for the finest targets. */
-static uint32_t share_of(const struct smear_tile_plan *plan, uint32_t left, uint32_t cost, uint32_t blocks, bool alone)
-{
-    enum { LEAST = 51,
-           MOST = 1280 };
-    const uint32_t log = (log2_q8(left / blocks + 1) + 2 * log2_q8(cost / blocks + 1)) / 3;
-    const uint32_t share = exp2_q8(log > 1024 ? log - 1024 : 0) + 1, own = share * blocks;
-    const uint32_t sum = plan->before->sum + own, count = plan->before->blocks + blocks + (alone ? 0 : plan->still);
-    plan->own->sum += own;
-    plan->own->blocks += blocks;
-    return min_u32(max_u32((share << 8) / max_u32(sum / count, 1), LEAST), MOST);
-}
-
 /* Returns the squared error that so many blocks may have together, in the unit of struct smear_contrast: codes^2, summed
  * over three channels, times the 12 of an edge that passes. In linear light dark codes differ by more than their light:
- * by 1.3 in the mean. */
-static uint32_t allowed(const struct smear_chooser *chooser, uint32_t share, uint32_t blocks)
+ * by 1.3 in the mean; of the finest targets less is left than is told. What stands still has no error, and others may have theirs, up to
+ * as much as their own; but with `alone`: where something passes the eye, of which little is known, and for the finest targets. */
+static uint32_t allowed(const struct smear_tile_plan *plan, uint32_t blocks, bool alone)
 {
-    const uint64_t target = (uint64_t)min_i32(chooser->target, 8191), parts = transfer_is_linear(chooser->transfer) ? 7 : 9;
+    const struct smear_chooser *chooser = plan->chooser;
+    const uint32_t still = alone ? 0 : plan->tiles[0], others = max_u32(plan->tiles[1], 1);
+    const uint32_t share = 256 + (min_u32(still, others) << 8) / others;         /* q8 */
+    const uint64_t target = (uint64_t)min_i32(chooser->target, 8191);
+    const uint64_t parts = (transfer_is_linear(chooser->transfer) ? 7u : 9u) + (target < 64 ? 2u : 0u);
     const uint64_t sum = target * target * parts * blocks * share >> 18;
     return sum > UINT32_MAX ? UINT32_MAX : (uint32_t)sum;
 }
 
 /* a / b: most are 0, and need no division where that is a call. */
 static inline uint32_t over(uint32_t a, uint32_t b) { return a < b ? 0 : a / b; }
+
+/* Returns what is rounded where gaps are closed, of what is left where they are not. Instants about a pixel apart are at the same place
+ * of all pixels: what the pixels beside it show is no news. */
+static uint32_t rounded(uint32_t sum, uint32_t plain)
+{
+    const uint32_t all = plain - (plain >> 2), apart = 2 * sum;     /* plain, where instants are a pixel apart */
+    return apart > all && apart < plain + (plain >> 2) ? all : min_u32(sum, (plain >> 2) + (plain >> 3));
+}
 
 /* Returns what `instants` leave of the squared error. At the ends of a run, `width` pixels, half a gap stays open: that counts where a
  * gap is wider than an eighth of the run. */
@@ -141,8 +124,11 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
     const uint32_t square = (uint32_t)(instants * instants);
     uint32_t sum = over(unseen, square);
     for (int k = 0; k < CLOSING_CLASSES; k++) {
-        const bool closes = may_close && (instants + 1) >> 1 <= k;
-        sum += closes ? over(c->closed[k], square) + over((c->plain[k] >> 8) * open, square) + c->floor[k] : over(c->plain[k], square);
+        const uint32_t plain = over(c->plain[k], square);
+        if (!may_close || (instants + 1) >> 1 > k)
+            sum += plain;
+        else
+            sum += over(c->closed[k] + (c->plain[k] >> 8) * open, square) + rounded(c->rounded[k], plain) + c->floor[k];
     }
     return sum;
 }
@@ -150,14 +136,14 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
 static int tiles_in(const struct smear_tile_run *t) { return (t->x1 - t->x0 + t->tile - 1) / t->tile; }
 
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *c,
-                                 uint32_t cost, int32_t first)
+                                 int32_t first)
 {
     enum { COMMON = 300 };      /* what a block has that is not seen yet, in codes^2 for each pixel it goes */
     const struct smear_chooser *chooser = plan->chooser;
     const int tiles = tiles_in(t);
     const int32_t widest = target_is_sketch(chooser->target) ? SKETCH_STEP_MAX : STEP_MAX;
     int32_t least = first, reach = 0, instants;
-    uint32_t left = 0, unseen = c->unseen;
+    uint32_t unseen = c->unseen;
     bool alone = chooser->target < 64;
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
@@ -167,10 +153,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
         if (c->moving == 0)
             unseen += ((uint32_t)travel_of(tile) * COMMON >> 4) * (c->blocks / (uint32_t)tiles);
     }
-    for (int k = 0; k < CLOSING_CLASSES; k++)
-        left += min_u32(c->plain[k], UINT32_MAX - left);
-    left += min_u32(unseen, UINT32_MAX - left);
-    const uint32_t most = allowed(chooser, share_of(plan, left, cost, c->blocks, alone), c->blocks);
+    const uint32_t most = allowed(plan, c->blocks, alone);
     unseen += min_u32(c->changed, UINT32_MAX - unseen);
     for (instants = first; instants + 2 <= INSTANTS_MAX; instants += 2)
         if (instants >= least && error_of(c, unseen, instants, reach, widest, t->x1 - t->x0) <= most)

@@ -55,20 +55,13 @@ struct smear_chooser {
     bool fills;                 /* gaps between instants may be closed: the frame is not all border, the shutter a box */
 };
 
-/* What runs of tiles weigh in the error of the frame, by what they cost and by what is drawn in them: smear_tile_plan_instants. */
-struct smear_shares {
-    uint32_t sum, blocks;
-};
-
 /* What SMEAR_AUTO is asked for the tiles of a run, when their first instant is drawn. Without a chooser, instants and blocks
  * are as they are. */
 struct smear_tile_plan {
     const struct smear_chooser *chooser;
     struct smear_tile_travel *travel;           /* of the first tile */
     const struct smear_row_blocks *blocks;
-    const struct smear_shares *before;          /* of the rows before */
-    uint32_t still;                             /* and blocks there that have no error */
-    struct smear_shares *own;                   /* of what this worker drew in this row */
+    const uint32_t *tiles;                      /* of the frame so far: that stand still, and others */
 };
 
 /* How much moves how far: areas of moving triangles in pixels, saturated, by classes of travel of 4 px each. The last
@@ -97,10 +90,9 @@ struct smear_closing smear_tile_closing(const struct smear_tile_travel *tile);
  * where they are unlike. */
 struct smear_step smear_tile_way(const struct smear_tile_travel *tile);
 
-/* Returns how many instants the tiles of a run take: an odd number, `first`, which is odd, at least. `cost`: of one, about, in
- * instructions. */
+/* Returns how many instants the tiles of a run take: an odd number, `first`, which is odd, at least. */
 int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struct smear_tile_run *t, const struct smear_contrast *contrast,
-                                 uint32_t cost, int32_t first);
+                                 int32_t first);
 
 /* Returns the displacement of a tile from one instant to the next along x, 1/16 px, at most, before it is known how many
  * there will be. */
