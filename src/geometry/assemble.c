@@ -147,16 +147,6 @@ void smear_assembler_reset(struct smear_assembler *a)
 
 /* ------------------------------------------------------------------ whole triangles */
 
-/* Transforms and projects a vertex. */
-static inline void find_vertex(const struct smear_assembler *a, const struct smear_assembly *d,
-                               struct smear_cached_vertex *v, uint32_t tag)
-{
-    struct smear_homogeneous h;
-    v->tag = tag;
-    v->stored = 0;
-    v->outcode = placement_project(&v->screen, &h, &d->at, tag & 0xffffu, &a->viewport);
-}
-
 /* Triangles of up to this many covered pixels become points, which are no larger than a triangle with vertices. */
 enum { POINTS_MAX = 2 };
 
@@ -256,29 +246,14 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
     return add_visible(b, v0, v1, v2, triangle, back, cut);
 }
 
-/* Finds all vertices of a mesh that the cache has room for: one after the other they cost less. */
-static SMEAR_NOINLINE void find_all(struct batch *b, uint32_t tag)
+/* Transforms and projects a vertex that is not in the cache, at v. An index that the mesh does not have gives OUT_UNKNOWN. */
+static SMEAR_NOINLINE void miss(const struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
 {
-    struct smear_cached_vertex *v = b->a->cache;
-    for (const uint32_t end = tag + b->d->mesh->vertex_count; tag != end; tag++, v++)
-        find_vertex(b->a, b->d, v, tag);
-}
-
-/* Transforms a vertex that is not in the cache. An index that the mesh does not have gives OUT_UNKNOWN. */
-static SMEAR_NOINLINE struct smear_cached_vertex *miss(struct batch *b, uint32_t tag, const struct smear_cached_vertex *in_use1,
-                                                       const struct smear_cached_vertex *in_use2,
-                                                       struct smear_cached_vertex *spare)
-{
-    struct smear_cached_vertex *v = &b->a->cache[tag & b->a->cache_mask];
-    if ((tag & 0xffffu) >= b->d->mesh->vertex_count) {
-        spare->outcode = OUT_UNKNOWN;
-        return spare;
-    }
-    /* An entry that this triangle already uses for another vertex must not be overwritten. */
-    if (v == in_use1 || v == in_use2)
-        v = spare;
-    find_vertex(b->a, b->d, v, tag);
-    return v;
+    const uint32_t index = tag & 0xffffu;
+    struct smear_homogeneous h;
+    v->tag = tag;
+    v->stored = 0;
+    v->outcode = index < b->d->mesh->vertex_count ? placement_project(&v->screen, &h, &b->d->at, index, &b->a->viewport) : OUT_UNKNOWN;
 }
 
 static void batch_start(struct batch *b)
@@ -337,11 +312,9 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         if (a->serial == 0xffffu || a->cache_has_paths)
             forget_all(a);
         b->tag = ++a->serial << 16;
-        if (!SMEAR_SMALL_FILE && !SMEAR_PLACES && d->mesh->vertex_count <= a->cache_mask + 1u && first == 0 && a->ranges == NULL)
-            find_all(b, b->tag);
     }
     const uint32_t tag = b->tag;
-    struct smear_cached_vertex spare[3];
+    struct smear_cached_vertex spare[2];
     struct smear_cached_vertex *const cache = a->cache;
     const uint32_t mask = a->cache_mask;
     /* Vertices are taken in the order that is clockwise on the screen for front faces. */
@@ -353,11 +326,15 @@ static bool assemble_cached(struct batch *b, uint32_t first, uint32_t end)
         struct smear_cached_vertex *v0 = cache + (tag0 & mask), *v1 = cache + (tag1 & mask);
         struct smear_cached_vertex *v2 = cache + (tag2 & mask);
         if (v0->tag != tag0)
-            v0 = miss(b, tag0, NULL, NULL, &spare[0]);
-        if (v1->tag != tag1)
-            v1 = miss(b, tag1, v0, NULL, &spare[1]);
-        if (v2->tag != tag2)
-            v2 = miss(b, tag2, v0, v1, &spare[2]);
+            miss(b, v0, tag0);
+        if (v1->tag != tag1) {
+            v1 = v1 == v0 ? &spare[0] : v1;     /* entries that this triangle already uses must not be overwritten */
+            miss(b, v1, tag1);
+        }
+        if (v2->tag != tag2) {
+            v2 = v2 == v0 || v2 == v1 ? &spare[1] : v2;
+            miss(b, v2, tag2);
+        }
         if (!add_triangle(b, v0, v1, v2, i)) {
             a->resume = (struct smear_resume){ i, b->parts };
             return false;
@@ -489,7 +466,7 @@ static SMEAR_NOINLINE bool add_far(struct batch *b, const struct seen *t)
         clipped = clipped || place_is_clipped(&r->place[t->index[i]].screen, viewport);
     for (int i = 0; i < 3; i++) {
         if (clipped) {
-            find_vertex(b->a, b->d, &v[i], t->index[i]);
+            miss(b, &v[i], t->index[i]);
         } else {
             v[i].screen = r->place[t->index[i]].screen;
             v[i].outcode = outcode_sides(&v[i].screen, viewport);

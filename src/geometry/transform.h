@@ -98,7 +98,8 @@ static inline void project_inline(struct smear_screen *out, const struct smear_d
     int zeros = count_leading_zeros((uint32_t)in->w);
     const int down = 21 - zeros;
     if (down <= 0 || depths_are_even(d)) {
-        smear_project(out, d, in, viewport);
+        const struct smear_homogeneous copy = *in;      /* elsewhere it is in registers */
+        smear_project(out, d, &copy, viewport);
         return;
     }
     const int32_t r = (int32_t)recip_norm((uint32_t)in->w << zeros);        /* 1/w = r 2^(zeros - 61) */
