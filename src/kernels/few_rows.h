@@ -46,6 +46,12 @@ enum { FEW_PX = 16 };
 /* Loops of a core's own are there, and such of light. */
 #define FEW_ROWS_LOOP (SMEAR_ASM_ARMV7EM || (SMEAR_ASM_ARMV6M && !SMEAR_SMALL_FILE))
 #define FEW_LIGHT_LOOP (!SMEAR_ASM_ARMV6M)
+/* What is a function of its own where that leaves registers to what follows: elsewhere a call takes more. */
+#if SMEAR_ASM_ARMV6M
+#define FEW_APART SMEAR_INLINE
+#else
+#define FEW_APART static SMEAR_NOINLINE
+#endif
 #define FEW_TURN (SMEAR_ASM_ARMV7EM ? INT32_MIN : 0)
 
 /* Whether an edge function is negative. */

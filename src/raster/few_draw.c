@@ -37,14 +37,20 @@ static inline uint64_t few_edges_word(int32_t e0, int32_t e1, int32_t e2)
     return (uint64_t)(int64_t)e0 + ((uint64_t)high << 32 | (uint32_t)e1 << 21);
 }
 
+/* Where the box lies. */
+struct few_place {
+    int32_t cx, cy;                 /* from v[0] to the centre of its first pixel, q8 */
+    int32_t rows, fits;             /* fits: so many before the ring's first one */
+    uint32_t across;                /* columns or rows, the more, before any are cut off */
+    bool cut;                       /* columns on the right are off the target */
+};
+
 struct few {
     const struct few_look *look;
     const struct smear_raster_target *target;
     const struct setup *setup;      /* or null */
     struct few_box box;
-    uint32_t across;                /* columns or rows, the more, before any are cut off */
-    int32_t columns, rows;
-    int32_t at, fits;               /* the first pixel, and how many rows there are before the ring's first one */
+    struct few_place place;
     int32_t u0, v0;                 /* bent: u and v are changes from these, of mesh units q15, over w */
     bool bent;
     enum light_kind light_kind;     /* white: planes of red and green are not set */
@@ -134,12 +140,14 @@ static SMEAR_RARE bool few_is_empty(const struct few_box *box, int32_t columns, 
 static inline bool few_depth_make(struct few *k, const struct few_weights *w, int32_t q0, struct beyond q)
 {
     const int32_t low = q0 + min_i32(min_i32(q.to1, q.to2), 0), high = q0 + max_i32(max_i32(q.to1, q.to2), 0);
-    const bool far = high < SLOPE_BREAK - 65536, near = low >= SLOPE_BREAK + 65536;     /* slopes are rounded */
+    const bool far = high < SLOPE_BREAK - 65536;        /* slopes are rounded */
+    if (!far && low < SLOPE_BREAK + 65536)
+        return false;
     const int down = far ? 10 : 14, half = 1 << (down - 1);     /* to codes q1 */
     const struct beyond codes = { (q.to1 + half) >> down, (q.to2 + half) >> down };
     few_plane_set(k, FEW_DEPTH, add_wrap((int32_t)code_from_units(q0, far ? SLOPE_FAR : SLOPE_NEAR), weigh(codes, w->at1, w->at2)),
                   weigh(codes, w->right1, w->right2), weigh(codes, w->down1, w->down2));
-    return far || near;
+    return true;
 }
 
 static inline struct beyond few_beyond(int32_t a, int32_t b, int32_t c) { return (struct beyond){ b - a, c - a }; }
@@ -148,11 +156,11 @@ static inline struct beyond few_beyond(int32_t a, int32_t b, int32_t c) { return
  * instead, which is off by c^3 t, 1/16 texel at most; or more. */
 enum few_bend { FEW_STRAIGHT, FEW_BENT, FEW_CURLED };
 
-static inline enum few_bend few_bend_of(const struct few *k, int32_t q0, struct beyond q, struct beyond u, struct beyond v)
+static inline enum few_bend few_bend_of(const struct few_look *l, int32_t q0, struct beyond q, struct beyond u, struct beyond v,
+                                        uint32_t across)
 {
-    const struct few_look *const l = k->look;
     const uint32_t change = (beyond_range(q) >> 12) + 1u, whole = (uint32_t)q0 >> 12;       /* c = change / whole */
-    if (change * k->across * 4u <= whole)
+    if (change * across * 4u <= whole)
         return FEW_STRAIGHT;
     const uint32_t travel = max_u32(beyond_range(u) * l->width, beyond_range(v) * l->height);   /* mesh units */
     const uint32_t texels = min_u32((travel >> l->draw->sampler.uv_shift) + 1u, 1023u);
@@ -163,18 +171,18 @@ static inline enum few_bend few_bend_of(const struct few *k, int32_t q0, struct 
     return (change * texels >> 10) * (change >> 4) <= (whole >> 7) * (whole >> 8) ? FEW_BENT : FEW_CURLED;      /* c^2 t at most 1/2 */
 }
 
-static inline bool few_coordinates_make(struct few *k, const struct few_weights *w, const int32_t *const r[3], struct beyond q)
+static inline enum few_bend few_coordinates_make(struct few *k, const struct few_weights *w, const int32_t *const r[3], struct beyond q,
+                                                 uint32_t across)
 {
     const struct few_look *const l = k->look;
     const int at = l->segment->uv;
     const int32_t a = r[0][at], b = r[1][at], c = r[2][at], q0 = r[0][VERTEX_DEPTH];
     struct beyond u = few_beyond((int16_t)(a & 0xffff), (int16_t)(b & 0xffff), (int16_t)(c & 0xffff));
     struct beyond v = few_beyond(a >> 16, b >> 16, c >> 16);
-    const enum few_bend bend = segment_flat_depth(l->segment) ? FEW_STRAIGHT : few_bend_of(k, q0, q, u, v);
-    k->bent = bend == FEW_BENT;
+    const enum few_bend bend = segment_flat_depth(l->segment) ? FEW_STRAIGHT : few_bend_of(l, q0, q, u, v, across);
     if (bend == FEW_CURLED)
-        return false;
-    if (k->bent) {
+        return FEW_CURLED;
+    if (bend == FEW_BENT) {
         const int up = count_leading_zeros((uint32_t)q0) - 1;
         const int32_t recip = (int32_t)recip_norm((uint32_t)q0 << 1 << up);     /* 1/q0 = recip 2^(up - 60) */
         const struct beyond e = { mulh_i32(shl_wrap(q.to1, up), recip) >> 13, mulh_i32(shl_wrap(q.to2, up), recip) >> 13 };
@@ -185,11 +193,13 @@ static inline bool few_coordinates_make(struct few *k, const struct few_weights 
         few_plane_make(k, FEW_V, w, 0, v, 0);
         k->u0 = shl_wrap((int16_t)(a & 0xffff), 15);
         k->v0 = shl_wrap(a >> 16, 15);
-        return true;
+        return FEW_BENT;
     }
     few_plane_make(k, FEW_U, w, (int16_t)(a & 0xffff), u, l->up);
     few_plane_make(k, FEW_V, w, a >> 16, v, l->up);
-    return true;
+    k->box.at.plane[FEW_U] = add_wrap(k->box.at.plane[FEW_U], FEW_TURN);
+    k->box.at.plane[FEW_V] = add_wrap(k->box.at.plane[FEW_V], FEW_TURN);
+    return FEW_STRAIGHT;
 }
 
 /* ------------------------------------------------------------------ light */
@@ -282,7 +292,8 @@ SMEAR_INLINE void few_row(const struct few *k, int32_t at, int32_t skip, int32_t
     void *pixel = kind == FEW_ANY ? NULL : halves ? (void *)(k->target->direct + at) : k->target->color + at;
     const int32_t *const step = k->box.right.plane, dz = step[FEW_DEPTH], du = step[FEW_U], dv = step[FEW_V];
     uint32_t z = (uint32_t)few_plane_at(k, FEW_DEPTH, skip, row);
-    int32_t u = few_plane_at(k, FEW_U, skip, row), v = few_plane_at(k, FEW_V, skip, row);
+    const int32_t turn = bent ? 0 : FEW_TURN;
+    int32_t u = add_wrap(few_plane_at(k, FEW_U, skip, row), turn), v = add_wrap(few_plane_at(k, FEW_V, skip, row), turn);
     int32_t e = bent ? few_plane_at(k, FEW_BEND, skip, row) : 0;
     struct few_pixel p = { 0, 0, { 0, 0, 0, 0 } };
     const int first = few_light_first(k, kind), end_light = few_light_end(k, kind);
@@ -323,22 +334,22 @@ SMEAR_INLINE void few_rows(const struct few *k, enum few_kind kind, bool bent)
 {
     const struct smear_plane_rows *const w = &k->target->window_rows;
     uint64_t first = k->box.at.edges;
-    int32_t at = k->at;
-    for (int32_t y = 0; y != k->rows; y++) {
+    int32_t at = (int32_t)(k->box.depth - k->target->depth);
+    for (int32_t y = 0; y != k->place.rows; y++) {
         const struct few *row = k;
         SMEAR_KEEP_VALUE(row);
         const uint64_t right = row->box.right.edges;
         uint64_t edges = first;
-        int32_t left = row->columns, n = 0;
+        int32_t columns = (int32_t)row->box.columns, left = columns, n = 0;
         while (few_outside(edges) && --left != 0)
             edges += right;
         for (; n != left && !few_outside(edges); n++)
             edges += right;
         if (n != 0)
-            few_row(row, at + (row->columns - left), row->columns - left, y, n, kind, bent);
+            few_row(row, at + (columns - left), columns - left, y, n, kind, bent);
         first += row->box.down.edges;
         at += w->stride;
-        if (y + 1 == row->fits)
+        if (y + 1 == row->place.fits)
             at -= w->ring * w->stride;
     }
 }
@@ -369,22 +380,6 @@ static inline void few_texels_take(struct few_look *l, const struct smear_raster
                                    .lit = l->segment->shade != SHADE_NONE, .linear = frame_is_linear(l->frame),
                                    .flat_depth = segment_flat_depth(l->segment) };
     few_words_take(&l->rows, (uint32_t)(uintptr_t)pixels - (narrow ? depth + 2u : 2u * depth + 4u), l->kind);
-}
-
-/* Draws the box by a loop of this core. */
-static inline void few_rows_kernel(struct few_box *r, const struct few_look *l, const struct smear_plane_rows *rows, int32_t n,
-                                   int32_t fits)
-{
-    r->depth_end = r->depth + min_i32(n, fits) * rows->stride;
-    r->depth_bytes = (uint32_t)rows->stride * 2u;
-    r->at.plane[FEW_U] = add_wrap(r->at.plane[FEW_U], FEW_TURN);
-    r->at.plane[FEW_V] = add_wrap(r->at.plane[FEW_V], FEW_TURN);
-    few_rows_loop(r, &l->rows, l->kind);
-    if (n > fits) {
-        r->depth = r->depth_end - rows->ring * rows->stride;
-        r->depth_end = r->depth + (n - fits) * rows->stride;
-        few_rows_loop(r, &l->rows, l->kind);
-    }
 }
 
 static inline void few_rows_any(const struct few *k)
@@ -438,30 +433,49 @@ bool smear_few_take(struct few_look *l, const struct smear_raster_frame *frame, 
     return true;
 }
 
-static inline bool few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
-                            const struct setup *setup)
+/* Finds the box of pixels and where its rows lie: FEW_LEFT, but FEW_OTHER where it is too large, and FEW_DONE where nothing is left. */
+FEW_APART enum few_answer few_place_make(struct few_place *p, struct few_box *box, const struct smear_raster_target *t,
+                                         const int32_t *const v[3])
 {
-    const int32_t x = v[0][VERTEX_X], x1 = v[1][VERTEX_X] - x, x2 = v[2][VERTEX_X] - x;
-    const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
+    const struct smear_plane_rows *const w = &t->window_rows;
+    const int32_t x = v[0][VERTEX_X], y = v[0][VERTEX_Y];
     int32_t left, right, top, bottom;
-    struct few k;
     box_span(&left, &right, x, v[1][VERTEX_X], v[2][VERTEX_X]);
     box_span(&top, &bottom, y, v[1][VERTEX_Y], v[2][VERTEX_Y]);
     if (right - left > FEW_PX || bottom - top > FEW_PX)
-        return false;
-    const bool cut = right > t->x1;
-    k.across = (uint32_t)max_i32(right - left, bottom - top);
+        return FEW_OTHER;
+    p->across = (uint32_t)max_i32(right - left, bottom - top);
+    p->cut = right > t->x1;
     left = max_i32(left, t->x0);
-    right = min_i32(right, t->x1);
     top = max_i32(top, t->y0);
-    bottom = min_i32(bottom, t->y1);
-    if (left >= right || top >= bottom)
-        return true;
-    const int32_t cx = left * 256 + 128 - x, cy = top * 256 + 128 - y, area = x1 * y2 - x2 * y1, q0 = v[0][VERTEX_DEPTH];
-    const struct beyond q = few_beyond(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]);
+    const int32_t columns = min_i32(right, t->x1) - left, rows = min_i32(bottom, t->y1) - top;
+    if (columns <= 0 || rows <= 0)
+        return FEW_DONE;
+    int32_t ring_row = w->ring_row + (top - t->y0);
+    ring_row -= ring_row >= w->ring ? w->ring : 0;
+    p->cx = left * 256 + 128 - x;
+    p->cy = top * 256 + 128 - y;
+    p->rows = rows;
+    p->fits = w->ring - ring_row;
+    box->columns = (uint32_t)columns;
+    box->depth = t->depth + (ring_row * w->stride - w->x0 + left);
+    box->depth_bytes = (uint32_t)w->stride * 2u;
+    box->depth_end = box->depth + min_i32(rows, p->fits) * w->stride;
+    return FEW_LEFT;
+}
+
+static inline bool few_draw(const struct few_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color,
+                            const struct setup *setup)
+{
+    struct few k;
     struct few_weights w;
-    k.look = l;
-    k.light_kind = LIGHT_NONE;
+    struct few_place p;
+    const enum few_answer answer = few_place_make(&p, &k.box, t, v);
+    if (answer != FEW_LEFT)
+        return answer == FEW_DONE;
+    const int32_t x = v[0][VERTEX_X], x1 = v[1][VERTEX_X] - x, x2 = v[2][VERTEX_X] - x;
+    const int32_t y = v[0][VERTEX_Y], y1 = v[1][VERTEX_Y] - y, y2 = v[2][VERTEX_Y] - y;
+    const int32_t cx = p.cx, cy = p.cy, area = x1 * y2 - x2 * y1;
     const int32_t bias1 = tiny_bias(-x2, -y2), bias2 = tiny_bias(x1, y1);
     const int32_t e1 = y2 * cx - x2 * cy + bias1, e2 = x1 * cy - y1 * cx + bias2;
     const int32_t e0 = area + bias1 + bias2 + tiny_bias(x2 - x1, y2 - y1) - e1 - e2;
@@ -469,31 +483,35 @@ static inline bool few_draw(const struct few_look *l, const struct smear_raster_
     k.box.right.edges = few_edges_word(y1 - y2, y2, -y1);
     k.box.down.edges = few_edges_word(x2 - x1, -x2, x1);
     if (!few_weights_make(&w, x1, y1, x2, y2, area, cx, cy))
-        return few_is_empty(&k.box, right - left, bottom - top);
-    if (!few_depth_make(&k, &w, q0, q) || !few_coordinates_make(&k, &w, v, q))
+        return few_is_empty(&k.box, (int32_t)k.box.columns, p.rows);
+    const int32_t q0 = v[0][VERTEX_DEPTH];
+    const struct beyond q = few_beyond(q0, v[1][VERTEX_DEPTH], v[2][VERTEX_DEPTH]);
+    k.look = l;
+    k.light_kind = LIGHT_NONE;
+    const enum few_bend bend = few_depth_make(&k, &w, q0, q) ? few_coordinates_make(&k, &w, v, q, p.across) : FEW_CURLED;
+    enum few_kind last = FEW_WIDE;      /* that has a loop */
+    if (bend == FEW_CURLED)
         return false;
-    if (segment_gouraud(l->segment)) {
-        if (!few_light_make(&k, &w, v, q))
+    if (l->segment->shade != SHADE_NONE) {
+        if (!segment_gouraud(l->segment))
+            few_flat_light(&k, color, frame_is_linear(l->frame));
+        else if (!few_light_make(&k, &w, v, q))
             return false;
-    } else if (l->segment->shade != SHADE_NONE) {
-        few_flat_light(&k, color, frame_is_linear(l->frame));
+        last = FEW_LIGHT_LOOP && k.light_kind == LIGHT_WHITE ? FEW_NARROW_LIT : FEW_WIDE;
     }
-    const struct smear_plane_rows *const rows = &t->window_rows;
-    int32_t ring_row = rows->ring_row + (top - t->y0);
-    ring_row -= ring_row >= rows->ring ? rows->ring : 0;
-    const int32_t at = ring_row * rows->stride - rows->x0 + left, fits = rows->ring - ring_row;
-    if (FEW_ROWS_LOOP && !k.bent && !cut && l->kind <= (FEW_LIGHT_LOOP && k.light_kind == LIGHT_WHITE ? FEW_NARROW_LIT : FEW_WIDE)) {
-        k.box.columns = (uint32_t)(right - left);
-        k.box.depth = t->depth + at;
-        few_rows_kernel(&k.box, l, rows, bottom - top, fits);
+    if (FEW_ROWS_LOOP && bend == FEW_STRAIGHT && !p.cut && l->kind <= last) {
+        few_rows_loop(&k.box, &l->rows, l->kind);
+        if (p.rows <= p.fits)
+            return true;
+        k.box.depth = k.box.depth_end - t->window_rows.ring * t->window_rows.stride;        /* the ring's first row */
+        k.box.depth_end = k.box.depth + (p.rows - p.fits) * t->window_rows.stride;
+        few_rows_loop(&k.box, &l->rows, l->kind);
         return true;
     }
+    k.bent = bend == FEW_BENT;
     k.target = t;
     k.setup = setup;
-    k.columns = right - left;
-    k.rows = bottom - top;
-    k.at = at;
-    k.fits = fits;
+    k.place = p;
     few_rows_any(&k);
     return true;
 }
