@@ -19,6 +19,13 @@ SMEAR_INLINE uint32_t shade_pixel(uint32_t r, uint32_t g, uint32_t b, bool linea
     return narrow ? rgb565_nearest(p) : p;
 }
 
+/* A byte becomes 0, which has no register that loops lack. */
+#if SMEAR_ASM_ARMV6M
+#define SHADE_ZERO(BYTE) __asm__ volatile("movs %0, #0" : "=l"(BYTE) : : "cc")
+#else
+#define SHADE_ZERO(BYTE) ((BYTE) = 0)
+#endif
+
 /* Draws n > 0 pixels, RGB565 where they are narrow. Pixel i has the depth code (z + i dz) >> 16, modulo 2^16, and the colour
  * k->c + i k->d; where the code is greater than depth[i] both are written. Pixels and depth don't overlap. */
 SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z, uint32_t dz, const struct shade *k,
@@ -41,7 +48,7 @@ SMEAR_INLINE void shade_run(void *pixels, uint16_t *depth, int32_t n, uint32_t z
                 byte[0] = (uint8_t)(b >> 16);
                 byte[1] = (uint8_t)(g >> 16);
                 byte[2] = (uint8_t)(r >> 16);
-                byte[3] = 0;
+                SHADE_ZERO(byte[3]);
             } else
                 *wide = shade_pixel(r, g, b, linear, false);
         }

@@ -38,8 +38,8 @@ static void draw_flat(const struct setup *s, uint32_t z, uint32_t dz, int32_t at
 }
 
 /* Pixels [a, b) of a row whose column 0 is at index `at`. */
-static void draw(const struct setup *s, const struct row_run *p, int32_t at, int32_t a, int32_t b,
-                 const struct shade *k)
+SMEAR_INLINE void draw(const struct setup *s, const struct row_run *p, int32_t at, int32_t a, int32_t b,
+                       const struct shade *k)
 {
     const struct smear_raster_target *t = s->target;
     const uint32_t z = p->z + p->dz * (uint32_t)a;
@@ -69,15 +69,15 @@ static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t 
         out[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
 }
 
-/* The steps of colours in a block of n > 0 pixels; in fog they may have none. */
-static inline void find_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct setup *s)
+/* Begins a block of n pixels so many pixels on, and makes `from` what the next one begins with. `fog`: the steps in fog, or null. */
+SMEAR_INLINE void block_begin(struct shade *k, int32_t from[3], const int32_t to[3], int32_t n, int32_t on, const int32_t *fog)
 {
-    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
-        smear_fog_steps(step, from, to, n, s->frame);
-        return;
+    for (int i = 0; i < 3; i++) {
+        const int32_t end = to[i], at = from[i], step = fog != NULL ? fog[i] : part_of(end - at, n);
+        from[i] = end;
+        k->c[i] = (uint32_t)(at + step * on);
+        k->d[i] = (uint32_t)step;
     }
-    for (int i = 0; i < 3; i++)
-        step[i] = part_of(to[i] - from[i], n);
 }
 
 /* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
@@ -85,7 +85,7 @@ static SMEAR_RARE void draw_blocks(const struct setup *s, const struct row_run *
                                    int32_t left, int32_t right)
 {
     const int32_t last = right - 1;
-    int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3];
+    int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3] = { 0, 0, 0 };
     colors_at(from, s, x, y);
     for (;;) {
         const int32_t n = block_next(s->color_block, last - x), end = x + n + (x + n == last);
@@ -93,13 +93,13 @@ static SMEAR_RARE void draw_blocks(const struct setup *s, const struct row_run *
         struct shade k;
         if (n > 0)
             colors_at(to, s, x + n, y);
-        int32_t step[3] = { 0, 0, 0 };
-        if (n > 0)
-            find_steps(step, from, to, n, s);
-        for (int i = 0; i < 3; i++) {
-            k.c[i] = (uint32_t)(from[i] + step[i] * (a - x));
-            k.d[i] = (uint32_t)step[i];
-            from[i] = to[i];
+        if (!SMEAR_WITH_FOG || fog_of(s) == FOG_NONE) {
+            block_begin(&k, from, to, n, a - x, NULL);
+        } else {
+            int32_t step[3] = { 0, 0, 0 };      /* there may be none */
+            if (n > 0)
+                smear_fog_steps(step, from, to, n, s->frame);
+            block_begin(&k, from, to, n, a - x, step);
         }
         if (end > a)            /* what is left of a long block is in parts */
             draw(s, p, at, a, min_i32(end, p->b), &k);
