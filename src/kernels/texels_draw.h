@@ -40,30 +40,14 @@ SMEAR_INLINE void texels_step(struct texel_run *r, int32_t i, int log2_width, in
     texel_run_step(r);
 }
 
-/* Four pixels a round, whose indices are a product. */
+/* Indices are a product. Rows are short where lanes are: one branch tells where they end. */
 SMEAR_INLINE void texels_draw_unrolled(struct texel_run *run, int32_t n, int log2_width, int log2_height,
                                        enum texel_kind kind)
 {
     struct texel_run r = *run;          /* in registers */
-    for (; n >= 4; n -= 4) {
-        SMEAR_KEEP_VALUE(n);            /* else compilers multiply to know all values at the end in advance */
-        texels_step(&r, 0, log2_width, log2_height, kind);
-        texels_step(&r, 1, log2_width, log2_height, kind);
-        texels_step(&r, 2, log2_width, log2_height, kind);
-        texels_step(&r, 3, log2_width, log2_height, kind);
-        texel_run_advance(&r, 4, texels_are_narrow(kind));
-    }
-    if (n & 2) {
-        texels_step(&r, 0, log2_width, log2_height, kind);
-        texels_step(&r, 1, log2_width, log2_height, kind);
-        texel_run_advance(&r, 2, texels_are_narrow(kind));
-    }
-    if (n & 1) {
-        texels_step(&r, 0, log2_width, log2_height, kind);
-        texel_run_advance(&r, 1, texels_are_narrow(kind));
-    }
-    run->color = r.color;
-    run->depth = r.depth;
+    for (int32_t i = 0; i < n; i++)
+        texels_step(&r, i, log2_width, log2_height, kind);
+    texel_run_advance(run, n, texels_are_narrow(kind));
     run->z = r.z;
 }
 

@@ -114,7 +114,7 @@ SMEAR_INLINE void texels_row_eight(struct texels_row *w, struct texels_pair *k, 
     w->color = pixel_after(w->color, 8, texels_are_narrow(kind));
 }
 
-/* Draws n pixels from these coordinates on. */
+/* Draws n pixels from these coordinates on, the last of which end eight of the row: those of them that it draws again are hidden. */
 SMEAR_INLINE void texels_row_draw(struct texels_row *w, int32_t n, uint64_t uv, uint64_t duv, uint64_t dduv, int log2_width,
                                   int log2_height, enum texel_kind kind)
 {
@@ -124,18 +124,15 @@ SMEAR_INLINE void texels_row_draw(struct texels_row *w, int32_t n, uint64_t uv, 
         texels_row_eight(w, &k, log2_width, log2_height, kind);
     if ((n & 7) == 0)
         return;
-    const uint64_t m = (uint64_t)(n & -8);
-    uint64_t at = uv + duv * m + dduv * (m * (m - 1) / 2), step = duv + dduv * m;
-    uint32_t z = w->z[0];
-    w->z += v4u_all((uint32_t)(n & 7) * w->dz);
-    for (n &= 7; n > 0; n--, at += step, step += dduv, z += w->dz) {
-        texel_pixel(w->color, w->depth, z, w->texels, NULL, at, log2_width, log2_height, kind);
-        w->depth++;
-        w->color = pixel_after(w->color, 1, texels_are_narrow(kind));
-    }
+    const int64_t m = n - 8, again = 8 - (n & 7);
+    w->z -= v4u_all((uint32_t)again * w->dz);
+    w->depth -= again;
+    w->color = pixel_after(w->color, (int32_t)-again, texels_are_narrow(kind));
+    texels_pair_start(&k, uv + duv * (uint64_t)m + dduv * (uint64_t)(m * (m - 1) / 2), duv + dduv * (uint64_t)m, dduv);
+    texels_row_eight(w, &k, log2_width, log2_height, kind);
 }
 
-/* texels_draw for copied texels that fit. */
+/* texels_draw for eight or more copied texels that fit. */
 SMEAR_INLINE void texels_draw_lanes(struct texel_run *run, int32_t n, int log2_width, int log2_height, enum texel_kind kind)
 {
     struct texels_row w;
@@ -146,7 +143,7 @@ SMEAR_INLINE void texels_draw_lanes(struct texel_run *run, int32_t n, int log2_w
     run->z += (uint32_t)n * run->dz;
 }
 
-/* Draws a row of copied texels that fit from where a track has come to: `rest` pixels and the last. */
+/* Draws a row of copied texels that fit from where a track has come to: `rest` pixels and the last, 8 at least. So are blocks. */
 SMEAR_INLINE void texels_row_lanes(struct texel_track *k, int32_t rest, int log2_width, int log2_height, enum texel_kind kind)
 {
     struct texels_row w;

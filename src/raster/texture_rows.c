@@ -329,7 +329,7 @@ SMEAR_INLINE void draw_divided_row(struct texel_track *k, int32_t rest, int log2
         texel_blocks(k, blocks, rest - (blocks << k->log2), log2_width, log2_height, kind);
         return;
     }
-    if (TEXELS_LANES && !texels_are_lit(kind) && texels_fit_lanes(log2_width, log2_height)) {
+    if (TEXELS_LANES && !texels_are_lit(kind) && rest >= 7 && block >= 8 && texels_fit_lanes(log2_width, log2_height)) {
         texels_row_lanes(k, rest, log2_width, log2_height, kind);
         return;
     }

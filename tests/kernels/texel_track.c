@@ -187,7 +187,7 @@ SMEAR_INLINE void row_by(struct kernel_call *c, enum texel_kind kind, int log2_h
 {
     struct texel_track k;
     set_track(c, &k);
-    k.log2 = 2 + k.log2 % 5;
+    k.log2 = 3 + k.log2 % 4;
     k.q = (int32_t)c->word[Q];
     k.u = (int32_t)c->word[U];
     k.v = (int32_t)c->word[V];
@@ -226,9 +226,9 @@ const struct kernel kernels_texel_track[] = {
       .form = { { "reference", wide_reference }, { "armv7em", wide_armv7em } } },
 #endif
 #if TEXELS_LANES
-    { .name = "texels_row (narrow)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
+    { .name = "texels_row (narrow)", .least = 8, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
       .form = { { "reference", row_narrow }, { "lanes", row_narrow_lanes } } },
-    { .name = "texels_row (square)", .least = 2, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
+    { .name = "texels_row (square)", .least = 8, .most = 140, .size = { 4, 2, 4 }, .prepare = rows_prepare,
       .form = { { "reference", row_square }, { "lanes", row_square_lanes } } },
 #endif
     { .name = NULL }
