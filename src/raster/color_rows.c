@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* color_rows.c - colours between vertices: interpolated, opaque, without a texture. The same pixels as those of
  * span.c, whose blocks begin and end here, too; where two meet, colours are found once. */
-#include "raster/fog.h"
 #include "raster/span.h"
 
 #include "kernels/flat_run.h"
@@ -55,51 +54,26 @@ SMEAR_INLINE void draw(const struct setup *s, const struct row_run *p, int32_t a
                     b - a, z, p->dz, k);
 }
 
-/* Colours in fog, or those whose planes are value / w, at pixel (x, y). */
-static void colors_at(int32_t out[3], const struct setup *s, int32_t x, int32_t y)
-{
-    if (SMEAR_WITH_FOG && fog_of(s) != FOG_NONE) {
-        smear_fog_channels(out, s, x, y);
-        return;
-    }
-    const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
-    const int zeros = count_leading_zeros(q);
-    const int32_t recip = (int32_t)recip_norm(q << zeros);
-    for (int i = 0; i < 3; i++)
-        out[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
-}
-
-/* Begins a block of n pixels so many pixels on, and makes `from` what the next one begins with. `fog`: the steps in fog, or null. */
-SMEAR_INLINE void block_begin(struct shade *k, int32_t from[3], const int32_t to[3], int32_t n, int32_t on, const int32_t *fog)
-{
-    for (int i = 0; i < 3; i++) {
-        const int32_t end = to[i], at = from[i], step = fog != NULL ? fog[i] : part_of(end - at, n);
-        from[i] = end;
-        k->c[i] = (uint32_t)(at + step * on);
-        k->d[i] = (uint32_t)step;
-    }
-}
-
 /* Pixels [p->a, p->b) of a row of blocks from `left` to `right`. */
 static SMEAR_RARE void draw_blocks(const struct setup *s, const struct row_run *p, int32_t at, int32_t y,
                                    int32_t left, int32_t right)
 {
     const int32_t last = right - 1;
-    int32_t x = block_start(left, last, p->a, s->color_block), from[3], to[3] = { 0, 0, 0 };
-    colors_at(from, s, x, y);
+    int32_t x = block_start(left, last, p->a, s->color_block), from[4], to[4];
+    channels_of_pixel(from, s, 3, x, y);
     for (;;) {
         const int32_t n = block_next(s->color_block, last - x), end = x + n + (x + n == last);
         const int32_t a = max_i32(x, p->a);
         struct shade k;
         if (n > 0)
-            colors_at(to, s, x + n, y);
-        if (!SMEAR_WITH_FOG || fog_of(s) == FOG_NONE) {
-            block_begin(&k, from, to, n, a - x, NULL);
-        } else {
-            int32_t step[3] = { 0, 0, 0 };      /* there may be none */
-            if (n > 0)
-                smear_fog_steps(step, from, to, n, s->frame);
-            block_begin(&k, from, to, n, a - x, step);
+            channels_of_pixel(to, s, 3, x + n, y);
+        int32_t step[4] = { 0, 0, 0, 0 };
+        if (n > 0)
+            channel_steps(step, from, to, 3, n, s);
+        for (int i = 0; i < 3; i++) {
+            k.c[i] = (uint32_t)(from[i] + step[i] * (a - x));
+            k.d[i] = (uint32_t)step[i];
+            from[i] = to[i];
         }
         if (end > a)            /* what is left of a long block is in parts */
             draw(s, p, at, a, min_i32(end, p->b), &k);
@@ -132,21 +106,10 @@ void smear_rows_shade(const struct setup *s, const struct span_rows *r)
 {
     const bool whole = rows_are_whole(s, r);
     int32_t at = r->at;
-    for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
-        const struct span_side *side = &r->side[row];
-        const int32_t y = r->y + row;
-        struct row_run p = { side->left, side->right, side->left, 0, 0 };
-        if (p.a >= p.b)
-            continue;
-        if (whole) {
-            p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
-            p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
-            if (smear_row_run_seen(&p, s->target->depth + at))      /* rows that are hidden need no colours */
-                draw_run(s, &p, at, y, side);
-            continue;
-        }
-        while (row_run_next(&p, s, r, row))
-            draw_run(s, &p, at, y, side);
-    }
+    struct row_run p = { .dz = (uint32_t)step_from_units(s->depth.dx, r->slope) };
+    for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride)
+        for (bool any = row_run_first(&p, s, r, row, whole); any; any = !whole && row_run_next(&p, s, r, row))
+            if (!whole || smear_row_run_seen(&p, s->target->depth + at))     /* rows that are hidden need no colours */
+                draw_run(s, &p, at, r->y + row, &r->side[row]);
 }
 #endif

@@ -195,32 +195,6 @@ static int32_t part_at(const struct setup *s, int32_t x, int32_t y)
     return smear_fog_part(frame_fog(s->frame), plane_at(&s->depth, x, y));
 }
 
-/* Channels without fog. */
-static void channels_at(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
-{
-    if (!segment_gouraud(s->segment)) {
-        for (int i = 0; i < 3; i++)
-            c[i] = channel_value_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
-        return;
-    }
-    const uint32_t q = (uint32_t)max_i32(plane_at(&s->depth, x, y), 1);
-    const int zeros = count_leading_zeros(q);
-    const int32_t recip = (int32_t)recip_norm(q << zeros);
-    for (int i = 0; i < 3; i++) {
-        c[i] = plane_at(&s->channel[i], x, y);
-        if (s->perspective_color)
-            c[i] = channel_over_w(c[i], zeros, recip);
-    }
-}
-
-void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y)
-{
-    const int32_t part = part_at(s, x, y);
-    channels_at(c, s, x, y);
-    for (int i = 0; i < 3; i++)
-        c[i] = fog_channel(s->frame, c[i], i, part);
-}
-
 uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right, int32_t y)
 {
     return fog_pixel(s->frame, s->color, part_at(s, (left + right) >> 1, y));

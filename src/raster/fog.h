@@ -41,13 +41,10 @@ static inline int32_t fog_channel(const struct smear_raster_frame *frame, int32_
     return value + (((channel_value_of_code(frame, code) - value) >> 9) * part >> 7);
 }
 
-/* Red, green and blue (q16, as channel_value has them) of an opaque triangle without a texture at a pixel, in fog. */
-void smear_fog_channels(int32_t c[3], const struct setup *s, int32_t x, int32_t y);
-
 /* The colour of an opaque triangle without a texture that is the same in a row from left to right of the frame. */
 uint32_t smear_fog_row_color(const struct setup *s, int32_t left, int32_t right, int32_t y);
 
-/* The steps of channels from one end of a block of n > 0 pixels to the other. Where codes hardly change they have none, and
+/* The steps of channels from one end of a block of n > 0 pixels to the other. In fog, where codes hardly change, they have none, and
  * `from` becomes the mean: one colour is drawn faster. */
 void smear_fog_steps(int32_t step[3], int32_t from[3], const int32_t to[3], int32_t n, const struct smear_raster_frame *frame);
 

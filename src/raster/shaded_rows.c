@@ -85,21 +85,11 @@ SMEAR_INLINE void shaded_rows(const struct setup *s, const struct span_rows *r, 
     int32_t at = r->at;
     struct curves curves;
     struct texel_run run;
+    struct row_run p = { .dz = (uint32_t)step_from_units(s->depth.dx, r->slope) };
     curves_start(&curves, &s->texture.curve[0], &s->texture.curve[1], &run);
-    for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride) {
-        const int32_t y = r->y + row;
-        struct row_run p = { r->side[row].left, r->side[row].right, r->side[row].left, 0, 0 };
-        if (p.a >= p.b)
-            continue;
-        if (whole) {
-            p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
-            p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
-            shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
-            continue;
-        }
-        while (row_run_next(&p, s, r, row))
-            shaded_row(s, &k, &curves, run, &p, at, y, white, linear);
-    }
+    for (int32_t row = 0; row < r->count; row++, at += s->target->window_rows.stride)
+        for (bool any = row_run_first(&p, s, r, row, whole); any; any = !whole && row_run_next(&p, s, r, row))
+            shaded_row(s, &k, &curves, run, &p, at, r->y + row, white, linear);
 }
 
 static SMEAR_NOINLINE void rows_white(const struct setup *s, const struct span_rows *r)

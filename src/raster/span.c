@@ -2,7 +2,6 @@
 /* span.c - inner loops of the raster: flat, and everything else in blocks. */
 #include "raster/span.h"
 
-#include "raster/fog.h"
 #include "raster/texcoord.h"
 #include "base/pixel.h"
 #include "kernels/flat_run.h"
@@ -122,19 +121,24 @@ struct block {
     int32_t start, end, x;
 };
 
-/* Whether fog goes into channels; else into pixels. */
-static inline bool has_channels_in_fog(const struct setup *s)
+/* Channels r g b a (q16) at pixel x of a block, and their steps. Opaque draws have alpha one. */
+static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
+                        uint32_t d[4])
 {
-    return fog_of(s) != FOG_NONE && !segment_textured(s->segment) && draw_is_opaque(s->draw);
-}
-
-/* The same, in fog: red, green and blue are exact at the block's ends. */
-static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
-                                           uint32_t d[4])
-{
+    const int count = draw_is_opaque(s->draw) ? 3 : 4;
+    const bool in_fog = has_channels_in_fog(s), even = SPAN_SPECIALIZED && s->even_color;
+    int32_t from[4], to[4], step[4] = { 0, 0, 0, 0 };
+    c[3] = 255u << 16;
+    d[3] = 0;
+    if (!in_fog && (even || !s->perspective_color)) {
+        for (int i = 0; i < count; i++) {
+            c[i] = (uint32_t)(even ? s->channel[i].at : plane_at(&s->channel[i], k->x, p->y));
+            d[i] = even ? 0 : (uint32_t)s->channel[i].dx;
+        }
+        return;
+    }
     const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
-    int32_t a[3], b[3], step[3] = { 0, 0, 0 };
-    if (fog_row_is_even(s, left, right)) {
+    if (in_fog && fog_row_is_even(s, left, right)) {
         const uint32_t color = smear_fog_row_color(s, left, right, p->y);
         for (int i = 0; i < 3; i++) {
             c[i] = (uint32_t)channel_value_of_code(s->frame, color >> (16 - 8 * i) & 255u);
@@ -142,52 +146,13 @@ static SMEAR_NOINLINE void channels_in_fog(const struct setup *s, const struct s
         }
         return;
     }
-    smear_fog_channels(a, s, k->start, p->y);
-    smear_fog_channels(b, s, k->end, p->y);
+    channels_of_pixel(from, s, count, k->start, p->y);
+    channels_of_pixel(to, s, count, k->end, p->y);
     if (k->end > k->start)
-        smear_fog_steps(step, a, b, k->end - k->start, s->frame);
-    for (int i = 0; i < 3; i++) {
-        c[i] = (uint32_t)(a[i] + step[i] * (k->x - k->start));
-        d[i] = (uint32_t)step[i];
-    }
-}
-
-/* Channels r g b a (q16) at pixel x of a block, and their steps. Opaque draws have alpha one. */
-static void channels_at(const struct setup *s, const struct span *p, const struct block *k, uint32_t c[4],
-                        uint32_t d[4])
-{
-    int count = draw_is_opaque(s->draw) ? 3 : 4;
-    int32_t x = k->x, x0 = k->start, x1 = k->end;
-    c[3] = 255u << 16;
-    d[3] = 0;
-    if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
-        channels_in_fog(s, p, k, c, d);
-        return;
-    }
-    if (SPAN_SPECIALIZED && s->even_color) {
-        for (int i = 0; i < count; i++) {
-            c[i] = (uint32_t)s->channel[i].at;
-            d[i] = 0;
-        }
-        return;
-    }
-    if (!s->perspective_color) {
-        for (int i = 0; i < count; i++) {
-            c[i] = (uint32_t)plane_at(&s->channel[i], x, p->y);
-            d[i] = (uint32_t)s->channel[i].dx;
-        }
-        return;
-    }
-    uint32_t q0 = (uint32_t)max_i32(plane_at(&s->depth, x0, p->y), 1);
-    uint32_t q1 = (uint32_t)max_i32(plane_at(&s->depth, x1, p->y), 1);
-    int zeros0 = count_leading_zeros(q0), zeros1 = count_leading_zeros(q1);
-    int32_t r0 = (int32_t)recip_norm(q0 << zeros0), r1 = (int32_t)recip_norm(q1 << zeros1);
+        channel_steps(step, from, to, count, k->end - k->start, s);
     for (int i = 0; i < count; i++) {
-        int32_t a = channel_over_w(plane_at(&s->channel[i], x0, p->y), zeros0, r0);
-        int32_t b = channel_over_w(plane_at(&s->channel[i], x1, p->y), zeros1, r1);
-        int32_t step = x1 > x0 ? part_of(b - a, x1 - x0) : 0;
-        c[i] = (uint32_t)(a + step * (x - x0));
-        d[i] = (uint32_t)step;
+        c[i] = (uint32_t)(from[i] + step[i] * (k->x - k->start));
+        d[i] = (uint32_t)step[i];
     }
 }
 

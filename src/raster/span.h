@@ -107,6 +107,17 @@ static inline bool row_run_next(struct row_run *p, const struct setup *s, const 
     return p->next < r->side[row].right && smear_row_run_next(p, s, r, row);
 }
 
+/* Finds the first run of a row, whose codes step by p->dz: of rows that are `whole` all of it, which is the only one. */
+static inline bool row_run_first(struct row_run *p, const struct setup *s, const struct span_rows *r, int32_t row, bool whole)
+{
+    p->a = p->next = r->side[row].left;
+    p->b = r->side[row].right;
+    if (p->a >= p->b || !whole)
+        return row_run_next(p, s, r, row);
+    p->z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
+    return true;
+}
+
 /* Makes a run that of the pixels from the first one that is seen to the last one, `depth` being of column 0; false where there are none. */
 bool smear_row_run_seen(struct row_run *p, const uint16_t *depth);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* texcoord.h - texture coordinates along a row: polynomials, or exact where blocks of pixels meet
- * and chords or parabolas between (setup.h). */
+ * and chords or parabolas between (setup.h). And colours, exact there, too. */
 #ifndef SMEAR_TEXCOORD_H
 #define SMEAR_TEXCOORD_H
 
-#include "raster/setup.h"
+#include "raster/fog.h"
 
 #include "kernels/texel_run.h"
 
@@ -56,6 +56,46 @@ SMEAR_INLINE struct texcoord texcoord_curved(const struct texture_setup *t, cons
 static inline int32_t channel_over_w(int32_t over_w, int zeros, int32_t r)
 {
     return clamp_i32(mulh_i32(shl_wrap(over_w >> 1, zeros - 1), r) >> 3, 0, 0xffffff);
+}
+
+/* Whether fog goes into channels; else into pixels. */
+static inline bool has_channels_in_fog(const struct setup *s)
+{
+    return fog_of(s) != FOG_NONE && !segment_textured(s->segment) && draw_is_opaque(s->draw);
+}
+
+/* Channels r g b and, where `count` is 4, a of a pixel as channel_value has them: in fog, where that goes into them. */
+SMEAR_INLINE void channels_of_pixel(int32_t c[4], const struct setup *s, int count, int32_t x, int32_t y)
+{
+    const int32_t units = plane_at(&s->depth, x, y);
+    if (!segment_gouraud(s->segment)) {
+        for (int i = 0; i < count; i++)
+            c[i] = channel_value_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
+    } else if (!s->perspective_color) {
+        for (int i = 0; i < count; i++)
+            c[i] = plane_at(&s->channel[i], x, y);
+    } else {
+        const uint32_t q = (uint32_t)max_i32(units, 1);
+        const int zeros = count_leading_zeros(q);
+        const int32_t recip = (int32_t)recip_norm(q << zeros);
+        for (int i = 0; i < count; i++)
+            c[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
+    }
+    if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
+        const int32_t part = smear_fog_part(frame_fog(s->frame), units);
+        for (int i = 0; i < 3; i++)
+            c[i] = fog_channel(s->frame, c[i], i, part);
+    }
+}
+
+/* Their steps from one end of a block of n > 0 pixels to the other; in fog `from` may become the mean (smear_fog_steps). */
+SMEAR_INLINE void channel_steps(int32_t step[4], int32_t from[4], const int32_t to[4], int count, int32_t n, const struct setup *s)
+{
+    if (SMEAR_WITH_FOG && has_channels_in_fog(s))
+        smear_fog_steps(step, from, to, n, s->frame);
+    else
+        for (int i = 0; i < count; i++)
+            step[i] = part_of(to[i] - from[i], n);
 }
 
 SMEAR_INLINE struct smear_texture_run texcoord_packed(struct texcoord c)

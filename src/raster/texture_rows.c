@@ -244,11 +244,7 @@ static SMEAR_NOINLINE void draw_places(const struct setup *s, const struct span_
     p.dz = (uint32_t)step_from_units(s->depth.dx, r->slope);
     for (int32_t i = 0; i < list->count; i++) {
         const int32_t row = list->row[i], y = r->y + row, at = r->at + row * target->window_rows.stride;
-        p.a = r->side[row].left;
-        p.b = r->side[row].right;
-        p.z = code_from_units(plane_at(&s->depth, 0, y), r->slope);
-        p.next = p.a;
-        if (!whole && !row_run_next(&p, s, r, row))
+        if (!row_run_first(&p, s, r, row, whole))
             continue;
         if (SMEAR_WITH_FOG && light != NULL && fog_varies(s))
             light_in_fog(light, s, &r->side[row], p.a, 0, y);
@@ -419,11 +415,7 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             next_quotient += left < right;
             continue;
         }
-        p.a = p.next = left;
-        p.b = right;
-        if (whole)
-            p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
-        else if (!row_run_next(&p, s, r, row))
+        if (!row_run_first(&p, s, r, row, whole))
             continue;
         if (divided && p.a == left && p.b == right) {
             row_start(&k, s, r, row, &p, left, texels_are_narrow(kind));
