@@ -80,17 +80,7 @@ struct tiny_cover {
     struct covered covered[COVERED_KEPT];       /* the first of them, row by row */
 };
 
-/* Counts a pixel of which no edge function is negative, and keeps it while there is room. */
-SMEAR_INLINE void tiny_cover_keep(struct tiny_cover *t, int32_t x, int32_t y, int32_t e0, int32_t e1, int32_t e2)
-{
-    if ((e0 | e1 | e2) < 0)
-        return;
-    if (t->count < COVERED_KEPT)
-        t->covered[t->count] = (struct covered){ x, y, e1, e2 };
-    t->count++;
-}
-
-/* Finds which centres of the box are covered: one after the other where size counts. */
+/* Finds which centres of the box are covered, and keeps the first. */
 static inline void cover(struct tiny_cover *t, const struct box *box, const struct smear_screen *v0, const struct smear_screen *v1,
                          const struct smear_screen *v2)
 {
@@ -100,32 +90,21 @@ static inline void cover(struct tiny_cover *t, const struct box *box, const stru
     t->area = x1 * y2 - x2 * y1;
     t->count = 0;
     tiny_start(&e, v0->x, v0->y, x1, y1, x2, y2, t->area, x, y);
-    if (SMEAR_SMALL_CODE) {
-        for (int32_t row = y; row < box->y1; row++) {
-            int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
-            for (int32_t column = x; column < box->x1; column++) {
-                tiny_cover_keep(t, column, row, e0, e1, e2);
-                e0 += e.right0;
-                e1 += e.right1;
-                e2 += e.right2;
+    for (int32_t row = y; row < box->y1; row++) {
+        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2;
+        for (int32_t column = x; column < box->x1; column++) {
+            if ((e0 | e1 | e2) >= 0) {
+                if (t->count < COVERED_KEPT)
+                    t->covered[t->count] = (struct covered){ column, row, e1, e2 };
+                t->count++;
             }
-            e.e0 += e.down0;
-            e.e1 += e.down1;
-            e.e2 += e.down2;
+            e0 += e.right0;
+            e1 += e.right1;
+            e2 += e.right2;
         }
-        return;
-    }
-    const bool wide = box->x1 - x > 1;
-    tiny_cover_keep(t, x, y, e.e0, e.e1, e.e2);
-    if (wide)
-        tiny_cover_keep(t, x + 1, y, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
-    if (box->y1 - y > 1) {
         e.e0 += e.down0;
         e.e1 += e.down1;
         e.e2 += e.down2;
-        tiny_cover_keep(t, x, y + 1, e.e0, e.e1, e.e2);
-        if (wide)
-            tiny_cover_keep(t, x + 1, y + 1, e.e0 + e.right0, e.e1 + e.right1, e.e2 + e.right2);
     }
 }
 

@@ -100,19 +100,6 @@ static void clip_plane(struct smear_clip_polygon *polygon, const struct smear_de
     polygon->count = result < 3 ? 0 : result;
 }
 
-/* Whether some corner may lie beyond one of the four sides: most polygons stay within. */
-static bool leaves_guard(struct smear_clip_polygon *p, const struct smear_depths *depths)
-{
-    if (SMEAR_SMALL_FILE)
-        return p->count != 0;
-    for (int i = 0; i < p->count; i++) {
-        const struct smear_homogeneous *h = &clip_corner(p, i)->now;
-        if (max_i32(abs_i32(h->x), abs_i32(h->y)) >> (GUARD_LOG2 - depths->coarse) >= h->w)
-            return true;
-    }
-    return false;
-}
-
 void smear_clip_start(struct smear_clip_polygon *p, int poses, bool colored)
 {
     p->count = 3;
@@ -129,7 +116,7 @@ void smear_clip_polygon(struct smear_clip_polygon *p, const struct smear_depths 
     if (codes & OUT_FAR)
         clip_plane(p, depths, PLANE_FAR);
     /* A vertex behind the near plane had no side: after the cut any side may need one. */
-    if (codes & (OUT_NEAR | OUT_GUARD) && leaves_guard(p, depths))
+    if (codes & (OUT_NEAR | OUT_GUARD))
         for (int plane = PLANE_LEFT; plane < PLANES; plane++)
             clip_plane(p, depths, (enum plane)plane);
 }

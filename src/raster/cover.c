@@ -4,10 +4,9 @@
  * A pixel belongs to a triangle if its centre is inside, by the top-left rule. In row y an edge lies at
  * x(y) = x0 + (yc - y0) dx / dy, exactly (kernels/edge_walk.h); pixels from ceil(left) to ceil(right) - 1 are
  * covered. Both triangles at an edge see the same fraction, so no pixel is drawn twice
- * or missed. Small triangles use edge functions instead, which say the same without a division. */
+ * or missed. */
 #include "raster/cover.h"
 
-#include "geometry/tiny.h"
 #include "kernels/edge_walk.h"
 #include "kernels/kernels.h"
 #include "raster/span.h"
@@ -127,7 +126,7 @@ static inline void draw_span(const struct setup *s, const struct row *r, int32_t
     draw_run(s, &p, r, slope, units, write);
 }
 
-/* ------------------------------------------------------------------ large triangles */
+/* ------------------------------------------------------------------ sides */
 
 /* A triangle's two sides on their way down. */
 struct sides {
@@ -157,7 +156,7 @@ static int32_t sides_part(struct sides *d, int32_t y)
     return upper ? c->knee : c->end;
 }
 
-static void cover_large(const struct setup *s, smear_span_fn *write)
+static void cover_spans(const struct setup *s, smear_span_fn *write)
 {
     struct sides d;
     struct row r;
@@ -173,12 +172,6 @@ static void cover_large(const struct setup *s, smear_span_fn *write)
             row_next(&r, s);
         } while (r.y < stop);
     }
-}
-
-/* Edge functions of a small triangle, whose edges are shorter than 17 px. */
-static inline void box_edges(struct tiny_edges *e, const struct setup *s, int32_t x, int32_t y)
-{
-    tiny_start(e, s->v[0][VERTEX_X], s->v[0][VERTEX_Y], s->x1, s->y1, s->x2, s->y2, s->x1 * s->y2 - s->x2 * s->y1, x, y);
 }
 
 /* Rows that are gathered before they are drawn together: those of one stretch of the ring. */
@@ -246,41 +239,6 @@ static void cover_rows(const struct setup *s, smear_rows_fn *draw, bool cut)
     }
 }
 
-/* ------------------------------------------------------------------ small triangles */
-
-static void cover_small(const struct setup *s, const struct pixel_box *box, smear_span_fn *write)
-{
-    const int32_t left = box->left, right = box->right;
-    struct tiny_edges e;
-    struct row r;
-    box_edges(&e, s, left, box->top);
-    row_start(&r, s, box->top);
-    for (;;) {
-        int32_t e0 = e.e0, e1 = e.e1, e2 = e.e2, x = left;
-        while (x < right && (e0 | e1 | e2) < 0) {
-            e0 += e.right0;
-            e1 += e.right1;
-            e2 += e.right2;
-            x++;
-        }
-        int32_t first = x;
-        while (x < right && (e0 | e1 | e2) >= 0) {
-            e0 += e.right0;
-            e1 += e.right1;
-            e2 += e.right2;
-            x++;
-        }
-        if (x > first)
-            draw_span(s, &r, first, x, write);
-        if (r.y + 1 >= box->bottom)
-            return;
-        row_next(&r, s);
-        e.e0 += e.down0;
-        e.e1 += e.down1;
-        e.e2 += e.down2;
-    }
-}
-
 /* ------------------------------------------------------------------ any triangle */
 
 void smear_cover_choose(struct setup *s, bool small)
@@ -304,8 +262,5 @@ void smear_cover(const struct setup *s, const struct pixel_box *box, bool small)
     if (!SMEAR_SMALL_CODE && draw_is_shadow(s->draw) && !setup_is_shaded(s) && s->segment->uv != 0 && s->segment->shade == SHADE_NONE
         && s->texture.mode == TEXTURE_CURVED && s->texture.turns && s->draw->sampler.format == SMEAR_TEXEL_PALETTE8)
         write = smear_span_texels_shadow;
-    if (small && !SMEAR_SMALL_CODE)
-        cover_small(s, box, write);
-    else
-        cover_large(s, write);
+    cover_spans(s, write);
 }

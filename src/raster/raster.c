@@ -204,7 +204,7 @@ static SMEAR_NOINLINE void draw_any(struct smear_raster_pass *p, uint32_t color,
     struct setup s;
     struct smear_raster_draw smaller;
     start(&s, p->frame, target, p->segment, color, v);
-    const uint64_t area = !known || small ? setup_edges(&s) : 1;   /* large ones are covered without edge vectors */
+    const uint64_t area = !known ? setup_edges(&s) : 1;
     SMEAR_ASSERT((int64_t)area > 0);
     if (known) {
         smear_kept_take(kept, &s);

@@ -68,18 +68,18 @@ static inline bool has_channels_in_fog(const struct setup *s)
 SMEAR_INLINE void channels_of_pixel(int32_t c[4], const struct setup *s, int count, int32_t x, int32_t y)
 {
     const int32_t units = plane_at(&s->depth, x, y);
-    if (!segment_gouraud(s->segment)) {
-        for (int i = 0; i < count; i++)
-            c[i] = channel_value_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
-    } else if (!s->perspective_color) {
-        for (int i = 0; i < count; i++)
-            c[i] = plane_at(&s->channel[i], x, y);
-    } else {
+    if (s->perspective_color) {
         const uint32_t q = (uint32_t)max_i32(units, 1);
         const int zeros = count_leading_zeros(q);
         const int32_t recip = (int32_t)recip_norm(q << zeros);
         for (int i = 0; i < count; i++)
             c[i] = channel_over_w(plane_at(&s->channel[i], x, y), zeros, recip);
+    } else if (segment_gouraud(s->segment)) {
+        for (int i = 0; i < count; i++)
+            c[i] = plane_at(&s->channel[i], x, y);
+    } else {
+        for (int i = 0; i < count; i++)
+            c[i] = channel_value_of_code(s->frame, s->color >> (16 - 8 * i) & 255u);
     }
     if (SMEAR_WITH_FOG && has_channels_in_fog(s)) {
         const int32_t part = smear_fog_part(frame_fog(s->frame), units);

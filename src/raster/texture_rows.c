@@ -415,7 +415,11 @@ SMEAR_INLINE void draw_blocks(const struct setup *s, const struct span_rows *r, 
             next_quotient += left < right;
             continue;
         }
-        if (!row_run_first(&p, s, r, row, whole))
+        p.a = p.next = left;
+        p.b = right;
+        if (whole)
+            p.z = code_from_units(plane_at(&s->depth, 0, r->y + row), r->slope);
+        else if (!row_run_next(&p, s, r, row))
             continue;
         if (divided && p.a == left && p.b == right) {
             row_start(&k, s, r, row, &p, left, texels_are_narrow(kind));
