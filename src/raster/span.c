@@ -156,17 +156,6 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
     }
 }
 
-/* Multiplies n texels by a code, their alpha by one: red and blue are one product. */
-static void modulate_white(uint32_t *texel, uint32_t light, int32_t n)
-{
-    const uint32_t pair = 0xff00ffu;
-    for (; n > 0; n--, texel++) {
-        uint32_t t = *texel, rb = (t & pair) * light + 0x800080u, green = (t >> 8 & 255u) * light + 128u;
-        rb = (rb + (rb >> 8 & pair)) >> 8 & pair;
-        *texel = (t >> 24 << 16 | (green + (green >> 8)) >> 8) << 8 | rb;
-    }
-}
-
 /* Multiplies n texels by the light of the triangle: flat, or interpolated. */
 static void modulate(uint32_t *texel, const struct setup *s, const struct span *p, const struct block *k,
                      int32_t n)
@@ -179,11 +168,6 @@ static void modulate(uint32_t *texel, const struct setup *s, const struct span *
         c[3] = pixel_alpha(s->color) << 16;
     } else {
         channels_at(s, p, k, c, d);
-    }
-    const bool white = ((c[0] ^ c[1]) | (c[0] ^ c[2])) < 1u << 16;
-    if (SPAN_SPECIALIZED && !transfer_is_linear(transfer) && white && (d[0] | d[1] | d[2] | d[3]) == 0 && c[3] >> 16 == 255u) {
-        modulate_white(texel, c[0] >> 16 & 255u, n);
-        return;
     }
     uint32_t a = c[3], da = d[3];
     for (; n > 0; n--, texel++) {

@@ -124,50 +124,24 @@ uint32_t smear_sample_at(const struct smear_sampler *s, int32_t u, int32_t v)
     return texel(s, u >> 16, v >> 16);
 }
 
-/* Any texel at the coordinates u and v, in turns (`turns`) or texels q16. */
-SMEAR_INLINE uint32_t sample_at(const struct smear_sampler *s, uint64_t at, bool turns, int format)
+/* The next texel of a run. */
+static inline uint32_t sample_next(const struct smear_sampler *s, uint64_t at)
 {
-    if (turns)
-        return texel_fetch(s->texels, s->palette, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), format);
+    if (s->turns)
+        return texel_fetch(s->texels, s->palette, sampler_index(s, (uint32_t)at, (uint32_t)(at >> 32)), s->format);
     return smear_sample_at(s, (int32_t)at, (int32_t)(at >> 32));
 }
 
 /* Along a chord or a parabola. No coordinate is asked for after a loop, which would
  * be a product of 64 bits: small cores call for that. */
-SMEAR_INLINE void sample_run(uint32_t *out, const struct smear_sampler *s,
-                             const struct smear_texture_run *run, int first, int n, bool turns, int format)
+void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
 {
     uint64_t at = run->at, step = run->step;
-    if (run->curvature == 0) {
-        if (first != 0)
-            at += step * (uint32_t)first;
-        for (; n > 0; n--, at += step)
-            *out++ = sample_at(s, at, turns, format);
-        return;
-    }
     const uint64_t curvature = run->curvature;
     if (first != 0) {
         at += step * (uint32_t)first + curvature * (uint32_t)(first * (first - 1) / 2);
         step += curvature * (uint32_t)first;
     }
     for (; n > 0; n--, at += step, step += curvature)
-        *out++ = sample_at(s, at, turns, format);
-}
-
-void smear_sample(uint32_t *out, const struct smear_sampler *s, const struct smear_texture_run *run, int first, int n)
-{
-    if (SMEAR_SMALL_FILE) {
-        sample_run(out, s, run, first, n, s->turns, s->format);
-        return;
-    }
-    /* In registers: `out` might be any of its words. */
-    const struct smear_sampler sampler = *s;
-    if (!sampler.turns)
-        sample_run(out, s, run, first, n, false, 0);
-    else if (sampler.format == SMEAR_TEXEL_8888)
-        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_8888);
-    else if (sampler.format == SMEAR_TEXEL_PALETTE8)
-        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_PALETTE8);
-    else
-        sample_run(out, &sampler, run, first, n, true, SMEAR_TEXEL_565);
+        *out++ = sample_next(s, at);
 }
