@@ -134,20 +134,24 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
 {
     struct smear_bins *g = b->a->bins;
     const struct smear_segment *s = b->segment;
-    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    const bool colored = segment_colored(s);
+    const uint32_t *corner[3] = { NULL, NULL, NULL };
+    struct tiny_channel channel[3] = { { 0, 0, 0 } };
     uint32_t color = 0;
-    if (!segment_colored(s))
+    if (!colored)
         color = color_of_face(b, triangle, back);
     if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
-            channels[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+            corner[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+    if (colored)
+        tiny_channels(channel, corner[0], corner[1], corner[2], b->d->shading.transfer);
     const struct tiny_scale scale = tiny_scale_make(t->area);
     const int32_t q0 = v[0]->screen.depth, q1 = v[1]->screen.depth, q2 = v[2]->screen.depth;
     for (int i = 0; i < t->count; i++) {
         const struct covered *p = &t->covered[i];
         const uint32_t w1 = tiny_weight(scale, p->e1), w2 = tiny_weight(scale, p->e2);
-        if (segment_colored(s))
-            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.transfer);
+        if (colored)
+            color = tiny_color(channel, w1, w2, shading_is_linear(&b->d->shading));
         bins_add(g, &g->opaque_last[bins_row(g, p->y)], (uint32_t)p->x, (uint32_t)p->y, tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }
 }
@@ -383,15 +387,18 @@ static inline void add_seen_points(const struct batch *b, const struct seen *t)
     const int32_t q0 = place[t->index[0]].screen.depth, q1 = place[t->index[1]].screen.depth;
     const int32_t q2 = place[t->index[2]].screen.depth;
     const struct tiny_scale scale = tiny_scale_make(four->area[k]);
-    const uint32_t *channels[3] = { NULL, NULL, NULL };
+    const uint32_t *corner[3] = { NULL, NULL, NULL };
+    struct tiny_channel channel[3];
     uint32_t color = 0;
     if (!colored)
         color = color_of_face(b, t->triangle, t->back);
     if (segment_by_vertices(b->segment)) {
         const bool shares = batch_shares(b, t->back);
         for (int i = 0; i < 3; i++)
-            channels[i] = g->pool + stored_place(b, t, i, shares) + b->segment->color;
+            corner[i] = g->pool + stored_place(b, t, i, shares) + b->segment->color;
     }
+    if (colored)
+        tiny_channels(channel, corner[0], corner[1], corner[2], b->d->shading.transfer);
     for (uint32_t bits = four->covered[k]; bits != 0; bits &= bits - 1) {
         const int32_t i = __builtin_ctz(bits), x = i & 1, y = i >> 1;
         int32_t e1 = four->e1[k], e2 = four->e2[k];
@@ -406,7 +413,7 @@ static inline void add_seen_points(const struct batch *b, const struct seen *t)
         const uint32_t w1 = tiny_weight(scale, e1), w2 = tiny_weight(scale, e2);
         const int32_t row = pair_y(four->low[k]) + y;
         if (colored)
-            color = tiny_color(channels[0], channels[1], channels[2], w1, w2, b->d->shading.transfer);
+            color = tiny_color(channel, w1, w2, shading_is_linear(&b->d->shading));
         bins_add(g, &g->opaque_last[bins_row(g, row)], (uint32_t)(pair_x(four->low[k]) + x), (uint32_t)row,
                  tiny_depth(q0, q1, q2, w1, w2), SMEAR_POINT, color);
     }

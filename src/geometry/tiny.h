@@ -40,29 +40,4 @@ static inline void tiny_start(struct tiny_edges *e, int32_t vx, int32_t vy, int3
     e->down0 = (x2 - x1) * 256;
 }
 
-/* Mixes a channel of the vertices (16 bits each) by weights q14; 2^14 is one. */
-static inline uint32_t tiny_mix(uint32_t c0, uint32_t c1, uint32_t c2, int32_t w1, int32_t w2)
-{
-    return (c0 << 14) + (uint32_t)(((int32_t)c1 - (int32_t)c0) * w1
-                                   + ((int32_t)c2 - (int32_t)c0) * w2);
-}
-
-/* Makes a pixel of channels that tiny_mix gives. Linear light is looked up by its floor, codes are rounded:
- * they are the upper byte, so they are at most 0xff00 and stay below 2^30. */
-static inline uint32_t tiny_pixel(uint32_t red, uint32_t green, uint32_t blue, smear_transfer transfer)
-{
-    const uint32_t half = channel_round(transfer) << 6;
-    return pixel_of_channels((red + half) >> 6, (green + half) >> 6, (blue + half) >> 6, transfer);
-}
-
-/* Makes a pixel of the colour words of three vertices (struct smear_segment) at weights w1 and w2. */
-static inline uint32_t tiny_color(const uint32_t *c0, const uint32_t *c1, const uint32_t *c2,
-                                  uint32_t w1, uint32_t w2, smear_transfer transfer)
-{
-    int32_t a = (int32_t)(w1 >> 2), b = (int32_t)(w2 >> 2);
-    return tiny_pixel(tiny_mix(c0[0] & 0xffffu, c1[0] & 0xffffu, c2[0] & 0xffffu, a, b),
-                      tiny_mix(c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, a, b),
-                      tiny_mix(c0[1] & 0xffffu, c1[1] & 0xffffu, c2[1] & 0xffffu, a, b), transfer);
-}
-
 #endif

@@ -78,7 +78,7 @@ struct curve {
 };
 
 /* What becomes of a colour's channel: that of v[1] and of v[2] less that of v[0], 16 bits each, and that of v[0], q14, with what
- * rounds codes (tiny_pixel). */
+ * rounds codes (tiny_channels). */
 struct tiny_channel {
     int32_t to1, to2;
     uint32_t base;

@@ -49,22 +49,6 @@ static inline uint32_t tiny_units_at(const struct tiny_box *b, uint32_t w1, uint
 #endif
 }
 
-/* Returns one channel, 8 bits of a code or 12 of linear light. */
-static inline uint32_t tiny_channel_at(const struct tiny_channel *c, uint32_t w1, uint32_t w2, bool linear)
-{
-    return (c->base + (uint32_t)(c->to1 * (int32_t)(w1 >> 2)) + (uint32_t)(c->to2 * (int32_t)(w2 >> 2))) >> (linear ? 18 : 22);
-}
-
-SMEAR_INLINE uint32_t tiny_box_color(const struct tiny_box *b, uint32_t w1, uint32_t w2, bool linear)
-{
-    uint32_t c[3];
-    for (int i = 0; i < 3; i++) {
-        c[i] = tiny_channel_at(&b->channel[i], w1, w2, linear);
-        c[i] = linear ? smear_srgb_encode[c[i]] : c[i];
-    }
-    return pixel_make(0, c[0], c[2], c[1]);
-}
-
 /* Pixel (e1, e2), where it is nearer. `across`: of codes on both sides of their break. */
 SMEAR_INLINE void tiny_box_pixel(const struct tiny_box *b, uint16_t *depth, void *pixel, int32_t e1, int32_t e2, bool shaded,
                                  bool linear, bool narrow, bool across)
@@ -76,7 +60,7 @@ SMEAR_INLINE void tiny_box_pixel(const struct tiny_box *b, uint16_t *depth, void
         uint32_t color = b->color;
         *depth = (uint16_t)code;
         if (shaded) {
-            color = tiny_box_color(b, w1, w2, linear);
+            color = tiny_color(b->channel, w1, w2, linear);
             color = narrow ? rgb565_nearest(color) : color;
         }
         if (narrow)

@@ -4,6 +4,7 @@
 #define SMEAR_KERNELS_TINY_WEIGHTS_H
 
 #include "base/fixmath.h"
+#include "kernels/kernels.h"
 
 /* What turns edge functions into weights. */
 struct tiny_scale {
@@ -45,6 +46,37 @@ static inline uint32_t tiny_code(int32_t units)
 static inline uint32_t tiny_depth(int32_t q0, int32_t q1, int32_t q2, uint32_t w1, uint32_t w2)
 {
     return tiny_code(q0 + tiny_times(q1 - q0, w1) + tiny_times(q2 - q0, w2));
+}
+
+SMEAR_INLINE struct tiny_channel tiny_channel_of(uint32_t c0, uint32_t c1, uint32_t c2, uint32_t round)
+{
+    c0 &= 0xffffu;
+    return (struct tiny_channel){ (int32_t)(c1 & 0xffffu) - (int32_t)c0, (int32_t)(c2 & 0xffffu) - (int32_t)c0, (c0 << 14) + round };
+}
+
+/* Makes red, blue and green of two words of each corner: red and green, blue. */
+SMEAR_INLINE void tiny_channels(struct tiny_channel channel[3], const uint32_t *c0, const uint32_t *c1, const uint32_t *c2,
+                                smear_transfer transfer)
+{
+    const uint32_t round = channel_round(transfer) << 6;
+    channel[0] = tiny_channel_of(c0[0], c1[0], c2[0], round);
+    channel[1] = tiny_channel_of(c0[1], c1[1], c2[1], round);
+    channel[2] = tiny_channel_of(c0[0] >> 16, c1[0] >> 16, c2[0] >> 16, round);
+}
+
+/* Returns one channel, 8 bits of a code or 12 of linear light. */
+SMEAR_INLINE uint32_t tiny_channel_at(const struct tiny_channel *c, uint32_t w1, uint32_t w2, bool linear)
+{
+    return (c->base + (uint32_t)(c->to1 * (int32_t)(w1 >> 2)) + (uint32_t)(c->to2 * (int32_t)(w2 >> 2))) >> (linear ? 18 : 22);
+}
+
+/* Returns the pixel at weights w1 and w2. Linear light is looked up by its floor, codes are rounded: they are the upper byte, so they are
+ * at most 0xff00 and stay below 2^30. */
+SMEAR_INLINE uint32_t tiny_color(const struct tiny_channel channel[3], uint32_t w1, uint32_t w2, bool linear)
+{
+    const uint32_t r = tiny_channel_at(&channel[0], w1, w2, linear), b = tiny_channel_at(&channel[1], w1, w2, linear),
+                   g = tiny_channel_at(&channel[2], w1, w2, linear);
+    return linear ? pixel_make(0, smear_srgb_encode[r], smear_srgb_encode[g], smear_srgb_encode[b]) : pixel_make(0, r, g, b);
 }
 
 /* Whether depths differ so little that colours may be mixed on the screen: off by at most 1/128 of their range. */

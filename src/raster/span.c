@@ -6,9 +6,6 @@
 #include "base/pixel.h"
 #include "kernels/flat_run.h"
 
-/* Loops of their own for what is common. */
-enum { SPAN_SPECIALIZED = !SMEAR_SMALL_FILE };
-
 static void span_of_color(const struct setup *s, const struct span *p, uint32_t pixel)
 {
     const uint32_t color = target_pixel(s->target, pixel);
@@ -126,14 +123,14 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
                         uint32_t d[4])
 {
     const int count = draw_is_opaque(s->draw) ? 3 : 4;
-    const bool in_fog = has_channels_in_fog(s), even = SPAN_SPECIALIZED && s->even_color;
+    const bool in_fog = has_channels_in_fog(s);
     int32_t from[4], to[4], step[4] = { 0, 0, 0, 0 };
     c[3] = 255u << 16;
     d[3] = 0;
-    if (!in_fog && (even || !s->perspective_color)) {
+    if (!in_fog && !s->perspective_color) {
         for (int i = 0; i < count; i++) {
-            c[i] = (uint32_t)(even ? s->channel[i].at : plane_at(&s->channel[i], k->x, p->y));
-            d[i] = even ? 0 : (uint32_t)s->channel[i].dx;
+            c[i] = (uint32_t)plane_at(&s->channel[i], k->x, p->y);
+            d[i] = (uint32_t)s->channel[i].dx;
         }
         return;
     }

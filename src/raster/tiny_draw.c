@@ -2,27 +2,9 @@
 /* tiny_draw.c - see tiny_draw.h. */
 #include "raster/tiny_draw.h"
 
+#include "geometry/tiny.h"
 #include "kernels/tiny_box.h"
 #include "raster/fog.h"
-
-/* The pixels whose centres may be covered, from the first to that behind the last one, and the range of depth units. */
-struct tiny_span {
-    int32_t left, top, right, bottom, low, high;
-};
-
-/* Records begin with x and y, q8 px, less than 2^15 px from 0, and depth units from 0 on. */
-static inline void tiny_span(struct tiny_span *s, const int32_t *v0, const int32_t *v1, const int32_t *v2)
-{
-    s->left = (min_i32(v0[0], min_i32(v1[0], v2[0])) + 127) >> 8;
-    s->right = (max_i32(v0[0], max_i32(v1[0], v2[0])) + 127) >> 8;
-    s->top = (min_i32(v0[1], min_i32(v1[1], v2[1])) + 127) >> 8;
-    s->bottom = (max_i32(v0[1], max_i32(v1[1], v2[1])) + 127) >> 8;
-    s->low = min_i32(v0[2], min_i32(v1[2], v2[2]));
-    s->high = max_i32(v0[2], max_i32(v1[2], v2[2]));
-}
-
-/* 0 for edges that go up (left ones) or right (top ones), whose centres count, else -1. */
-static inline int32_t tiny_corner_bias(int32_t dx, int32_t dy) { return (dx - dy * 65536 - 1) >> 31; }
 
 /* Records begin with x and y, q8 px, and depth units; clockwise, less than 16 px apart. (x, y) is the box's first pixel, at most as far
  * from them. */
@@ -30,35 +12,19 @@ static inline void tiny_corners(struct tiny_box *b, const int32_t *v0, const int
                                 int32_t y)
 {
     const int32_t x1 = v1[0] - v0[0], y1 = v1[1] - v0[1], x2 = v2[0] - v0[0], y2 = v2[1] - v0[1], area = x1 * y2 - x2 * y1;
-    const int32_t cx = x * 256 + 128 - v0[0], cy = y * 256 + 128 - v0[1];
-    const int32_t bias1 = tiny_corner_bias(-x2, -y2), bias2 = tiny_corner_bias(x1, y1);
     const struct tiny_scale scale = tiny_scale_make(area);
+    struct tiny_edges e;
+    tiny_start(&e, v0[0], v0[1], x1, y1, x2, y2, area, x, y);
     b->up = scale.up;
     b->recip = scale.recip;
-    b->e1 = y2 * cx - x2 * cy + bias1;
-    b->e2 = x1 * cy - y1 * cx + bias2;
-    b->sum = area + tiny_corner_bias(x2 - x1, y2 - y1) + bias1 + bias2;
-    b->right1 = y2 * 256;
-    b->right2 = -y1 * 256;
-    b->down1 = -x2 * 256;
-    b->down2 = x1 * 256;
+    b->e1 = e.e1;
+    b->e2 = e.e2;
+    b->sum = e.e0 + e.e1 + e.e2;
+    b->right1 = e.right1;
+    b->right2 = e.right2;
+    b->down1 = e.down1;
+    b->down2 = e.down2;
     tiny_units(b, v1[2] - v0[2], v2[2] - v0[2]);
-}
-
-static inline void tiny_channel_make(struct tiny_channel *c, uint32_t c0, uint32_t c1, uint32_t c2, uint32_t round)
-{
-    c->to1 = (int32_t)(c1 & 0xffffu) - (int32_t)(c0 & 0xffffu);
-    c->to2 = (int32_t)(c2 & 0xffffu) - (int32_t)(c0 & 0xffffu);
-    c->base = ((c0 & 0xffffu) << 14) + round;
-}
-
-/* Two words of each corner: red and green, blue. What rounds is 2^21 for codes, 0 for linear light. */
-static inline void tiny_colors(struct tiny_box *b, const uint32_t *c0, const uint32_t *c1, const uint32_t *c2, uint32_t round)
-{
-    for (int i = 0; i < 3; i++) {
-        const int word = i & 1, shift = i << 3 & 16;        /* red, blue, green */
-        tiny_channel_make(&b->channel[i], c0[word] >> shift, c1[word] >> shift, c2[word] >> shift, round);
-    }
 }
 
 /* Takes colours on to the fog's, by the one part that a triangle has of it. */
@@ -100,7 +66,7 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
     tiny_corners(b, v[0], v[1], v[2], left, top);
     if (SMEAR_WITH_GOURAUD && b->shaded) {
         const uint32_t *const c0 = (const uint32_t *)v[0] + l->color, *const c1 = (const uint32_t *)v[1] + l->color;
-        tiny_colors(b, c0, c1, (const uint32_t *)v[2] + l->color, channel_round(b->transfer) << 6);
+        tiny_channels(b->channel, c0, c1, (const uint32_t *)v[2] + l->color, b->transfer);
         if (SMEAR_WITH_FOG && (SMEAR_SMALL_CODE || fog != NULL) && fog_is_even(fog))
             colors_in_fog(b, fog);
     } else {
@@ -119,12 +85,12 @@ void smear_tiny_box(struct tiny_look *l, const struct smear_raster_target *t, co
 
 bool smear_tiny_draw(struct tiny_look *l, const struct smear_raster_target *t, const int32_t *const v[3], uint32_t color)
 {
-    struct tiny_span s;
-    tiny_span(&s, v[0], v[1], v[2]);
-    const struct tiny_depths depths = { s.low, s.high };
-    const struct pixel_box box = { s.left, s.right, s.top, s.bottom };
-    if (s.right - s.left > SMALL_PX || s.bottom - s.top > SMALL_PX || (s.right - s.left) * (s.bottom - s.top) > TINY_PIXELS
-        || !tiny_suits(l, &depths))
+    struct pixel_box box;
+    box_span(&box.left, &box.right, v[0][VERTEX_X], v[1][VERTEX_X], v[2][VERTEX_X]);
+    box_span(&box.top, &box.bottom, v[0][VERTEX_Y], v[1][VERTEX_Y], v[2][VERTEX_Y]);
+    const struct tiny_depths depths = tiny_depths_of(v);
+    const int32_t columns = box.right - box.left, rows = box.bottom - box.top;
+    if (columns > SMALL_PX || rows > SMALL_PX || columns * rows > TINY_PIXELS || !tiny_suits(l, &depths))
         return false;
     smear_tiny_box(l, t, v, color, &box, &depths, NULL);
     return true;
