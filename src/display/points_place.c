@@ -290,12 +290,6 @@ static int32_t middle_depth(const struct end end[2], const struct smear_depths *
     return clamp_i32(depth, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);
 }
 
-static uint16_t depth_code(int32_t units_q11)
-{
-    const uint32_t units = (uint32_t)units_q11 >> 11;
-    return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4), 65535u));
-}
-
 /* Returns sqrt(x) for x < 2^31, relative error below 2^-8 and 1/2 step. */
 static uint32_t rough_root(uint32_t x)
 {
@@ -404,7 +398,7 @@ static bool place(smear_point *point, struct lens *l)
     const int32_t middle = middle_depth(end, &p->depths, recip, zeros);
     const uint32_t nearer = mulh_u32((uint32_t)middle << 4, (uint32_t)radius * l->pixel << 2), /* in 4 steps */
         room = (uint32_t)(SMEAR_DEPTH_MAX - middle);
-    point->place.depth = depth_code(nearer < room >> 2 ? middle + (int32_t)(nearer << 2) : SMEAR_DEPTH_MAX);
+    point->place.depth = depth_code_of((uint32_t)(nearer < room >> 2 ? middle + (int32_t)(nearer << 2) : SMEAR_DEPTH_MAX) >> 11);
     return make_streak(&point->place, end, &dot, &l->viewport);
 }
 

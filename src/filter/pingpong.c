@@ -10,6 +10,7 @@
 #include "filter/filter.h"
 
 #include "filter/gather.h"
+#include "kernels/kernels.h"
 
 /* ------------------------------------------------------------------ passes */
 
@@ -73,7 +74,7 @@ static uint32_t nearest_allowed(const struct passing *p, uint16_t code)
     /* 16 bits and a few */
     uint32_t part = p->settings->orthographic ? (p->far_units - units) >> 4 : units >> 4;
     units += (part * (uint32_t)p->pass->bias >> 4) + 1u;
-    return units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4), 65535u);
+    return depth_code_of(units);
 }
 
 /* Returns how far jitter moves the first tap along an axis, q16 px; `step` is that from tap to tap. */

@@ -61,26 +61,32 @@ static void shift_to(int32_t *out, const int64_t *in, int count, uint64_t larges
         out[i] = (int32_t)(shift >= 0 ? in[i] >> shift : (int64_t)((uint64_t)in[i] << -shift));
 }
 
-void smear_sun_make(struct smear_sun *sun, const smear_light *light)
+void smear_unit_direction(int32_t out[3], const int32_t in[3])
 {
-    static const smear_light usual = SMEAR_LIGHT_DEFAULT;
     int32_t d[3];
     uint32_t largest = 1, square = 0;
-    if (light == NULL)
-        light = &usual;
     for (int i = 0; i < 3; i++)
-        largest |= (uint32_t)magnitude(light->direction[i]);
-    const int shift = 32 - count_leading_zeros(largest) - 15;
+        largest |= magnitude_i32(in[i]);
+    const int shift = 32 - count_leading_zeros(largest) - 15;           /* squares have 30 bits, their sum 32 */
     for (int i = 0; i < 3; i++) {
-        d[i] = shift >= 0 ? light->direction[i] >> shift : light->direction[i] * (1 << -shift);
+        d[i] = shift >= 0 ? in[i] >> shift : in[i] * (1 << -shift);
         square += (uint32_t)(d[i] * d[i]);
     }
     const int32_t length = (int32_t)max_u32(length_from(square), 1);        /* 15 to 16 bits */
+    for (int i = 0; i < 3; i++)
+        out[i] = d[i] * 16384 / length;
+}
+
+void smear_sun_make(struct smear_sun *sun, const smear_light *light)
+{
+    static const smear_light usual = SMEAR_LIGHT_DEFAULT;
+    if (light == NULL)
+        light = &usual;
+    smear_unit_direction(sun->direction, light->direction);
     if (SMEAR_WITH_LIGHTS)
         sun->lights = NULL;
     sun->white = true;
     for (int i = 0; i < 3; i++) {
-        sun->direction[i] = d[i] * 16384 / length;
         sun->ambient[i] = light->ambient[i];
         sun->diffuse[i] = light->diffuse[i];
         sun->white = sun->white && light->ambient[i] == light->ambient[0] && light->diffuse[i] == light->diffuse[0];
@@ -224,13 +230,18 @@ static inline uint32_t cosine_of_face(const struct smear_shading *s, const int32
     return cosine;
 }
 
+SMEAR_NOINLINE void smear_face_normal(int32_t n[3], const int32_t u[3], const int32_t v[3])
+{
+    int64_t normal[3];
+    const uint64_t largest = cross_product(normal, u, v);
+    shift_to(n, normal, 3, largest, 14);
+}
+
 /* Returns the light of a face with edges of any length. */
 static SMEAR_RARE uint32_t light_of_long(const struct smear_shading *s, const int32_t u[3], const int32_t v[3])
 {
     int32_t n[3];
-    int64_t normal[3];
-    const uint64_t largest = cross_product(normal, u, v);
-    shift_to(n, normal, 3, largest, 14);
+    smear_face_normal(n, u, v);
     return cosine_of_face(s, n);
 }
 

@@ -19,6 +19,12 @@ struct smear_sun {
 /* `light`: null for SMEAR_LIGHT_DEFAULT. */
 void smear_sun_make(struct smear_sun *sun, const smear_light *light);
 
+/* Brings a direction to length one, q14. */
+void smear_unit_direction(int32_t out[3], const int32_t in[3]);
+
+/* Finds the normal of a face with these edges, of 14 bits. */
+void smear_face_normal(int32_t n[3], const int32_t u[3], const int32_t v[3]);
+
 /* What was found of the face before: faces of a box, say, come in pairs with one normal and one colour. */
 struct smear_lit {
     int32_t normal[3];              /* of any length; INT32_MAX first: none */

@@ -6,16 +6,6 @@
 #include "base/fixmath.h"
 #include "kernels/kernels.h"
 
-/* Products of 64 bits: where the core has none, from two of 32. */
-static inline int64_t product(int32_t a, int32_t b)
-{
-    if (SMEAR_HAS_MUL64)
-        return (int64_t)a * b;
-    return (int64_t)((uint64_t)(uint32_t)mulh_i32(a, b) << 32 | (uint32_t)mul_wrap(a, b));
-}
-
-static inline int64_t cross(int32_t a, int32_t b, int32_t c, int32_t d) { return product(a, b) - product(c, d); }
-
 /* n 256 / area with n = a1 y2 - a2 y1 (or a2 x1 - a1 x2): change per pixel of an attribute that changes by a1 and a2 along the two
  * edges; to nearest, clamped. recip: 2^61 / area, whose highest bit was shifted up by so many zeros. */
 SMEAR_INLINE int32_t gradient_of(int64_t n, uint32_t recip, int area_zeros)
@@ -50,11 +40,11 @@ static inline int32_t slope_part(int32_t slope, int32_t frac)
     return mul_wrap(slope >> 8, frac) + ((slope & 255) * frac >> 8);
 }
 
-/* gradient_of cross(d1, y2, d2, y1) in the lower word and cross(d2, x1, d1, x2) in the upper one, of the edges x1, y1, x2 and y2. */
+/* gradient_of d1 y2 - d2 y1 in the lower word and of d2 x1 - d1 x2 in the upper one, of the edges x1, y1, x2 and y2. */
 static inline uint64_t gradients_reference(const int32_t *edge, int32_t d1, int32_t d2, uint32_t recip, int area_zeros)
 {
-    const int32_t dx = gradient_of(cross(d1, edge[3], d2, edge[1]), recip, area_zeros);
-    const int32_t dy = gradient_of(cross(d2, edge[0], d1, edge[2]), recip, area_zeros);
+    const int32_t dx = gradient_of(cross_wide(d1, d2, edge[1], edge[3]), recip, area_zeros);
+    const int32_t dy = gradient_of(cross_wide(d2, d1, edge[2], edge[0]), recip, area_zeros);
     return (uint64_t)(uint32_t)dy << 32 | (uint32_t)dx;
 }
 
@@ -163,7 +153,7 @@ static inline uint64_t gradients_reference(const int32_t *edge, int32_t d1, int3
     "adds r0, r0, r4\n\t"      \
     "adds r0, r0, r1\n\t"
 
-/* gradient() of cross() of r10, the word 12 bytes behind r6, r11 and the word 4 bytes behind r6 into r0; of the area's reciprocal in
+/* gradient_of r10 times the word 12 bytes behind r6 less r11 times the word 4 bytes behind r6 into r0; of the area's reciprocal in
  * r8, and 19 less its zeros in r9. scale_sat in both directions is behind 6 and 7: numbers stay below 2^29 before it. */
 #define ARMV6M_GRADIENT        \
     "mov r0, r10\n\t"          \
@@ -215,7 +205,7 @@ static inline uint64_t gradients_reference(const int32_t *edge, int32_t d1, int3
     "8: movs r0, r4\n\t"       \
     "b 7b\n"
 
-/* The second is that of cross(d1, x2, d2, x1) with the other sign. Compilers take half as many instructions again, and twice the room. */
+/* The second is that of d1 x2 - d2 x1, with the other sign. Compilers take half as many instructions again, and twice the room. */
 static SMEAR_NOINLINE uint64_t gradients_armv6m(const int32_t *edge, int32_t d1, int32_t d2, uint32_t recip, int area_zeros)
 {
     register uint32_t low __asm__("r0") = (uint32_t)(uintptr_t)edge;

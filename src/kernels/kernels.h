@@ -57,6 +57,12 @@ static inline uint32_t code_from_units(int32_t units, enum depth_slope slope)
                               : ((uint32_t)units << 1) + (0x80000000u - 0x08000000u + 0x8000u);
 }
 
+/* Returns the depth code of units (smear_depth_units), rounded down. */
+static inline uint16_t depth_code_of(uint32_t units)
+{
+    return (uint16_t)(units < 32768u ? units : min_u32(32768u + ((units - 32768u) >> 4), 65535u));
+}
+
 /* The longest blocks of colours. Those of texture coordinates may be longer where they hardly bend. */
 enum { COLOR_BLOCK_MAX = 16, BLOCK_LONG = 32, BLOCK_LONGEST = 64 };
 

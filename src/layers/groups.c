@@ -179,12 +179,6 @@ bool smear_groups_assemble(struct smear_layers *l, struct smear_assembler *assem
 
 /* ------------------------------------------------------------------ lists */
 
-static uint16_t code_of(int32_t depth)
-{
-    uint32_t units = (uint32_t)depth >> 11;
-    return (uint16_t)(units < 32768u ? units : 32768u + ((units - 32768u) >> 4));
-}
-
 static void extend(struct smear_group *group, const struct smear_bins *g, const struct smear_triangle *t)
 {
     if (t->segment == SMEAR_POINT) {
@@ -205,8 +199,8 @@ static void extend(struct smear_group *group, const struct smear_bins *g, const 
     }
     group->x0 = min_i32(group->x0, (x0 + 127) >> 8);
     group->x1 = max_i32(group->x1, (x1 + 127) >> 8);
-    group->nearest = (uint16_t)max_u32(group->nearest, min_u32(code_of(high) + 1u, UINT16_MAX));
-    group->farthest = (uint16_t)min_u32(group->farthest, code_of(low));
+    group->nearest = (uint16_t)max_u32(group->nearest, min_u32(depth_code_of((uint32_t)high >> 11) + 1u, UINT16_MAX));
+    group->farthest = (uint16_t)min_u32(group->farthest, depth_code_of((uint32_t)low >> 11));
 }
 
 void smear_groups_list_begin(struct smear_layers *l)

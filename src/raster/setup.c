@@ -69,12 +69,6 @@ static void setup_depth(struct setup *s)
 
 /* ------------------------------------------------------------------ colour */
 
-/* floor(a q / 2^15), a 16-bit. */
-static int32_t times_q15(int32_t a, int32_t q)
-{
-    return a * (q >> 15) + (a * (q & 0x7fff) >> 15);
-}
-
 /* floor(a q / 2^16), a of 16 bits without sign. */
 static inline int32_t times_q16(int32_t a, int32_t q)
 {
@@ -160,8 +154,8 @@ static void seen_find(struct seen *seen, const struct setup *s, int32_t low_q, i
         const struct plane *q = &s->depth;
         int32_t dx = q->dx, dy = q->dy, vx = s->v[0][VERTEX_X] >> 8, vy = s->v[0][VERTEX_Y] >> 8;
         int64_t here = s->v[0][VERTEX_DEPTH];
-        int64_t low = here + product(dx, (dx > 0 ? x0 : x1) - vx) + product(dy, (dy > 0 ? y0 : y1) - vy);
-        int64_t high = here + product(dx, (dx > 0 ? x1 : x0) - vx) + product(dy, (dy > 0 ? y1 : y0) - vy);
+        int64_t low = here + mul_wide(dx, (dx > 0 ? x0 : x1) - vx) + mul_wide(dy, (dy > 0 ? y0 : y1) - vy);
+        int64_t high = here + mul_wide(dx, (dx > 0 ? x1 : x0) - vx) + mul_wide(dy, (dy > 0 ? y1 : y0) - vy);
         int32_t margin = (int32_t)((magnitude_i32(dx) + magnitude_i32(dy)) >> 1);      /* v[0] is no centre */
         seen->low_q = clamp_i32(narrow_sat(low - margin), low_q, high_q);
         seen->high_q = clamp_i32(narrow_sat(high + margin), low_q, high_q);
@@ -481,7 +475,7 @@ void smear_setup_level(struct setup *s, uint64_t area, struct smear_raster_draw 
 {
     const struct smear_sampler *m = &s->draw->sampler;
     const int32_t u0 = setup_mesh_u(s, 0), v0 = setup_mesh_v(s, 0);
-    const int64_t turned = cross(setup_mesh_u(s, 1) - u0, setup_mesh_v(s, 2) - v0, setup_mesh_u(s, 2) - u0, setup_mesh_v(s, 1) - v0);
+    const int64_t turned = cross_wide(setup_mesh_u(s, 1) - u0, setup_mesh_u(s, 2) - u0, setup_mesh_v(s, 1) - v0, setup_mesh_v(s, 2) - v0);
     s->level = 0;
     if (turned == 0)
         return;

@@ -174,6 +174,9 @@ static inline bool setup_writes_velocity(const struct setup *s)
     return SMEAR_WITH_RECONSTRUCT && s->writes_velocity;
 }
 
+/* floor(a q / 2^15), a of 16 bits. */
+static inline int32_t times_q15(int32_t a, int32_t q) { return a * (q >> 15) + (a * (q & 0x7fff) >> 15); }
+
 /* a b / c for c > 0, by reciprocal; clamped. Good to 2^-18: for bounds. */
 uint32_t smear_times_over(uint32_t a, uint32_t b, uint32_t c);
 

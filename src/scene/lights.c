@@ -234,22 +234,11 @@ static SMEAR_NOINLINE uint32_t lamp_on_near(const struct smear_lights_seen *l, c
 static void turn_normal(int32_t out[3], const struct smear_shading *s, const int32_t n[3])
 {
     int32_t w[3];
-    uint32_t largest = 1;
     for (int i = 0; i < 3; i++) {
         const int32_t *m = s->normal_matrix[i];
         w[i] = (m[0] * n[0] + m[1] * n[1] + m[2] * n[2]) >> 1;
-        largest |= magnitude_i32(w[i]);
     }
-    /* To 15 bits: squares have 30, their sum 32. */
-    const int shift = 32 - count_leading_zeros(largest) - 15;
-    uint32_t square = 0;
-    for (int i = 0; i < 3; i++) {
-        w[i] = shift >= 0 ? w[i] >> shift : w[i] * (1 << -shift);
-        square += (uint32_t)(w[i] * w[i]);
-    }
-    const int32_t length = (int32_t)max_u32(sqrt_floor_64((uint64_t)square), 1);
-    for (int i = 0; i < 3; i++)
-        out[i] = clamp_i32(w[i] * (1 << 14) / length, -(1 << 14), 1 << 14);
+    smear_unit_direction(out, w);
 }
 
 /* Finds the light on a place, in thirds of steps, with a normal of 14 bits, but the sun's, in the world. */
@@ -279,21 +268,12 @@ static void light_face(struct fall *f, const struct smear_lights_seen *l, const 
     const int16_t *a = d->at.position + 3 * index[0], *b = d->at.position + 3 * index[face->back ? 2 : 1],
                   *c = d->at.position + 3 * index[face->back ? 1 : 2];
     int32_t u[3], v[3], middle[3], n[3];
-    int64_t normal[3];
-    uint64_t largest = 1;
     for (int i = 0; i < 3; i++) {
         u[i] = b[i] - a[i];
         v[i] = c[i] - a[i];
         middle[i] = a[i] + b[i] + c[i];
     }
-    for (int i = 0; i < 3; i++) {
-        const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        normal[i] = cross_wide(u[j], u[k], v[j], v[k]);
-        largest |= magnitude(normal[i]);
-    }
-    const int shift = 64 - count_leading_zeros_64(largest) - 14;
-    for (int i = 0; i < 3; i++)
-        n[i] = (int32_t)(shift >= 0 ? normal[i] >> shift : normal[i] * (1 << -shift));
+    smear_face_normal(n, u, v);
     f->sun = face->cosine;
     light_place(f, l, &d->shading, middle, n);
 }

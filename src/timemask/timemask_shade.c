@@ -175,12 +175,6 @@ static inline uint32_t spread(const int32_t a[3]) { return (uint32_t)most_of(a) 
 
 /* ------------------------------------------------------------------ values over w */
 
-/* floor(a q / 2^15), a of 16 bits. */
-static int32_t times_q15(int32_t a, int32_t q)
-{
-    return a * (q >> 15) + (a * (q & 0x7fff) >> 15);
-}
-
 /* Whether interpolation on the screen is off by more than `off`; both in 1/64 of what counts. */
 static bool needs_w(const struct timemask_pose *const pose[3], uint32_t range, uint32_t off)
 {
