@@ -84,7 +84,7 @@ VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,say.c sink.c) \
-    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c interrupt.c output.c palette.c pfm.c place.c \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c output.c palette.c pfm.c \
         png_read.c png_write.c ppm.c) \
     $(addprefix tools/scenes/,backdrop.c build.c demo.c demo_car.c demo_drone.c demo_track.c present.c present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
@@ -209,7 +209,7 @@ $(BUILD)/stalled: $(call objects,tests/shell/stalled.c tests/random.c tests/x_se
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lpthread
 
-$(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c x11_auth.c) $(IMAGE_SRC))
+$(BUILD)/view_x11_user: $(call objects,tests/shell/view_x11_user.c $(addprefix tools/view/,guard.c surface.c x11.c) $(IMAGE_SRC))
 	$(call say,LD)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
@@ -341,8 +341,8 @@ SUITES := $(SAN_SUITES) $(filter-out $(SAN_SUITES),$(filter $(SUITE),$(SUITES)))
 endif
 
 # The chart without what measures.
-CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_panel.c chart_peer.c chart_plot.c \
-                 chart_settings.c chart_tables.c kinds.c labels.c sheet.c svg.c take.c truth.c)
+CHART_SRC := $(addprefix tools/bench/,chart_bars.c chart_csv.c chart_means.c chart_peer.c chart_plot.c \
+                 chart_settings.c chart_tables.c sheet.c svg.c take.c truth.c)
 TEST_SRC := tests/run.c tests/test.c tests/random.c tests/rig.c tests/x_server.c tests/unit/store.c $(wildcard tests/ref/*.c) \
     $(wildcard $(SUITES:%=tests/unit/test_%.c) $(SUITES:%=tests/suite/test_%.c)) $(REF_SRC) \
     $(if $(filter-out $(SAN_SUITES),$(SUITES)),$(wildcard tests/suite/failures*.c) $(CHART_SRC))
@@ -351,8 +351,8 @@ TESTS    := $(BUILD)/run
 KERNEL_TESTS := $(filter-out %/check_kernels.c,$(wildcard tests/kernels/*.c))
 TEST_SRC += $(KERNEL_TESTS)
 # What suites test of `smear view`.
-VIEW_PARTS := $(addprefix tools/view/,board.c bus.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c \
-    x11.c x11_auth.c)
+VIEW_PARTS := $(addprefix tools/view/,board.c evdev.c font.c guard.c orbit.c panel.c screen_x11.c script.c surface.c tiles.c tty.c \
+    x11.c)
 TEST_SRC += $(VIEW_PARTS) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,apart.c say.c)
 
 # What runs the tests of a file, which its last line includes; and the model of tests/data/arm.gltf, as a header and in words, low byte

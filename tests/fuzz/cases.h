@@ -114,4 +114,29 @@ smear_desc case_other_desc(struct fuzz_case *c);
 
 void case_free(struct fuzz_case *c);
 
+/* ------------------------------------------------------------------ drawing */
+
+/* Draws a case, and ends the program where anything about it is not as it should be. */
+
+/* As the program `frames` has them (frames.c). */
+enum mode { MODE_VALID,
+            MODE_WILD,
+            MODE_SUMS,
+            MODE_THREADS,
+            MODE_MANY,
+            MODE_PARTS };
+
+struct counts {
+    uint64_t cases, frames, refused, compared, parts, errors;
+};
+
+extern char now_at[80]; /* the case and its frame */
+extern bool talks;
+
+/* Returns a sum of the case's pictures. */
+uint32_t run_case(struct counts *counts, uint64_t number, enum mode mode);
+
+/* The case that the bytes tell. */
+void run_bytes(const uint8_t *bytes, size_t size, enum mode mode);
+
 #endif

@@ -2,7 +2,6 @@
 /* cases_draw.c - draws cases of the generator, each twice: by other workers, in other parts, at another address, some of them with
  * pixels that are not doubled or meshes without bounds. What displays show must be equal, and every call of a valid case must succeed.
  * A finding ends the program, and says where it was. */
-#include "tests/fuzz/cases_draw.h"
 
 #include "tests/fuzz/cases.h"
 

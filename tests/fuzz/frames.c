@@ -11,7 +11,7 @@
  *     frames parts FIRST COUNT                valid cases, each at once and in room for 1 to 400 triangles
  *
  * A finding ends the program; the number that it names finds it again. */
-#include "tests/fuzz/cases_draw.h"
+#include "tests/fuzz/cases.h"
 
 #include <signal.h>
 #include <stdio.h>

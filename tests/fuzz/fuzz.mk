@@ -6,7 +6,7 @@ FUZZ_BASE := -std=c11 -g1 -Iinclude -Isrc -I. -MMD -MP
 FUZZ_FLAGS := $(FUZZ_BASE) -D_GNU_SOURCE -O1 -DSMEAR_CHECK=1
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJ := $(patsubst %.c,build/fuzz/obj/%.o,$(LIB_SRC) $(TOOL_SRC) tests/x_server.c tests/random.c \
-    $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c x11_auth.c))
+    $(addprefix tools/view/,guard.c screen_x11.c script.c surface.c x11.c))
 
 # Beside undefined behaviour, in the library conversions that nobody wrote may not change a value.
 FUZZ_CHECKED := address,undefined,implicit-conversion,local-bounds

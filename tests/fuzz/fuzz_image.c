@@ -9,11 +9,10 @@
  *         $(ls tools/image/[a-z]*.c) -lm
  *     ./fuzz -max_len=2048 tests/fuzz/corpus/image */
 #include "tests/fuzz/require.h"
-#include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
-#include "tools/image/png.h"
 #include "tools/image/palette.h"
+#include "tools/image/png.h"
 
 #include <stdlib.h>
 #include <string.h>

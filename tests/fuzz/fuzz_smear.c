@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* fuzz_smear.c - libFuzzer target: bytes decide what the generator of frames (cases.h) leaves to chance. The first says whether the
  * case is to be wild, or valid and the same by other workers, in other parts. */
-#include "tests/fuzz/cases_draw.h"
+#include "tests/fuzz/cases.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -2,7 +2,7 @@
 /* test_chart.c - the chart of error against cost: what lies on the frontier, means, bars that can
  * be missed, its file, room for labels, pictures, and the truth it measures against. */
 #include "tools/bench/chart.h"
-#include "tools/bench/labels.h"
+#include "tools/bench/svg.h"
 #include "tools/bench/truth.h"
 #include "tools/player/exact.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cover.c - how often triangles cover the picture (tools/scenes/cover.c), by which frames are refused that would
+/* test_cover.c - how often triangles cover the picture (tools/scenes/sight.c), by which frames are refused that would
  * take minutes. */
 #include "tests/test.h"
 #include "tools/scenes/scene.h"

@@ -7,7 +7,6 @@
 #include "tests/test.h"
 
 #include "tools/image/buffer.h"
-#include "tools/image/deflate.h"
 #include "tools/image/image.h"
 #include "tools/image/inflate.h"
 #include "tools/image/palette.h"

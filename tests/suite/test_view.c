@@ -8,7 +8,6 @@
 #include "tools/scenes/present.h"
 #include "tools/scenes/xform.h"
 #include "tools/view/board.h"
-#include "tools/view/bus.h"
 #include "tools/view/evdev.h"
 #include "tools/view/font.h"
 #include "tools/view/orbit.h"
@@ -16,7 +15,7 @@
 #include "tools/view/surface.h"
 #include "tools/view/tiles.h"
 #include "tools/view/tty.h"
-#include "tools/view/x11_auth.h"
+#include "tools/view/x11.h"
 
 #include <unistd.h>
 
@@ -673,6 +672,5 @@ static void test_boards_have_names_of_their_own(void)
         CHECK(board_find(b->name) == b);
     CHECK(board_find("nothing") == NULL);
 }
-
 
 #include "build/suites/view.h"

@@ -9,8 +9,8 @@
  * whether everything could be measured; with --strict, whether all bars were met as well. */
 #include "tools/bench/chart.h"
 #include "tools/bench/count.h"
-#include "tools/bench/groups.h"
 #include "tools/bench/sheet.h"
+#include "tools/bench/take.h"
 #include "tools/options/say.h"
 
 #include <errno.h>

@@ -7,7 +7,7 @@
  *     chart_means.c      means over groups of scenes; which points lie on the frontier
  *     chart_bars.c       the bars, met or missed
  *     chart_tables.c     tables for the terminal
- *     chart_plot.c       pictures, made of chart_panel.c (svg.c draws, labels.c finds room)
+ *     chart_plot.c       pictures, made of panels (svg.c draws, and finds room for labels)
  *     chart_command.c    options and progress
  *
  *     chart_peer.c       what another rasterizer needs for some of the scenes
@@ -24,14 +24,38 @@
 #ifndef SMEAR_BENCH_CHART_H
 #define SMEAR_BENCH_CHART_H
 
-#include "tools/failure.h"
 #include "tools/bench/count.h"
-#include "tools/bench/kinds.h"
 #include "tools/bench/take.h"
+#include "tools/failure.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+
+/* ------------------------------------------------------------------ kinds of scenes */
+
+/* The 20 scenes of the suite, frames of the demo and real models, and the groups their figures are averaged in. */
+
+/* Things move before a still camera; the camera or what is behind a still foreground moves; nothing
+ * does; whole frames of the demo; models from files. */
+enum kind_group { GROUP_OBJECT, GROUP_CAMERA, GROUP_STILL, GROUP_DEMO, GROUP_MODEL, GROUPS };
+
+/* The suite comes first. */
+enum { KINDS = 20, ALL_KINDS = KINDS + 7 };
+
+struct kind {
+    const char *scene;          /* "suite/pan", or a model's file below the folder of models */
+    const char *name;           /* "pan" */
+    enum kind_group group;
+    int frame;                  /* -1: the one that stands for the scene */
+    const char *clip;           /* of a model */
+};
+
+extern const struct kind kinds[ALL_KINDS];
+extern const char *const kind_group_name[GROUPS];
+
+/* -1 when there is none. */
+int kind_find(const char *name);
 
 /* ------------------------------------------------------------------ what is measured */
 

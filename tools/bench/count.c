@@ -3,7 +3,6 @@
  * bench_frame. */
 #include "tools/bench/count.h"
 
-#include "tools/bench/groups.h"
 #include "tools/bench/take.h"
 
 #include <errno.h>

@@ -8,7 +8,6 @@
  * vertices in the cache (peers keep all), room for every triangle so that no frame is drawn in
  * parts. "Whole" is one band of the frame's height. The figure beside ours is the best peer that
  * tests depth and, in B and C, corrects perspective. */
-#include "tools/bench/groups.h"
 #include "tools/bench/sheet.h"
 #include "tools/bench/take.h"
 

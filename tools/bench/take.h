@@ -84,4 +84,14 @@ bool rig_draw(struct rig *rig, struct failure *f);
 /* Draws into a picture of 8-bit codes, on a colour 0xRRGGBB or CLEAR_OF_SCENE. *out is allocated here, and empty on failure. */
 bool rig_picture(struct rig *rig, int32_t clear, struct image *out, struct failure *f);
 
+/* ------------------------------------------------------------------ groups */
+
+/* Every take has a number in a group, so that this program and its copy under callgrind speak of the same one. */
+
+/* False when the group or the number does not exist. */
+bool group_take(const char *group, int index, struct take *out);
+
+/* Each group's own file. */
+bool peers_take(int index, struct take *out);
+
 #endif

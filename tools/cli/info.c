@@ -2,17 +2,295 @@
 /* info.c - `smear info`: what is in a scene. */
 #include "tools/cli/commands.h"
 
-#include "tools/cli/desc.h"
 #include "tools/options/arguments.h"
-#include "tools/player/memory.h"
+#include "tools/options/options.h"
 #include "tools/options/say.h"
 #include "tools/options/source.h"
+#include "tools/player/device.h"
+#include "tools/scenes/methods.h"
+#include "tools/scenes/present.h"
 #include "tools/view/board.h"
 
 #include <math.h>
+#include <smear.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ------------------------------------------------------------------ a desc */
+
+/* The memory of a smear_desc, as `smear info --desc` prints it. Fields have the names that they have in smear_desc. */
+
+/* A field, and the names of its values where they are no numbers. */
+struct field {
+    const char *name;
+    uint8_t offset, size;
+    const char *const *values;
+};
+
+#define FIELD(member, values) { #member, (uint8_t)offsetof(smear_desc, member), sizeof ((smear_desc *)0)->member, values }
+static const struct field fields[] = {
+    FIELD(width, NULL), FIELD(height, NULL), FIELD(max_triangles, NULL), FIELD(max_draws, NULL), FIELD(tile, NULL),
+    FIELD(reach, NULL), FIELD(strip, NULL), FIELD(band_rows, NULL), FIELD(bands, NULL), FIELD(format, option_formats),
+    FIELD(workers, NULL), FIELD(vertex_cache, NULL), FIELD(reuse.cache_static, NULL), FIELD(reuse.buffer_age, NULL),
+    FIELD(reuse.one_pose, NULL), FIELD(filter.passes, NULL), FIELD(filter.scatter, NULL), FIELD(display.dither, option_dithers),
+    FIELD(display.doubled, option_doubles)
+};
+
+/* What is read, and what is wrong with it. */
+struct reading {
+    smear_desc *desc;
+    char wrong[280];
+};
+
+/* Adds methods joined by plus signs; accumulate_bands is the one whose memory differs from the method's of its name,
+ * and sketch is SMEAR_SET_SKETCH. */
+static bool read_methods(struct reading *r, char *value)
+{
+    for (char *name = strtok(value, "+"); name != NULL; name = strtok(NULL, "+")) {
+        const struct method *method = method_named(name);
+        const bool is_sketch = strcmp(name, "sketch") == 0;
+        if (method == NULL && !is_sketch && strcmp(name, "accumulate_bands") != 0) {
+            for (int i = 0; i < method_count; i++)
+                read_near(name, method_list[i].name);
+            snprintf(r->wrong, sizeof r->wrong, "methods: there is no %.40s, but %s, and accumulate_bands, and sketch, joined by +", name,
+                     method_names());
+            return false;
+        }
+        r->desc->methods = (uint16_t)(r->desc->methods | (method != NULL ? SMEAR_SET(method->method)
+                                                          : is_sketch ? SMEAR_SET_SKETCH : SMEAR_SET_ACCUMULATE_BANDS));
+    }
+    return true;
+}
+
+static const struct field *find_field(const char *name)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (strcmp(fields[i].name, name) == 0)
+            return &fields[i];
+    return NULL;
+}
+
+static bool say_no_field(struct reading *r, const char *name)
+{
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        read_near(name, fields[i].name);
+    read_near(name, "methods");
+    snprintf(r->wrong, sizeof r->wrong, "%.40s is no field of smear_desc", name);
+    return false;
+}
+
+static bool say_no_value(struct reading *r, const struct field *f, long most)
+{
+    int used = snprintf(r->wrong, sizeof r->wrong, "%s needs ", f->name);
+    if (f->values == NULL)
+        snprintf(r->wrong + used, sizeof r->wrong - (size_t)used, "a number from 0 to %ld", most);
+    for (const char *const *name = f->values; name != NULL && *name != NULL; name++)
+        used += snprintf(r->wrong + used, sizeof r->wrong - (size_t)used, "%s%s", name[0],
+                         name[1] == NULL ? "" : name[2] == NULL ? " or " : ", ");
+    return false;
+}
+
+static bool read_field(void *to, const char *name, const char *value)
+{
+    struct reading *r = to;
+    char copy[LIST_PART];
+    const bool is_methods = strcmp(name, "methods") == 0;
+    const struct field *f = find_field(name);
+    if (f == NULL && !is_methods)
+        return say_no_field(r, name);
+    if (value == NULL || *value == '\0') {
+        snprintf(r->wrong, sizeof r->wrong, "%s needs %s value", name, value == NULL ? "an equals sign and a" : "a");
+        return false;
+    }
+    if (is_methods) {
+        snprintf(copy, sizeof copy, "%s", value);
+        return read_methods(r, copy);
+    }
+    const long most = f->size == 1 ? UINT8_MAX : f->size == 2 ? INT16_MAX : INT32_MAX;
+    long number = -1;
+    if (f->values != NULL ? (number = read_name(value, f->values)) < 0 : !read_integer(value, 0, most, &number))
+        return say_no_value(r, f, most);
+    const uint8_t narrow = (uint8_t)number;
+    const uint16_t middle = (uint16_t)number;
+    const uint32_t wide = (uint32_t)number;
+    memcpy((char *)r->desc + f->offset, f->size == 1 ? (const void *)&narrow : f->size == 2 ? (const void *)&middle : &wide, f->size);
+    return true;
+}
+
+/* Reads fields as NAME=VALUE with commas. Returns null, or what is wrong with them. */
+static const char *desc_read(smear_desc *desc, const char *text)
+{
+    static struct reading r;
+    r = (struct reading){ .desc = desc };
+    if (read_list(text, read_field, &r))
+        return NULL;
+    return r.wrong[0] != '\0' ? r.wrong : "needs fields of smear_desc, as width=240,height=240,methods=auto+none";
+}
+
+static int flush(void *user, const smear_band *band)
+{
+    (void)user, (void)band;
+    return 0;
+}
+
+/* Prints the array that the desc takes. Returns null, or what is wrong with the desc. */
+static const char *desc_print_memory(const smear_desc *desc)
+{
+    smear_context *ctx;
+    smear_desc asked = *desc;
+    asked.flush = flush;
+    const int result = smear_init(&ctx, &asked, NULL, 0);
+    const size_t bytes = smear_memory_needed(result);
+    if (bytes == 0)
+        return smear_error_text(result);
+    printf("static uint64_t memory[%zu];    /* %zu bytes with pointers of %zu; where they have 4, boards need a little less */\n",
+           (bytes + 7) / 8, bytes, sizeof(void *));
+    return NULL;
+}
+
+/* ------------------------------------------------------------------ memory */
+
+/* What a frame costs a device in bytes. */
+
+/* How a device may be set up, in the order in which they are shown. */
+enum memory_setup { MEMORY_AUTO, MEMORY_AUTO_SHARP, MEMORY_RECONSTRUCT, MEMORY_NONE, MEMORY_SETUPS };
+
+struct memory_need {
+    int reach, tile;            /* pixels */
+    uint32_t draws, triangles;  /* room for them */
+    uint32_t triangles_drawn;
+    size_t total;               /* bytes, as smear_memory_size() */
+    size_t window, bands, draw_bytes, triangle_bytes, rest;     /* parts of it */
+};
+
+/* What all searches of a command may draw: triangles and, for 16 of them, pixels. */
+static const double max_work = 6e6;
+
+/* Draws the frame with room for so many triangles; a method that has too little is not done in one either. */
+static bool draws_in_one(struct device *device, const struct presented *presented,
+                         uint32_t triangles, smear_stats *stats, double *work, struct failure *f)
+{
+    struct failure why = { "" };
+    if (*work > max_work)
+        return fail(f, "its frame takes too long to be measured");
+    device->setup.max_triangles = triangles;
+    if (!device_fit(device, presented, f))
+        return false;
+    if (!device_draw(device, presented, &why) && device->result != SMEAR_ERR_ROOM) {
+        *f = why;
+        return false;
+    }
+    smear_get_stats(device->ctx, stats);
+    *work += (double)presented->triangle_count * (1 + stats->parts_added) + ((double)stats->pixels + stats->samples) / 16;
+    stats->parts_added += device->result == SMEAR_ERR_ROOM;
+    return true;
+}
+
+/* How many triangles' room a frame filled that was drawn with room for `triangles`. */
+static uint32_t filled(const smear_stats *stats, uint32_t triangles)
+{
+    const smear_fill *fill = &stats->fill.geometry;
+    return fill->room > 0 ? (uint32_t)(((uint64_t)fill->used * triangles + fill->room - 1) / fill->room) : 0;
+}
+
+/* Narrows the interval in which the smallest sufficient list lies, from what the frame filled, in growing steps. Begins with
+ * room for all, as many parts take long. */
+static bool find_smallest(struct device *device, const struct presented *presented, uint32_t *list,
+                          uint32_t *drawn, double *work, struct failure *f)
+{
+    smear_stats stats;
+    uint32_t low = DEVICE_MIN_TRIANGLES, all = 2 * presented->triangle_count, high = all > low ? all : low;
+    for (;; high *= 2) {
+        if (!draws_in_one(device, presented, high, &stats, work, f))
+            return false;
+        if (stats.parts_added == 0)
+            break;
+        low = high + 1;
+        if (high > 4 * presented->triangle_count + 64)
+            break;                      /* cannot be: clipping makes a few of one, not more */
+    }
+    *drawn = stats.triangles_drawn;
+    uint32_t guess = filled(&stats, high), up = 0, down = 0;
+    while (low < high) {
+        const uint32_t middle = guess >= low && guess < high ? guess : low + (high - low) / 2;
+        if (!draws_in_one(device, presented, middle, &stats, work, f))
+            return false;
+        if (stats.parts_added == 0) {
+            high = middle;
+            guess = high - 1 - down;
+            down = 2 * down + 1;
+        } else {
+            low = middle + 1;
+            guess = low + up;
+            up = 2 * up + 1;
+        }
+    }
+    *list = high;
+    return true;
+}
+
+/* What the arena is made of. Of some parts: what twice as many would cost more. */
+static void split_up(struct memory_need *need, const smear_desc *desc)
+{
+    smear_desc twice = *desc;
+    need->total = smear_memory_size(desc);
+    twice.max_triangles *= 2;
+    need->triangle_bytes = smear_memory_size(&twice) - need->total;
+    twice = *desc;
+    twice.max_draws = (uint16_t)(desc->max_draws * 2);
+    need->draw_bytes = smear_memory_size(&twice) - need->total;
+    size_t row = (size_t)desc->width, bytes_per_pixel = need->reach <= 15 ? 8 : 10;
+    const bool has_window = (desc->methods & SMEAR_SET_FILTERS) != 0;
+    const bool holds_back = has_window && (desc->methods & SMEAR_SET_TEMPORAL) != 0;    /* a band waits for the row below */
+    need->bands = row * 2 * (size_t)need->tile * (holds_back ? 2 : 1);
+    if ((desc->methods & SMEAR_SET_SKETCH) != 0)        /* colour and depth, and those of the row that lines have blurred */
+        need->window = row * (size_t)(3 * need->tile + need->reach) * 6;
+    else
+        need->window = has_window ? row * (size_t)(2 * need->tile + need->reach) * bytes_per_pixel
+                                  : row * (size_t)need->tile * 6;
+    need->rest = need->total - need->triangle_bytes - need->draw_bytes - need->bands - need->window;
+}
+
+/* For RGB565, one band, one core and the default reach: with the smallest list of triangles that
+ * draws the frame in one part. `work`, 0 at first, adds up what is drawn for it: there is a limit to that of all
+ * measurements of a command. */
+static bool memory_measure(const struct presented *presented, int width, int height,
+                           enum memory_setup which, struct memory_need *need, double *work, struct failure *f)
+{
+    static const struct {
+        uint8_t method;
+        unsigned set;
+    } setups[MEMORY_SETUPS] = {
+        [MEMORY_AUTO] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH },
+        [MEMORY_AUTO_SHARP] = { SMEAR_AUTO, SMEAR_SET(SMEAR_AUTO) },
+        [MEMORY_RECONSTRUCT] = { SMEAR_RECONSTRUCT, SMEAR_SET(SMEAR_RECONSTRUCT) },
+        [MEMORY_NONE] = { SMEAR_NONE, SMEAR_SET(SMEAR_NONE) },
+    };
+    struct device device;
+    struct device_setup setup = { .width = width, .height = height, .threads = 1,
+                                  .format = SMEAR_RGB565 };
+    struct presented drawn = *presented;
+    drawn.frame.method = setups[which].method;
+    setup.methods = setups[which].set;
+    setup.reach = height / 20 > 0 ? height / 20 : 1;
+    setup.tile = setup.reach <= 8 ? 8 : setup.reach <= 16 ? 16 : setup.reach <= 32 ? 32 : 64;
+    *need = (struct memory_need){ .reach = setup.reach, .tile = setup.tile };
+    bool ok = device_open(&device, &setup, f) &&
+              find_smallest(&device, &drawn, &need->triangles, &need->triangles_drawn, work, f);
+    if (ok) {
+        smear_desc desc = device.desc;
+        desc.max_triangles = need->triangles;
+        desc.debug.crc = 0;
+        need->draws = desc.max_draws;
+        split_up(need, &desc);
+    }
+    device_close(&device);
+    return ok;
+}
 
 /* The board whose memory is compared with what the frame takes; null: none. */
 static const struct board *info_board;

@@ -2,7 +2,6 @@
 /* header.c - a conversion as a C header: typed constant arrays and the
  * smear_model that points to them. C99 and C++. */
 #include "tools/convert/build.h"
-#include "tools/convert/records.h"
 
 #include "tools/image/buffer.h"
 

@@ -3,7 +3,7 @@
 #include "tools/convert/segments.h"
 
 #include "tools/image/buffer.h"
-#include "tools/model/obj_text.h"
+#include "tools/model/obj.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,20 +6,315 @@
  *     smear-demo --enlarge ZOOM PICTURE OUT.png
  *
  * --readme writes the pictures of the README instead, --enlarge a picture whose pixels are squares of ZOOM x ZOOM. */
-#include "tools/demo/film.h"
-#include "tools/demo/layout.h"
-#include "tools/demo/night.h"
 
+#include "tools/failure.h"
 #include "tools/image/file.h"
+#include "tools/image/image.h"
 #include "tools/options/say.h"
 #include "tools/options/sink.h"
+#include "tools/player/device.h"
+#include "tools/player/exact.h"
+#include "tools/player/picture.h"
+#include "tools/scenes/build.h"
 #include "tools/scenes/builtin.h"
+#include "tools/scenes/present.h"
+#include "tools/scenes/scene.h"
 
 #include <errno.h>
+#include <math.h>
+#include <smear.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+/* ------------------------------------------------------------------ night */
+
+/* A scene of built-in models for small displays of few greys. a scene for displays of few greys: windmills before a black sky. */
+
+enum { NIGHT_LOOP_FRAMES = 48 };
+
+#define PI 3.14159265358979323846
+
+#define LOOP_SECONDS (NIGHT_LOOP_FRAMES / 30.0)
+/* Whole turns, so that every blade comes back to its own place: 37.5 degrees a frame. */
+#define TURNS_PER_LOOP 5
+
+enum { MILLS = 2 };
+
+static const struct { double x, z, size, phase; } mill[MILLS] = {
+    { -1.05, 0, 1.0, 0.35 }, { 2.9, -4.6, 1.0, 1.1 },
+};
+
+struct night {
+    int land, sail;             /* still; the first of MILLS */
+};
+
+/* Hub and blades turn about z; a mill of size 1 has its hub at 2.2. */
+static const struct scene_surface *sails(struct stage *stage)
+{
+    enum { BLADES = 3 };
+    struct build b = build_begin(stage, BUILD_COLOR);
+    for (int i = 0; i < BLADES; i++) {
+        b.at = xform_turn_z(2 * PI * i / BLADES);
+        build_color(&b, 0xffffff);
+        build_quad(&b, vec3(-0.10, 0.10, 0.02), vec3(0.06, 0.10, 0.02), vec3(0.30, 1.45, 0.02),
+                   vec3(-0.10, 1.55, 0.02));
+    }
+    b.at = xform_turn_x(PI / 2);
+    build_color(&b, 0x9a9a9a);
+    build_drum(&b, 0.17, 0.11, -0.05, 0.14, 8);
+    struct scene_surface *s = build_finish(&b);
+    if (s != NULL)
+        s->material.unlit = s->material.double_sided = true;
+    return s;
+}
+
+static void tower(struct build *b, double x, double z, double size)
+{
+    b->at = xform_mul(xform_move(x, 0, z), xform_scale(size, size, size));
+    static const double wall[8] = { 0.52, 0, 0.34, 1.5, 0.27, 2.15, 0.24, 2.15 };
+    static const double cap[6] = { 0.31, 2.13, 0.25, 2.40, 0, 2.62 };
+    b->at = xform_mul(b->at, xform_move(0, 0, -0.42));
+    build_color(b, 0xb8b8b8);
+    build_lathe(b, wall, 4, 9);
+    build_color(b, 0x6a6a6a);
+    build_lathe(b, cap, 3, 9);
+    build_color(b, 0x101010);
+    build_box(b, vec3(-0.13, 0, 0.40), vec3(0.13, 0.55, 0.55));
+    b->at = xform_identity();
+}
+
+static void disc(struct build *b, double x, double y, double z, double radius, int sides)
+{
+    uint32_t centre = build_vertex(b, vec3(x, y, z), vec3(0, 0, 1), 0, 0);
+    for (int i = 0; i < sides; i++) {
+        double a = 2 * PI * i / sides;
+        build_vertex(b, vec3(x + radius * cos(a), y + radius * sin(a), z), vec3(0, 0, 1), 0, 0);
+    }
+    for (uint32_t i = 0; i < (uint32_t)sides; i++)
+        build_triangle(b, centre, centre + 1 + i, centre + 1 + (i + 1) % (uint32_t)sides);
+}
+
+/* Towers, ground, fence, moon and stars. */
+static const struct scene_surface *land(struct stage *stage)
+{
+    static const double star[][2] = {
+        { -37, 12 }, { -31, 23 }, { -4, 17 }, { 4, 26 },
+        { 12, 12 },  { 36, 11 },  { 41, 24 }, { -47, 20 },
+    };
+    struct build b = build_begin(stage, BUILD_COLOR);
+    for (int i = 0; i < MILLS; i++)
+        tower(&b, mill[i].x, mill[i].z, mill[i].size);
+    build_color(&b, 0x4c4c4c);
+    build_field(&b, -60, -30, 60, 8, 1, 1, NULL);
+    build_color(&b, 0x8c8c8c);
+    for (int i = -3; i <= 12; i++)
+        build_box(&b, vec3(0.35 + 0.55 * i, 0, 1.15), vec3(0.43 + 0.55 * i, 0.42, 1.2));
+    build_color(&b, 0xd0d0d0);
+    build_box(&b, vec3(-4, 0.26, 1.2), vec3(9, 0.32, 1.22));
+    build_color(&b, 0xffffff);
+    disc(&b, 26, 20.5, -60, 4.6, 24);
+    build_color(&b, 0);
+    disc(&b, 28.2, 21.9, -59.5, 3.9, 24);
+    build_color(&b, 0xe0e0e0);
+    for (size_t i = 0; i < sizeof star / sizeof *star; i++)
+        disc(&b, star[i][0], star[i][1], -58, 0.42, 4);
+    struct scene_surface *s = build_finish(&b);
+    return s;
+}
+
+static void night_build(struct stage *stage)
+{
+    struct night *n = stage_alloc(stage, sizeof *n);
+    if (n == NULL)
+        return;
+    stage->extra = n;
+    n->land = stage_add(stage, land(stage));
+    const struct scene_surface *s = sails(stage);
+    n->sail = stage->prop_count;
+    for (int i = 0; i < MILLS; i++)
+        stage_add(stage, s);
+}
+
+static void night_move(double time, struct scene_instant *out)
+{
+    const struct stage *stage = stage_of(out);
+    const struct night *n = stage->extra;
+    double turn = 2 * PI * TURNS_PER_LOOP * time / LOOP_SECONDS;
+    stage_camera(out, xform_look(vec3(0.55, 1.1, 5.6), vec3(0.55, 1.88, 0), vec3(0, 1, 0)), 42);
+    out->camera.znear = 0.5;
+    out->camera.zfar = 90;
+    for (int i = 0; i < MILLS; i++) {
+        struct xform hub = xform_move(mill[i].x, 2.2 * mill[i].size, mill[i].z);
+        hub = xform_mul(hub, xform_turn_y(0.25 - 0.2 * i));
+        hub = xform_mul(hub, xform_scale(mill[i].size, mill[i].size, mill[i].size));
+        stage_place(out, n->sail + i, xform_mul(hub, xform_turn_z(mill[i].phase - turn)));
+    }
+}
+
+static const struct stage_kind kind = { "night", 128, 64, 5 / 30.0, 0x000000, night_build,
+                                        night_move };
+
+static bool night_open(struct scene *out, struct failure *f)
+{
+    return stage_open(&kind, 1, kind.name, out, f);
+}
+
+/* ------------------------------------------------------------------ layout */
+
+/* Pictures made of pictures. *out is allocated by each function, and empty on failure. */
+
+static uint8_t *pixel_at(const struct image *image, int x, int y)
+{
+    return image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+}
+
+static void fill(struct image *image, uint8_t red, uint8_t green, uint8_t blue)
+{
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++)
+            memcpy(pixel_at(image, x, y), (const uint8_t[4]){ red, green, blue, 255 }, 4);
+}
+
+/* Side by side, with a white line of `gap` pixels between neighbours. All of one size. */
+static bool layout_row(const struct image *pictures, int count, int gap, struct image *out,
+                       struct failure *f)
+{
+    int width = pictures[0].width, height = pictures[0].height;
+    *out = (struct image){ .rgba = NULL };
+    for (int i = 1; i < count; i++)
+        if (!image_check_same_size(&pictures[0], &pictures[i], f))
+            return false;
+    if (!image_alloc(out, count * width + (count - 1) * gap, height, f))
+        return false;
+    fill(out, 255, 255, 255);
+    for (int i = 0; i < count; i++)
+        for (int y = 0; y < height; y++)
+            memcpy(pixel_at(out, i * (width + gap), y), pixel_at(&pictures[i], 0, y),
+                   4 * (size_t)width);
+    return true;
+}
+
+/* One above the other, with a black line between. */
+static bool layout_column(const struct image *pictures, int count, int gap, struct image *out,
+                          struct failure *f)
+{
+    int width = pictures[0].width, height = pictures[0].height;
+    *out = (struct image){ .rgba = NULL };
+    for (int i = 1; i < count; i++)
+        if (!image_check_same_size(&pictures[0], &pictures[i], f))
+            return false;
+    if (!image_alloc(out, width, count * height + (count - 1) * gap, f))
+        return false;
+    for (int i = 0; i < count; i++)
+        memcpy(pixel_at(out, 0, i * (height + gap)), pictures[i].rgba,
+               4 * (size_t)width * (size_t)height);
+    return true;
+}
+
+/* Every pixel a square of scale x scale. */
+static bool layout_zoom(const struct image *picture, int scale, struct image *out, struct failure *f)
+{
+    if (!image_alloc(out, picture->width * scale, picture->height * scale, f))
+        return false;
+    for (int y = 0; y < out->height; y++)
+        for (int x = 0; x < out->width; x++)
+            memcpy(pixel_at(out, x, y), pixel_at(picture, x / scale, y / scale), 4);
+    return true;
+}
+
+/* The same as lamps behind dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with
+ * seams between them. */
+static bool layout_lamps(const struct image *picture, int scale, unsigned color, struct image *out,
+                         struct failure *f)
+{
+    static const uint8_t glass[4] = { 8, 9, 11, 255 };
+    if (!image_alloc(out, picture->width * scale, picture->height * scale, f))
+        return false;
+    for (int y = 0; y < out->height; y++)
+        for (int x = 0; x < out->width; x++) {
+            uint8_t *to = pixel_at(out, x, y);
+            bool is_seam = x % scale == scale - 1 || y % scale == scale - 1;
+            const unsigned grey = pixel_at(picture, x / scale, y / scale)[0];
+            for (int k = 0; k < 3; k++) {
+                unsigned full = color >> (16 - 8 * k) & 255u;
+                unsigned lit = (full - glass[k]) * grey / 255u;
+                to[k] = (uint8_t)(glass[k] + (is_seam ? lit / 4u : lit));
+            }
+            to[3] = 255;
+        }
+    return true;
+}
+
+/* ------------------------------------------------------------------ films */
+
+/* Takes pictures of a scene through the library: the display of a device and the context behind it, kept from picture to picture. */
+
+enum film_look {
+    FILM_SHARP,                 /* the instant */
+    FILM_BLURRED,               /* by SMEAR_AUTO */
+    FILM_EXACT                  /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
+};
+
+enum { FILM_INSTANTS = 64 };
+
+struct film {
+    struct scene *scene;
+    struct presenter *presenter;
+    struct device device;
+};
+
+/* Half of each frame's time, as film cameras have it. The scenes are functions of time, so the
+ * library gets the poses at which the shutter opens and closes. */
+static struct present_options options_of(const struct scene *scene, enum film_look look)
+{
+    return (struct present_options){
+        .fps = scene->fps, .shutter_degrees = look == FILM_SHARP ? 0 : 180, .exposure = SMEAR_CENTRED,
+        .shutter_poses = true, .method = SMEAR_AUTO, .edges = SMEAR_EDGES_SMOOTH,
+        .light = SMEAR_LIGHT_LINEAR, .clear = scene->clear,
+    };
+}
+
+/* `film` is released by film_close in any case; the scene must live until then. FILM_EXACT needs
+ * SMEAR_XRGB8888. */
+static bool film_open(struct film *film, struct scene *scene, int width, int height, smear_format format,
+                      struct failure *f)
+{
+    const struct device_setup setup = { .width = width, .height = height, .format = format,
+                                        .methods = SMEAR_SET(SMEAR_AUTO), .threads = 1 };
+    *film = (struct film){ .scene = scene };
+    film->presenter = presenter_new(scene, f);
+    return film->presenter != NULL && device_open(&film->device, &setup, f);
+}
+
+static void film_close(struct film *film)
+{
+    presenter_free(film->presenter);
+    device_close(&film->device);
+    *film = (struct film){ .scene = NULL };
+}
+
+/* *out is allocated here, and empty on failure. Every other format is widened to 8 bits. */
+static bool film_take(struct film *film, double time, enum film_look look, struct image *out,
+                      struct failure *f)
+{
+    const struct device_setup *setup = &film->device.setup;
+    const struct present_options options = options_of(film->scene, look);
+    *out = (struct image){ .rgba = NULL };
+    if (look == FILM_EXACT)
+        return exact_picture(film->presenter, time, &options, setup->width, setup->height,
+                             FILM_INSTANTS, out, f);
+    const struct presented *presented = presenter_frame(film->presenter, time, &options, f);
+    if (presented == NULL || !device_fit(&film->device, presented, f) ||
+        !device_draw(&film->device, presented, f))
+        return false;
+    if (!image_alloc(out, setup->width, setup->height, f))
+        return false;
+    picture_expand(out, film->device.pixels, film->device.stride, setup->format);
+    return true;
+}
 
 /* ------------------------------------------------------------------ exhibits */
 

@@ -5,7 +5,7 @@
  * equal bytes only the last place is known), one position late ("lazy"): a match is given up when
  * the next position starts a longer one. The resulting tokens are written in blocks, each with its
  * own Huffman codes. */
-#include "tools/image/deflate.h"
+#include "tools/image/image.h"
 #include "tools/image/inflate.h"
 
 enum {

@@ -79,7 +79,7 @@ void outputs_drop(void);
 /* Writes all that is left of standard output; false when any of it was lost. */
 bool output_flush_standard(struct failure *f);
 
-/* From now on a signal that ends the program removes what is unfinished first (interrupt.c). */
+/* From now on a signal that ends the program removes what is unfinished first (output.c). */
 void output_catch_signals(void);
 
 /* Those signals wait while names are given, so that all are or none. */

@@ -4,6 +4,7 @@
 #define SMEAR_TOOLS_IMAGE_INFLATE_H
 
 #include "tools/failure.h"
+#include "tools/image/buffer.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,5 +25,12 @@ bool inflate_zlib(const uint8_t *in, size_t in_size, uint8_t *out, size_t capaci
 
 /* Checksum of a zlib stream; start with 1. */
 uint32_t adler32_update(uint32_t adler, const uint8_t *bytes, size_t size);
+
+/* ------------------------------------------------------------------ the other way */
+
+/* Compression to zlib (RFC 1950) data in memory. */
+
+/* Appends a zlib stream of the `size` bytes (below 2^32) to `out`; false without memory. */
+bool deflate_zlib(const uint8_t *bytes, size_t size, struct buffer *out);
 
 #endif

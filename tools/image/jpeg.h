@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* jpeg.h - the stages of the JPEG reader (ITU-T T.81): jpeg_read.c takes markers and headers, jpeg_scan.c the scans,
- * jpeg_idct.c makes samples of coefficients and jpeg_color.c pixels of samples.
+ * jpeg_color.c makes samples of coefficients and pixels of samples.
  *
  * Coefficients and quantisation stand in the order of the file, zigzag: 0 is the mean of a block, 63 its finest detail. */
 #ifndef SMEAR_TOOLS_IMAGE_JPEG_H

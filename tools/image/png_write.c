@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* png_write.c - pictures to PNG files: 8-bit RGB, or RGBA when anything is transparent. */
-#include "tools/image/deflate.h"
+#include "tools/image/inflate.h"
 #include "tools/image/palette.h"
 #include "tools/image/png.h"
 

@@ -7,8 +7,6 @@
  * triangles. */
 #include "tools/model/obj.h"
 
-#include "tools/model/obj_text.h"
-
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

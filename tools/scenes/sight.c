@@ -3,9 +3,53 @@
  * and what the near plane cuts is left out. */
 #include "tools/scenes/sight.h"
 
-#include "tools/scenes/eye.h"
+#include "tools/scenes/xform.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ the camera in double precision */
+
+/* The picture is the square from -1 to 1 on the plane at distance 1, or at any for parallel light. */
+struct eye {
+    struct xform view;                  /* of the world; the camera looks along -z */
+    struct xform to_camera;             /* of the draw at hand */
+    bool orthographic, is_mirrored;
+    double x_scale, y_scale, znear, zfar;
+};
+
+static struct eye eye_of(const struct scene_camera *c, double aspect)
+{
+    const double *m = c->pose, half = c->orthographic ? c->half_height : tan(c->yfov / 2);
+    /* The pose is a rotation and a place. */
+    struct xform view = xform_axes(vec3(m[0], m[4], m[8]), vec3(m[1], m[5], m[9]), vec3(m[2], m[6], m[10]), vec3(0, 0, 0));
+    struct vec3 back = xform_direction(view, vec3(-m[12], -m[13], -m[14]));
+    view.m[12] = back.x;
+    view.m[13] = back.y;
+    view.m[14] = back.z;
+    return (struct eye){ .view = view, .orthographic = c->orthographic, .x_scale = 1 / (half * aspect), .y_scale = 1 / half,
+                         .znear = c->znear, .zfar = c->zfar > 0 ? c->zfar : INFINITY };
+}
+
+/* From here on corners are those of this draw. */
+static void eye_look_at(struct eye *e, const struct scene_draw *draw)
+{
+    const double *m = draw->world;
+    struct xform world;
+    memcpy(world.m, m, sizeof world.m);
+    e->to_camera = xform_mul(e->view, world);
+    e->is_mirrored = vec3_dot(vec3(m[0], m[1], m[2]), vec3_cross(vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]))) < 0;
+}
+
+/* The corners of a triangle in the camera's space. */
+static void eye_corners(const struct eye *e, const struct scene_draw *draw, size_t triangle, struct vec3 corner[3])
+{
+    for (size_t k = 0; k < 3; k++) {
+        const float *v = draw->position + 3 * (size_t)draw->surface->index[3 * triangle + k];
+        corner[k] = xform_point(e->to_camera, vec3((double)v[0], (double)v[1], (double)v[2]));
+    }
+}
 
 enum { WIDTH = 96, HEIGHT = 72 };
 
@@ -145,4 +189,69 @@ void sight_find(const struct scene_instant *instant, double aspect, struct sight
     }
     free(l.depth);
     free(l.is_back);
+}
+
+/* ------------------------------------------------------------------ how often the picture is covered */
+
+/* How many times over a scene's triangles cover the picture, seen or hidden: what a frame costs at most, known before it is drawn. */
+
+/* What of the triangle lies before the near plane: 0, 3 or 4 corners. */
+static int clip(const struct vec3 in[3], double znear, struct vec3 out[4])
+{
+    int n = 0;
+    for (int i = 0; i < 3; i++) {
+        struct vec3 a = in[i], b = in[(i + 1) % 3];
+        bool a_in = -a.z >= znear, b_in = -b.z >= znear;
+        if (a_in)
+            out[n++] = a;
+        if (a_in != b_in)
+            out[n++] = vec3_add(a, vec3_scale(vec3_sub(b, a), (-znear - a.z) / (b.z - a.z)));
+    }
+    return n;
+}
+
+/* Its area, or that of its box within the picture where that is less; 4 is the whole picture. */
+static double area(const struct eye *v, const struct vec3 corner[3])
+{
+    struct vec3 clipped[4];
+    double x[4], y[4], low[2] = { 1, 1 }, high[2] = { -1, -1 }, twice = 0;
+    int n = v->orthographic ? 3 : clip(corner, v->znear, clipped);
+    for (int i = 0; i < n; i++) {
+        struct vec3 p = v->orthographic ? corner[i] : clipped[i];
+        double w = v->orthographic ? 1 : -p.z;
+        x[i] = p.x * v->x_scale / w;
+        y[i] = p.y * v->y_scale / w;
+        low[0] = fmin(low[0], x[i]);
+        high[0] = fmax(high[0], x[i]);
+        low[1] = fmin(low[1], y[i]);
+        high[1] = fmax(high[1], y[i]);
+    }
+    for (int i = 0; i < n; i++)
+        twice += x[i] * y[(i + 1) % n] - x[(i + 1) % n] * y[i];
+    double wide = fmin(high[0], 1) - fmax(low[0], -1), tall = fmin(high[1], 1) - fmax(low[1], -1);
+    return n == 0 || wide <= 0 || tall <= 0 ? 0 : fmin(fabs(twice) / 2, wide * tall);
+}
+
+static double draw_cover(const struct eye *v, const struct scene_draw *draw, double enough)
+{
+    const struct scene_surface *s = draw->surface;
+    double sum = 0;
+    for (size_t t = 0; t < (size_t)s->triangle_count && sum <= enough; t++) {
+        struct vec3 corner[3];
+        eye_corners(v, draw, t, corner);
+        sum += area(v, corner) / 4;
+    }
+    return sum;
+}
+
+double scene_cover(const struct scene_instant *instant, double aspect, double enough)
+{
+    struct eye e = eye_of(&instant->camera, aspect);
+    double sum = 0;
+    for (int i = 0; i < instant->draw_count && sum <= enough; i++) {
+        eye_look_at(&e, &instant->draw[i]);
+        if (!instant->draw[i].hidden)
+            sum += draw_cover(&e, &instant->draw[i], enough - sum);
+    }
+    return sum;
 }

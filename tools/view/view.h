@@ -14,7 +14,7 @@
 #ifndef SMEAR_TOOLS_VIEW_VIEW_H
 #define SMEAR_TOOLS_VIEW_VIEW_H
 
-#include "tools/view/bus.h"
+#include "tools/view/board.h"
 #include "tools/view/cost.h"
 #include "tools/view/debug.h"
 #include "tools/view/golden.h"

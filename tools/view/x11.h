@@ -71,4 +71,14 @@ static inline uint32_t x11_get32(const uint8_t *p)
     return value;
 }
 
+/* ------------------------------------------------------------------ the cookie */
+
+/* The cookie that opens a display, from $XAUTHORITY or ~/.Xauthority. */
+
+enum { X11_COOKIE = 16 };
+
+/* MIT-MAGIC-COOKIE-1 of display `number`: this machine's own before one for any machine, and that
+ * before another's (tunnels). False when there is none. */
+bool x11_find_cookie(int number, uint8_t cookie[X11_COOKIE]);
+
 #endif

@@ -9,8 +9,8 @@
  * Scripts and styles lose indentation, empty lines and lines that are only a comment. Bytes are their number
  * and text of 91 characters, each pair of which holds 13 bits, or 14 (after Joachim Henke's basE91, with
  * characters that a script element may hold). unpack.js reads both. */
-#include "tools/image/deflate.h"
 #include "tools/image/image.h"
+#include "tools/image/inflate.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -7,14 +7,13 @@
  * program does it; functions return its exit status. */
 #include "tools/web/libc/web_file.h"
 
-#include "tools/options/arguments.h"
 #include "tools/cli/commands.h"
-#include "tools/player/crew.h"
-#include "tools/options/say.h"
 #include "tools/image/image.h"
+#include "tools/options/arguments.h"
+#include "tools/options/say.h"
+#include "tools/player/crew.h"
 #include "tools/scenes/builtin.h"
 #include "tools/view/board.h"
-#include "tools/view/bus.h"
 #include "tools/view/cost.h"
 #include "tools/view/lane.h"
 #include "tools/view/orbit.h"

@@ -8,12 +8,12 @@ WEB    := build/web
 
 # What the page needs of the tools, and scenes that are to be looked at in place of all.
 WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
-    $(filter-out $(addprefix tools/image/,apng.c interrupt.c metrics.c output.c pfm.c place.c ppm.c),$(IMAGE_SRC)) \
-    $(addprefix tools/scenes/,backdrop.c build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c methods.c model_scene.c present.c present_surface.c shadow.c \
-        scene.c stage.c cover.c) \
-    $(filter-out $(addprefix tools/cli/,compare.c desc.c help.c info.c main.c measure.c render.c show.c show_choose.c view.c) $(addprefix tools/options/,apart.c sink.c) \
-        $(addprefix tools/player/,crew.c exact.c memory.c planes.c stats.c),$(CLI_SRC)) \
-    $(addprefix tools/view/,board.c bus.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
+    $(filter-out $(addprefix tools/image/,apng.c metrics.c output.c pfm.c ppm.c),$(IMAGE_SRC)) \
+    $(addprefix tools/scenes/,backdrop.c build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c methods.c model_scene.c present.c present_surface.c \
+        scene.c stage.c sight.c) \
+    $(filter-out $(addprefix tools/cli/,compare.c help.c info.c main.c render.c show.c show_choose.c view.c) $(addprefix tools/options/,apart.c sink.c) \
+        $(addprefix tools/player/,crew.c exact.c planes.c),$(CLI_SRC)) \
+    $(addprefix tools/view/,board.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # The page lays nothing over its frames; each of its workers draws alone. Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
 WEB_FAST := $(filter-out src/raster/texture.c src/filter/filtered.c src/filter/pingpong.c,$(filter src/kernels/% src/filter/% src/raster/% src/temporal/subframes.c src/timemask/timemask_cover.c src/timemask/timemask_samples.c \
@@ -93,7 +93,7 @@ $(WEB)/unlzma.wasm: tools/web/unlzma.c
 	$(WEB_CC) --target=wasm32 -std=c11 -ffreestanding -Oz -Wall -Wextra -c -o $(WEB)/unlzma.o $<
 	$(WEB_LD) --no-entry --strip-all --gc-sections -O2 -o $@ $(WEB)/unlzma.o
 
-$(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c interrupt.c output.c place.c))
+$(WEB)/pack: $(call objects,tools/web/pack.c $(addprefix tools/image/,deflate.c file.c inflate.c output.c))
 	$(call say,LD)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
