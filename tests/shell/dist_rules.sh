@@ -1,156 +1,89 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# dist_rules.sh [DIST]: the packages that `make dist` wrote keep their registries' rules (tools/dist/rules.py), and each of these
-# rules can be broken: a copy is spoiled in one way, and that is what is found.
+# dist_rules.sh [DIST]: the packages of Arduino and ESP-IDF that `make dist` wrote are those whose manifests were held against their
+# registries' rules: of arduino-lint, at its level "strict", and of ESP-IDF's component manager. Their texts have sums here, but for
+# versions, addresses and paths, which are looked at: who changes a text has it checked by those programs, then writes down its sum.
 set -u
 dist=$PWD/${1:-build/dist}
 . "$(dirname "$0")/lib.sh"
 in_passing dist-rules
-rules() { python3 "$here/tools/dist/rules.py" "$@"; }
 
-for form in arduino/smear tree; do
-    claim "Arduino's rules: $form" rules arduino "$dist/$form"
-done
+arduino_sum='1418504670 509' idf_sum='2340512494 295' examples_sum='3961446020 375'
+number='[0-9][0-9]*\.[0-9][0-9]*\.[0-9][0-9]*'
+address='https\{0,1\}://[^ /]*\.[^ ]*'
+
+# rule TEXT COMMAND...: says the text of a rule that is broken
+rule() {
+    rule_text=$1
+    shift
+    "$@" >/dev/null 2>&1 || { echo "$rule_text"; broken=yes; }
+}
+none() { ! "$@" | grep .; }
+has_sum() { equals "$(cksum)" "$1"; }
+is_component() { [ -f "$1/CMakeLists.txt" ]; }
+
+# arduino FOLDER ENTRIES: the layout of a library, and its properties
+arduino() (
+    cd "$1" || exit
+    broken=
+    rule "another text than was checked" eval "sed 's|^version=$number$|version|; s|^url=$address$|url|; s|^includes=smear\.h.*|includes|' library.properties | has_sum '$arduino_sum'"
+    rule "a name that is not allowed" eval 'echo "${PWD##*/}" | grep -qE "^[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}$"'
+    rule "other files than those of a library" none sh -c "ls -A | grep -vxE '$2'"
+    for entry in README.md LICENSE src/smear.h $(sed -n 's/^includes=//p' library.properties | sed 's|^|src/|; s|,| src/|g'); do
+        rule "no $entry" [ -s "$entry" ]
+    done
+    rule "links, programs, or sketches of an old kind" none find . -type l -o -name '*.exe' -o -name '*.pde' -o -path './?*/library.properties'
+    rule "arduino.h" none grep -riE '#[ ]*include *[<"](a|A[R-Z])rduino\.h' src examples --include='*.h*' --include='*.ino' --exclude-dir=.git
+    rule "no sketch" eval 'find examples -name "*.ino" | grep .'
+    rule "sketches of another name than their folder" none sh -c "find . -name '*.ino' | grep -vE '^\./examples/.*/?([^/]*)/\1\.ino$'"
+    for sketch in $(find . -name '*.ino'); do
+        rule "names in ${sketch%/*}" none sh -c "ls -A '${sketch%/*}' | grep -vE '^[A-Za-z0-9_][A-Za-z0-9_.-]{0,66}$|^src$' || ls -A '${sketch%/*}' | grep -x SRC"
+    done
+    [ -z "$broken" ]
+)
+
+# idf FOLDER: a component, and the projects that its manifest names
+idf() (
+    cd "$1" || exit
+    broken=
+    rule "another text than was checked" eval "sed 's|^version: \"$number\"$|version|; s|: \"$address\"|: address|; s|path: .*/|path: |' idf_component.yml |
+        has_sum '$idf_sum'"
+    rule "no README.md or LICENSE" [ -s README.md -a -s LICENSE ]
+    rule "no component" grep -q idf_component_register CMakeLists.txt
+    for path in $(sed -n 's/^ *- path: //p' idf_component.yml); do
+        rule "no project at $path" [ -f "$path/CMakeLists.txt" -a -f "$path/main/CMakeLists.txt" ]
+    done
+    rule "another text of examples" eval "find . -path './?*/idf_component.yml' | sort | xargs sed 's|override_path: .*|override_path|' | has_sum '$examples_sum'"
+    for manifest in $(find . -path './?*/idf_component.yml'); do
+        rule "no component for $manifest" is_component "${manifest%/*}/$(sed -n 's/^ *override_path: "\(.*\)"$/\1/p' "$manifest")"
+    done
+    [ -z "$broken" ]
+)
+
+library='README.md|LICENSE|library.properties|src|examples'
+claim "Arduino's rules: its package" arduino "$dist/arduino/smear" "$library"
+claim "the tree" arduino "$dist/tree" "$library|CMakeLists.txt|Kconfig|idf_component.yml|library.json|samples|zephyr"
 for form in esp-idf/smear tree; do
-    claim "the component manager's rules: $form" rules idf "$dist/$form"
+    claim "the component manager's rules: $form" idf "$dist/$form"
 done
 
-# What rules look at, small: texts of the package itself.
-copy() { # KIND
-    rm -rf "$base/smear"
-    mkdir -p "$base/smear" && cd "$base/smear" || return 1
-    if [ "$1" = arduino ]; then
-        (cd "$dist/arduino/smear" && cp -r README.md LICENSE library.properties "$base/smear" && mkdir -p "$base/smear/src" &&
-            cp src/*.h "$base/smear/src" && mkdir "$base/smear/examples" && cp -r examples/cube "$base/smear/examples")
-    else
-        (cd "$dist/esp-idf/smear" && cp -r README.md LICENSE CMakeLists.txt idf_component.yml "$base/smear" && mkdir "$base/smear/examples" &&
-            cp -r examples/cube examples/fox examples/board "$base/smear/examples" && rm "$base/smear/examples/"*/main/model.h)
-    fi
+# Each kind of rule can be broken: a copy is spoiled in one way, and that is what is said.
+breaks() { # FORM TEXT COMMAND
+    rm -rf "$base/smear" && cp -r "$dist/$1/smear" "$base/smear" && (cd "$base/smear" && eval "$3") || return 1
+    case $1 in arduino) arduino "$base/smear" "$library" ;; *) idf "$base/smear" ;; esac >"$base/found" && { echo "nothing is found"; return 1; }
+    has "$base/found" "^$2"
 }
-# breaks KIND RULE COMMAND...: in a copy, that command; then that rule is broken
-breaks() {
-    kind=$1 rule=$2
-    shift 2
-    copy "$kind" && eval "$*" || return 1
-    cd "$here" || return 1
-    if rules "$kind" "$base/smear" >"$base/found" 2>"$base/said"; then
-        echo "nothing is found"
-        return 1
-    fi
-    [ ! -s "$base/said" ] && grep -qF "smear: $rule: " "$base/found" || { cat "$base/found" "$base/said"; return 1; }
-}
-whole() { copy "$1" && cd "$here" && rules "$1" "$base/smear"; }
-claim "the copy of arduino is whole" whole arduino
-claim "the copy of esp-idf is whole" whole idf
+spoilt() { claim "can be broken: $*" breaks "$@"; }
+spoilt arduino "another text" "sed -i 's/^version=.*/version=1.0/' library.properties"
+spoilt arduino "other files" "mkdir extra"
+spoilt arduino "no src/smear_math.h" "rm src/smear_math.h"
+spoilt arduino links "ln -s smear.h src/other.h"
+spoilt arduino arduino.h "echo '#include <arduino.h>' >>src/smear.h"
+spoilt arduino sketches "mv examples/cube/cube.ino examples/cube/square.ino"
+spoilt arduino names "mv examples/cube/cube.h 'examples/cube/a cube.h'"
+spoilt esp-idf "another text than" "sed -i 's|^url:.*|url: \"somewhere\"|' idf_component.yml"
+spoilt esp-idf "another text of" "sed -i 's/version:/versions:/' examples/cube/main/idf_component.yml"
+spoilt esp-idf "no component for" "sed -i 's|override_path:.*|override_path: \"..\"|' examples/cube/main/idf_component.yml; rm -f examples/cube/CMakeLists.txt"
+spoilt esp-idf "no project" "rm -r examples/fox"
 
-arduino() { rule=$1; shift; claim "arduino $rule can be broken: $*" breaks arduino "$rule" "$@"; }
-field() { arduino "$1" "sed -i 's|^$2=.*|$2=$3|' library.properties"; }
-no_field() { arduino "$1" "sed -i '/^$2=/d' library.properties"; }
-new_field() { arduino "$1" "echo '$2' >>library.properties"; }
-arduino LS001 'rm src/*.h src/*.hpp 2>/dev/null; true'
-arduino LS004 ': >.gitmodules'
-arduino LS005 'ln -s smear.h src/other.h'
-arduino LS006 ': >.development'
-arduino LS007 ': >src/tool.exe'
-arduino LS008 'mv src/smear.h src/blur.h; rm -f src/smear.hpp'
-arduino LS009 'mv src Src'
-arduino LS010 'mkdir utility'
-arduino LS011 'mkdir extra'
-arduino LS012 'mkdir Extras'
-arduino LP001 'rm library.properties'
-arduino LP002 'cp library.properties library.property'
-arduino LP003 'mv library.properties Library.properties'
-arduino LP004 'cp library.properties src'
-new_field LP005 'a line'
-new_field LP006 'architecture=avr'
-no_field LP007 name
-field LP008 name ''
-field LP009 name "$(printf 'smear%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13)"
-field LP010 name 'smearsmearsmearsmear'
-field LP011 name 'smear!'
-field LP012 name 'Arduino_smear'
-field LP014 name 'smear_arduino'
-field LP015 name 'smear 3D'
-field LP016 name 'smearlibrary'
-no_field LP019 version
-field LP020 version ''
-field LP021 version '1.0'
-no_field LP023 author
-field LP024 author ''
-no_field LP025 maintainer
-field LP026 maintainer ''
-field LP027 maintainer 'Arduino people'
-field LP057 maintainer 'the Arduino people'
-new_field LP028 'email=a@b.c'
-no_field LP031 sentence
-field LP032 sentence ''
-field LP033 sentence 'Pictures wich move.'
-no_field LP034 paragraph
-field LP035 paragraph 'You recieve rows.'
-arduino LP036 "sed -i 's/^paragraph=/&Motion-blurred 3D on machines without a GPU. /' library.properties"
-no_field LP037 category
-field LP038 category Graphics
-field LP039 category Uncategorized
-no_field LP040 url
-field LP056 url ''
-field LP041 url 'example'
-no_field LP043 architectures
-field LP044 architectures ''
-field LP045 architectures mbed
-field LP046 architectures ESP32
-new_field LP047 'depends=,,'
-new_field LP058 'depends=LovyanGFX (about 1)'
-new_field LP049 'dot_a_linkage=yes'
-field LP051 includes ''
-field LP052 includes 'smear3.h'
-new_field LP053 'precompiled=perhaps'
-new_field LP055 'ldflags='
-arduino LC001 'echo "#include <arduino.h>" >>src/smear.h'
-arduino LD001 'rm README.md'
-arduino LD002 'rm LICENSE'
-arduino LD003 'cp -r examples/cube src/cube'
-arduino LD004 'rm examples/*/*.ino'
-arduino LD005 'mv examples example'
-arduino LD006 'mv examples Examples'
-arduino SS001 'mv examples/cube/cube.ino examples/cube/square.ino'
-arduino SS002 'mv examples/cube/cube.h "examples/cube/a cube.h"'
-arduino SS003 ': >examples/cube/$(printf "cube%.0s" 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18).h'
-arduino SS004 'mv examples/cube/cube.ino examples/cube/cube.pde'
-arduino SS005 'mkdir examples/cube/SRC'
-arduino SC001 'echo "#include \"arduino.h\"" >>examples/cube/cube.h'
-named() { copy arduino && mv "$base/smear" "$base/$2" && cd "$here" && ! rules arduino "$base/$2" >"$base/found" && grep -qF "$1: " "$base/found"; }
-claim "arduino LS002 can be broken" named LS002 "$(printf 'smear%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13)"
-claim "arduino LS003 can be broken" named LS003 'smear 3'
-
-idf() { rule=$1; shift; claim "idf $rule can be broken: $*" breaks idf "$rule" "$@"; }
-key() { idf "$1" "sed -i 's|^$2:.*|$2: $3|' idf_component.yml"; }
-no_key() { idf "$1" "sed -i '/^$2:/d' idf_component.yml"; }
-new_key() { idf "$1" "echo '$2' >>idf_component.yml"; }
-idf README 'rm README.md'
-idf README ': >README.md'
-idf CMakeLists.txt ': >CMakeLists.txt'
-idf manifest 'rm idf_component.yml'
-idf YAML 'echo "a line" >>idf_component.yml'
-new_key field 'homepage: "https://a.b"'
-no_key version version
-key version version '"1.0"'
-no_key description description
-key license license '"my own"'
-idf 'license file' 'rm LICENSE'
-new_key targets 'targets: [esp32]'
-key tag tags '[graphics, 3d]'
-key tags tags '[graphics, graphics]'
-new_key maintainers 'maintainers: me'
-no_key url url
-key address url '"somewhere"'
-key repository repository '"somewhere"'
-idf repository_info 'sed -i "/^repository:/d" idf_component.yml; printf "repository_info:\n  path: .\n" >>idf_component.yml'
-idf files 'printf "files:\n  leave: []\n" >>idf_component.yml'
-idf dependencies 'sed -i "/^dependencies:/,\$d" idf_component.yml; echo "dependencies: idf" >>idf_component.yml'
-new_key 'dependency name' '  smear__it: "*"'
-idf 'dependency field' 'sed -i "s/version:/versions:/" examples/cube/main/idf_component.yml'
-new_key 'dependency version' '  other: "newest"'
-idf override_path 'sed -i "s|override_path:.*|override_path: \"..\"|" examples/cube/main/idf_component.yml; rm -f examples/cube/CMakeLists.txt'
-idf examples 'sed -i "s/- path:/- at:/" idf_component.yml'
-idf example 'rm -r examples/fox'
 finish
