@@ -426,8 +426,4 @@ smooth_edges() { # methods that have none are drawn with hard ones
 }
 claim "smooth edges beside hard ones" smooth_edges
 
-controls() { sed -n '/^Controls$/,/^  Ctrl-C/p' "$1"; }
-claim "the page of tools lists all controls" eval '"$smear" help view >help && controls help >wanted &&
-    controls "$here/tools/README.md" >listed && [ "$(wc -l <listed)" -gt 30 ] && cmp wanted listed'
-
 finish
