@@ -83,6 +83,21 @@ static void add_field(struct buffer *text, const char *name, int64_t value)
         buffer_print(text, ".%s = %" PRId64 ", ", name, value);
 }
 
+/* A field by its name, and all of a list that are not zero. */
+struct field {
+    const char *name;
+    int64_t value;
+};
+
+#define F(of, member) { #member, (of).member }
+#define ADD_FIELDS(text, ...) add_fields((text), (const struct field[]){ __VA_ARGS__, { NULL, 0 } })
+
+static void add_fields(struct buffer *text, const struct field *list)
+{
+    for (; list->name != NULL; list++)
+        add_field(text, list->name, list->value);
+}
+
 enum element { INT8, UINT8, INT16, UINT16, UINT32 };
 
 static int array(struct tape_writer *w, enum element kind, const void *data, size_t count)
@@ -138,10 +153,7 @@ static int camera(struct tape_writer *w, const smear_camera *c)
     add_int32s(&text, "basis", c->pose.basis, 9);
     add_int32s(&text, "origin", c->pose.origin, 3);
     buffer_print(&text, "},\n    ");
-    add_field(&text, "focal", c->focal);
-    add_field(&text, "half_height", c->half_height);
-    add_field(&text, "near_plane", c->near_plane);
-    add_field(&text, "far_plane", c->far_plane);
+    ADD_FIELDS(&text, F(*c, focal), F(*c, half_height), F(*c, near_plane), F(*c, far_plane));
     buffer_print(&text, "}");
     return object(w, "smear_camera", false, &text);
 }
@@ -160,11 +172,7 @@ static int texture(struct tape_writer *w, const smear_texture *t)
     buffer_print(&text, "{ ");
     add_reference(&text, w, "texels", texels);
     add_reference(&text, w, "palette", palette);
-    add_field(&text, "width", t->width);
-    add_field(&text, "height", t->height);
-    add_field(&text, "format", t->format);
-    add_field(&text, "wrap_u", t->wrap_u);
-    add_field(&text, "wrap_v", t->wrap_v);
+    ADD_FIELDS(&text, F(*t, width), F(*t, height), F(*t, format), F(*t, wrap_u), F(*t, wrap_v));
     buffer_print(&text, "}");
     return object(w, "smear_texture", false, &text);
 }
@@ -178,11 +186,7 @@ static int material(struct tape_writer *w, const smear_material *m)
     buffer_print(&text, "{ ");
     add_reference(&text, w, "texture", image);
     buffer_print(&text, ".color = { %d, %d, %d, %d }, ", m->color[0], m->color[1], m->color[2], m->color[3]);
-    add_field(&text, "alpha", m->alpha);
-    add_field(&text, "cutoff", m->cutoff);
-    add_field(&text, "unlit", m->unlit);
-    add_field(&text, "double_sided", m->double_sided);
-    add_field(&text, "bilinear", m->bilinear);
+    ADD_FIELDS(&text, F(*m, alpha), F(*m, cutoff), F(*m, unlit), F(*m, double_sided), F(*m, bilinear));
     buffer_print(&text, "}");
     return object(w, "smear_material", false, &text);
 }
@@ -205,11 +209,7 @@ static int mesh(struct tape_writer *w, const smear_mesh *m)
     add_reference(&text, w, "face_color", face_color);
     add_reference(&text, w, "index", index);
     buffer_print(&text, "\n    ");
-    add_field(&text, "triangle_count", m->triangle_count);
-    add_field(&text, "vertex_count", m->vertex_count);
-    add_field(&text, "shift", m->shift);
-    add_field(&text, "uv_shift", m->uv_shift);
-    add_field(&text, "scale", m->scale);
+    ADD_FIELDS(&text, F(*m, triangle_count), F(*m, vertex_count), F(*m, shift), F(*m, uv_shift), F(*m, scale));
     if (m->offset[0] != 0 || m->offset[1] != 0 || m->offset[2] != 0)
         add_int32s(&text, "offset", m->offset, 3);
     smear_mesh bounded = *m;
@@ -239,13 +239,8 @@ static void add_draw(struct buffer *text, struct tape_writer *w, const smear_dra
     add_reference(text, w, "close", close);
     add_reference(text, w, "open_position", open_position);
     add_reference(text, w, "close_position", close_position);
-    add_field(text, "motion", d->motion);
-    add_field(text, "cut", d->cut);
-    add_field(text, "billboard", d->billboard);
-    add_field(text, "path", d->path);
-    add_field(text, "open_count", d->open_count);
-    add_field(text, "close_count", d->close_count);
-    add_field(text, "layers", d->layers);
+    ADD_FIELDS(text, F(*d, motion), F(*d, cut), F(*d, billboard), F(*d, path), F(*d, open_count), F(*d, close_count),
+               F(*d, layers));
     buffer_print(text, "},\n");
 }
 
@@ -280,34 +275,15 @@ static int frame_object(struct tape_writer *w, const smear_frame *frame)
     add_reference(&text, w, "camera", now);
     add_reference(&text, w, "open", open);
     add_reference(&text, w, "close", close);
-    add_field(&text, "method", frame->method);
-    add_field(&text, "light_space", frame->light_space);
-    add_field(&text, "cut", frame->cut);
-    add_field(&text, "samples", frame->samples);
-    add_field(&text, "target", frame->target);
-    add_field(&text, "clear", frame->clear);
-    add_field(&text, "shutter.degrees", frame->shutter.degrees);
-    add_field(&text, "shutter.exposure", frame->shutter.exposure);
-    add_field(&text, "shutter.poses", frame->shutter.poses);
-    add_field(&text, "shutter.mode", frame->shutter.mode);
-    add_field(&text, "shutter.path", frame->shutter.path);
-    add_field(&text, "shutter.reference_hz", frame->shutter.reference_hz);
-    add_field(&text, "shutter.frame_us", frame->shutter.frame_us);
-    add_field(&text, "shutter.us", frame->shutter.us);
+    ADD_FIELDS(&text, F(*frame, method), F(*frame, light_space), F(*frame, cut), F(*frame, samples), F(*frame, target),
+               F(*frame, clear), F(*frame, shutter.degrees), F(*frame, shutter.exposure), F(*frame, shutter.poses),
+               F(*frame, shutter.mode), F(*frame, shutter.path), F(*frame, shutter.reference_hz), F(*frame, shutter.frame_us),
+               F(*frame, shutter.us));
     add_reference(&text, w, "shutter.curve", curve);
-    add_field(&text, "filter.kind", frame->filter.kind);
-    add_field(&text, "filter.flags", frame->filter.flags);
-    add_field(&text, "filter.weights", frame->filter.weights);
-    add_field(&text, "filter.camera_step", frame->filter.camera_step);
-    add_field(&text, "filter.pingpong.passes", frame->filter.pingpong.passes);
-    add_field(&text, "filter.pingpong.taps", frame->filter.pingpong.taps);
-    add_field(&text, "filter.pingpong.base", frame->filter.pingpong.base);
-    add_field(&text, "filter.pingpong.jitter", frame->filter.pingpong.jitter);
-    add_field(&text, "filter.pingpong.bias", frame->filter.pingpong.bias);
-    add_field(&text, "filter.pingpong.spread", frame->filter.pingpong.spread);
-    add_field(&text, "scale.rotation", frame->scale.rotation);
-    add_field(&text, "scale.translation", frame->scale.translation);
-    add_field(&text, "scale.object", frame->scale.object);
+    ADD_FIELDS(&text, F(*frame, filter.kind), F(*frame, filter.flags), F(*frame, filter.weights), F(*frame, filter.camera_step),
+               F(*frame, filter.pingpong.passes), F(*frame, filter.pingpong.taps), F(*frame, filter.pingpong.base),
+               F(*frame, filter.pingpong.jitter), F(*frame, filter.pingpong.bias), F(*frame, filter.pingpong.spread),
+               F(*frame, scale.rotation), F(*frame, scale.translation), F(*frame, scale.object));
     add_reference(&text, w, "layer", layer);
     add_field(&text, "layer_count", frame->layer_count);
     buffer_print(&text, "}");
@@ -320,23 +296,9 @@ static int desc_object(struct tape_writer *w, const smear_desc *given)
     smear_desc d = *given;
     present_tiles(&d, false);
     buffer_print(&text, "{ ");
-    add_field(&text, "width", d.width);
-    add_field(&text, "height", d.height);
-    add_field(&text, "max_triangles", d.max_triangles);
-    add_field(&text, "max_draws", d.max_draws);
-    add_field(&text, "methods", d.methods);
-    add_field(&text, "tile", d.tile);
-    add_field(&text, "reach", d.reach);
-    add_field(&text, "strip", d.strip);
-    add_field(&text, "band_rows", d.band_rows);
-    add_field(&text, "bands", d.bands);
-    add_field(&text, "format", d.format);
-    add_field(&text, "workers", d.workers);
-    add_field(&text, "vertex_cache", d.vertex_cache);
-    add_field(&text, "filter.passes", d.filter.passes);
-    add_field(&text, "filter.scatter", d.filter.scatter);
-    add_field(&text, "display.dither", d.display.dither);
-    add_field(&text, "debug.crc", d.debug.crc);
+    ADD_FIELDS(&text, F(d, width), F(d, height), F(d, max_triangles), F(d, max_draws), F(d, methods), F(d, tile), F(d, reach),
+               F(d, strip), F(d, band_rows), F(d, bands), F(d, format), F(d, workers), F(d, vertex_cache), F(d, filter.passes),
+               F(d, filter.scatter), F(d, display.dither), F(d, debug.crc));
     buffer_print(&text, "}");
     return object(w, "smear_desc", false, &text);
 }
