@@ -163,11 +163,11 @@ chart-readme: $(BIN)/smear-bench
 	$(BIN)/smear-bench chart --marks
 	cp build/chart/part/marks.svg tools/bench/pictures/marks.svg
 
-## again: the pictures of the READMEs and the numbers of the page's chart, from the last whole chart
+## again: the picture of the README and the numbers of the page's chart, from the last whole chart
 chart-picture: $(BIN)/smear-bench
 	@mkdir -p tools/bench/pictures
 	$(BIN)/smear-bench chart --from build/chart/chart.csv --out build/chart > /dev/null
-	cp build/chart/marks.svg build/chart/chart.svg tools/bench/pictures/
+	cp build/chart/marks.svg tools/bench/pictures/
 	awk -f tools/web/chart.awk build/chart/chart.csv > build/chart/page.csv && mv build/chart/page.csv tools/web/chart.csv
 
 $(BIN)/smear-bench: $(call objects,$(BENCH_SRC) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,arguments.c say.c) $(TOOL_SRC)) $(LIB)
