@@ -449,7 +449,7 @@ build/proofs/%: tests/proofs/%.c src/base/tables.c
 check-kernels: $(BUILD)/check_kernels
 	$<
 
-$(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
+$(BUILD)/check_kernels: $(call objects,tests/kernels/check_kernels.c tests/test.c tests/random.c tests/unit/test_kernels.c $(KERNEL_TESTS)) $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $^
 
 # Of tests in C++ where a compiler of it is.

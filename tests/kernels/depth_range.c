@@ -10,12 +10,12 @@ enum { ROWS, LEAST, MOST };
 static void prepare(struct kernel_call *c)
 {
     uint16_t *const depth = (uint16_t *)c->plane[0];
-    c->word[ROWS] = (uint32_t)kernel_between(1, c->n < 4 ? c->n : 4);
-    if (kernel_between(0, 1) == 0)
+    c->word[ROWS] = (uint32_t)between(1, c->n < 4 ? c->n : 4);
+    if (between(0, 1) == 0)
         return;
     for (int32_t i = 0; i < c->n; i++)
         depth[i] = (uint16_t)(0x7ff0 + (depth[i] & 0x1f));
-    depth[kernel_between(0, c->n - 1)] = (uint16_t)kernel_between(0, 0xffff);
+    depth[between(0, c->n - 1)] = (uint16_t)between(0, 0xffff);
 }
 
 #define CALL(FORM) \
@@ -28,12 +28,9 @@ static void prepare(struct kernel_call *c)
     }
 
 CALL(reference)
-#if SMEAR_VECTORS
-CALL(lanes)
-#endif
+VECTORS(CALL(lanes))
 
-extern const struct kernel kernels_depth_range[];
-const struct kernel kernels_depth_range[] = {
+KERNELS(depth_range) = {
     { .name = "depth_range", .least = 1, .most = 140, .size = { 2 }, .prepare = prepare,
       .form = { { "reference", reference } VECTOR_FORM("lanes", lanes) } },
     { .name = NULL }

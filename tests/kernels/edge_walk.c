@@ -12,19 +12,19 @@ static int32_t word(const struct kernel_call *c, int i) { return (int32_t)c->wor
 /* Edges of all lengths, near to one that ends in a pixel's centre now and then. */
 static void prepare(struct kernel_call *c)
 {
-    const int32_t longest = (1 << 20) - 512, half = longest / 2, most = min_i32(1 << kernel_between(4, 20), longest);
-    const int32_t ax = kernel_between(-half, half), ay = kernel_between(-half, half);
-    int32_t bx = ax + kernel_between(-most, most), by = ay + kernel_between(1, kernel_between(0, 1) ? most : longest);
-    if (kernel_between(0, 3) == 0) {
-        bx = (bx & ~255) + kernel_between(127, 129);
-        by = (by & ~255) + 256 + kernel_between(127, 129);
+    const int32_t longest = (1 << 20) - 512, half = longest / 2, most = min_i32(1 << between(4, 20), longest);
+    const int32_t ax = between(-half, half), ay = between(-half, half);
+    int32_t bx = ax + between(-most, most), by = ay + between(1, between(0, 1) ? most : longest);
+    if (between(0, 3) == 0) {
+        bx = (bx & ~255) + between(127, 129);
+        by = (by & ~255) + 256 + between(127, 129);
     }
     const int32_t first = (ay + 127) >> 8, end = (by + 127) >> 8;
     c->word[AX] = (uint32_t)ax;
     c->word[AY] = (uint32_t)ay;
     c->word[BX] = (uint32_t)bx;
     c->word[BY] = (uint32_t)by;
-    c->word[Y] = (uint32_t)(first < end ? kernel_between(first, end - 1) : end);
+    c->word[Y] = (uint32_t)(first < end ? between(first, end - 1) : end);
 }
 
 /* Pixels of up to n rows that have a centre beside the edge. */
@@ -87,8 +87,7 @@ static void fine_best(struct kernel_call *c)
 #define BEST
 #endif
 
-extern const struct kernel kernels_edge_walk[];
-const struct kernel kernels_edge_walk[] = {
+KERNELS(edge_walk) = {
     { .name = "edge_walk", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", by_rest }, { "best", best } } },
     { .name = "edge_fine", .least = 1, .most = 19, .size = { 4 }, .prepare = prepare,

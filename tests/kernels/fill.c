@@ -32,8 +32,7 @@ static void rows_reference(struct kernel_call *c)
 
 static void rows_unrolled(struct kernel_call *c) { pixels_fill_rows(c->plane[0], c->word[0], row_width(c), c->n / 3, 3); }
 
-extern const struct kernel kernels_fill[];
-const struct kernel kernels_fill[] = {
+KERNELS(fill) = {
     { .name = "pixels_fill", .most = 150, .size = { 4 },
       .form = { { "reference", words_reference }, { "unrolled", words_unrolled } } },
     { .name = "pixels_fill_narrow", .most = 300, .size = { 2 },

@@ -19,9 +19,7 @@ enum { STRIDE = 35, COLUMNS = 32 };
 
 CALLS(reference)
 CALLS(unrolled)
-#if SMEAR_VECTORS
-CALLS(vector)
-#endif
+VECTORS(CALLS(vector))
 
 static void wide_best(struct kernel_call *c)
 {
@@ -37,21 +35,21 @@ static void narrow_best(struct kernel_call *c)
 static void rows_prepare(struct kernel_call *c)
 {
     for (int i = LEFT; i < ALL; i += 4) {
-        c->word[i] = (uint32_t)(kernel_between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
-        c->word[i + 1] = (uint32_t)kernel_between(-300, 127);
-        c->word[i + 2] = (uint32_t)(kernel_between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
-        c->word[i + 3] = (uint32_t)(c->n / STRIDE * 256 + kernel_between(256, 600));
+        c->word[i] = (uint32_t)(between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
+        c->word[i + 1] = (uint32_t)between(-300, 127);
+        c->word[i + 2] = (uint32_t)(between(-2000, 6000) + (i == RIGHT ? 4000 : 0));
+        c->word[i + 3] = (uint32_t)(c->n / STRIDE * 256 + between(256, 600));
     }
 }
 
 /* Depth is small enough that sums and differences fit; often it is exactly at the break in a pixel. */
 static void breaks_prepare(struct kernel_call *c)
 {
-    const uint32_t bits = 5 + kernel_random() % 24u, x = kernel_random() % STRIDE, row = kernel_random() % 4u;
+    const uint32_t bits = 5 + random_u32() % 24u, x = random_u32() % STRIDE, row = random_u32() % 4u;
     rows_prepare(c);
     c->word[DZ] = (uint32_t)((int32_t)c->word[DZ] >> bits);
     c->word[DZ_DOWN] = (uint32_t)((int32_t)c->word[DZ_DOWN] >> bits);
-    c->word[Z] = (uint32_t)kernel_between(-1, 1) - c->word[DZ] * x - c->word[DZ_DOWN] * row;
+    c->word[Z] = (uint32_t)between(-1, 1) - c->word[DZ] * x - c->word[DZ_DOWN] * row;
 }
 
 /* In two parts, of which the first is a row. */
@@ -89,8 +87,7 @@ static void wide_across_best(struct kernel_call *c) { lines_by(c, false, true, t
 static void narrow_across(struct kernel_call *c) { lines_by(c, true, true, false); }
 static void narrow_across_best(struct kernel_call *c) { lines_by(c, true, true, true); }
 
-extern const struct kernel kernels_flat_run[];
-const struct kernel kernels_flat_run[] = {
+KERNELS(flat_run) = {
     { .name = "flat_run", .least = 1, .most = 19, .size = { 4, 2 },
       .form = { { "reference", wide_reference }, { "unrolled", wide_unrolled } VECTOR_FORM("vector", wide_vector),
                 { "best", wide_best } } },

@@ -23,13 +23,13 @@ static uint32_t whole_weight(const struct kernel_call *c)
 static void make_sums(struct kernel_call *c)
 {
     const struct packed_sums sums = packed_sums_in(c->plane[SUMS], plane_pixels(c));
-    const uint32_t most = c->word[INSTANTS], level = kernel_random() % (most + 1), shape = c->word[SHAPE] & 3u;
+    const uint32_t most = c->word[INSTANTS], level = random_u32() % (most + 1), shape = c->word[SHAPE] & 3u;
     for (int32_t i = 0; i < plane_pixels(c); i++) {
-        uint32_t times = shape == 0 ? 0 : shape == 1 ? kernel_random() % (most + 1) : level + kernel_random() % shape;
+        uint32_t times = shape == 0 ? 0 : shape == 1 ? random_u32() % (most + 1) : level + random_u32() % shape;
         times = min_u32(times, most);
         uint32_t channel[3];
         for (int k = 0; k < 3; k++)
-            channel[k] = (kernel_random() & 3u) == 0 ? 255 * times : kernel_random() % (255 * times + 1);
+            channel[k] = (random_u32() & 3u) == 0 ? 255 * times : random_u32() % (255 * times + 1);
         packed_sum_put(&sums, i, (struct packed_sum){ channel[0] << 16 | channel[2], times << 16 | channel[1] });
     }
 }
@@ -105,9 +105,7 @@ static void vector(struct kernel_call *c)
 }
 #endif
 
-
-extern const struct kernel kernels_gap_means[];
-const struct kernel kernels_gap_means[] = {
+KERNELS(gap_means) = {
     { .name = "gap_means", .most = 35, .size = { 4, 2, 8 }, .align = { 4, 2, 4 }, .prepare = prepare, .timed = 64,
       .form = { { "reference", reference }, { "two passes", two_passes } VECTOR_FORM("vector", vector) } },
     { .name = "gap_means (nothing hides)", .most = 35, .size = { 4, 2, 8 }, .align = { 4, 2, 4 },

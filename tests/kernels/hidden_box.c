@@ -10,13 +10,13 @@ enum { ROWS, HALF, HIDDEN };
 static void prepare(struct kernel_call *c)
 {
     uint16_t *const depth = (uint16_t *)c->plane[0];
-    c->word[ROWS] = (uint32_t)kernel_between(1, c->n < 4 ? c->n : 4);
-    c->word[HALF] = (uint32_t)kernel_between(0, 0x7fff);
+    c->word[ROWS] = (uint32_t)between(1, c->n < 4 ? c->n : 4);
+    c->word[HALF] = (uint32_t)between(0, 0x7fff);
     for (int32_t i = 0; i < 2 * c->n; i++)
         if (depth[i] >> 1 < c->word[HALF])
             depth[i] = (uint16_t)(2u * c->word[HALF] + (depth[i] & 1u));
-    if (c->word[HALF] != 0 && kernel_between(0, 1) != 0)
-        depth[kernel_between(0, 2 * c->n - 1)] = (uint16_t)(2u * c->word[HALF] - (uint32_t)kernel_between(1, 2));
+    if (c->word[HALF] != 0 && between(0, 1) != 0)
+        depth[between(0, 2 * c->n - 1)] = (uint16_t)(2u * c->word[HALF] - (uint32_t)between(1, 2));
 }
 
 #define CALL(FORM) \
@@ -28,12 +28,9 @@ static void prepare(struct kernel_call *c)
 
 CALL(reference)
 CALL(unrolled)
-#if SMEAR_VECTORS
-CALL(lanes)
-#endif
+VECTORS(CALL(lanes))
 
-extern const struct kernel kernels_hidden_box[];
-const struct kernel kernels_hidden_box[] = {
+KERNELS(hidden_box) = {
     { .name = "hidden_box", .least = 1, .most = 70, .size = { 4 }, .prepare = prepare,
       .form = { { "reference", reference }, { "unrolled", unrolled } VECTOR_FORM("lanes", lanes) } },
     { .name = NULL }

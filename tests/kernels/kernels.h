@@ -7,6 +7,7 @@
 #define KERNELS_TEST_H
 
 #include "kernels/bind.h"
+#include "tests/random.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -37,21 +38,19 @@ struct kernel {
     int32_t timed;                      /* the length that is timed; 0: KERNEL_BYTES / 4 or what fits */
 };
 
-/* A form of builds with vectors, behind others. */
+/* A family's list. */
+#define KERNELS(family) \
+    extern const struct kernel kernels_##family[]; \
+    const struct kernel kernels_##family[]
+
+/* A form of builds with vectors, behind others; what only these have. */
 #if SMEAR_VECTORS
 #define VECTOR_FORM(name, call) , { name, call }
+#define VECTORS(...) __VA_ARGS__
 #else
 #define VECTOR_FORM(name, call)
+#define VECTORS(...)
 #endif
-
-/* The next number of a sequence that is the same in every run; for prepare. */
-uint32_t kernel_random(void);
-
-/* A number from `low` to `high`. */
-static inline int32_t kernel_between(int32_t low, int32_t high)
-{
-    return low + (int32_t)(kernel_random() % (uint32_t)(high - low + 1));
-}
 
 /* Calls `each` for every kernel of every family. */
 void kernels_each(void (*each)(const struct kernel *k));

@@ -32,7 +32,7 @@ static void prepare_sums(struct kernel_call *c)
     make_pixels(c->plane[OTHER], c->n);
     make_instants(c);
     for (int32_t i = 0; i < c->n; i++)
-        if ((kernel_random() & 1u) != 0)
+        if ((random_u32() & 1u) != 0)
             color[i] = PACKED_NOTHING;
     for (int32_t i = 0; i < 2 * c->n; i++)
         sum[i] &= c->word[INSTANTS] == 1 ? 0 : 0x7fff7fffu;
@@ -69,14 +69,14 @@ static int32_t plane_pixels(const struct kernel_call *c) { return c->n + 2 * REA
 static void make_sums(struct kernel_call *c)
 {
     const struct packed_sums sums = packed_sums_in(c->plane[SUMS], plane_pixels(c));
-    const uint32_t all = c->word[INSTANTS], shape = c->word[SHAPE] >> 3 & 3u, level = kernel_random() % (all + 1);
+    const uint32_t all = c->word[INSTANTS], shape = c->word[SHAPE] >> 3 & 3u, level = random_u32() % (all + 1);
     const uint32_t instants = min_u32(all, 40);
     for (int32_t i = 0; i < plane_pixels(c); i++) {
-        const uint32_t times = shape == 0 ? all : shape == 1 ? kernel_random() % (all + 1) : level + kernel_random() % shape;
+        const uint32_t times = shape == 0 ? all : shape == 1 ? random_u32() % (all + 1) : level + random_u32() % shape;
         packed_sum_put(&sums, i, (struct packed_sum){ 0, 0 });
         for (uint32_t k = 0; k < min_u32(times, instants); k++) {
             const struct light_instant instant = smear_light_instant(k, all, c->word[LINEAR] != 0);
-            uint32_t color = kernel_random() & 0xffffffu, background = ~color;
+            uint32_t color = random_u32() & 0xffffffu, background = ~color;
             smear_light_add_reference(&color, &background, packed_sums_from(sums, i), 1, &instant);
         }
     }
@@ -144,8 +144,7 @@ static void means_best(struct kernel_call *c)
 #define MEANS_VECTOR
 #endif
 
-extern const struct kernel kernels_light_sums[];
-const struct kernel kernels_light_sums[] = {
+KERNELS(light_sums) = {
     { .name = "light_add", .least = 1, .most = 33, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
       .timed = 64, .form = { { "reference", add_reference }, VECTOR } },
     { .name = "light_means", .most = 20, .size = { 4, 2, 8 }, .align = { 4, 2, 4 }, .prepare = prepare_means, .timed = 32,

@@ -22,9 +22,9 @@ static void prepare(struct kernel_call *c)
 {
     uint32_t *in = c->plane[IN];
     const int32_t rows = rows_of(c), pixels = (rows - 1) * in_stride(c) + c->n + 1 + 2 * REACH;
-    const uint32_t alike = kernel_random() % 4u;
+    const uint32_t alike = random_u32() % 4u;
     for (int32_t i = 0; i < pixels; i++)
-        in[i] = i > 0 && kernel_random() % 4u < alike ? in[i - 1] : in[i];
+        in[i] = i > 0 && random_u32() % 4u < alike ? in[i - 1] : in[i];
     c->bytes[IN] = pixels * 4;
     c->bytes[OUT] = ((rows - 1) * out_stride(c) + c->n) * 4;
 }
@@ -77,7 +77,7 @@ static uint32_t mean_of(const uint32_t *in, const struct line_block *b, bool lin
     return mean;
 }
 
-static uint32_t between(uint32_t a, uint32_t b)
+static uint32_t middle_of(uint32_t a, uint32_t b)
 {
     uint32_t mean = 0;
     for (int channel = 0; channel < 24; channel += 8)
@@ -92,8 +92,8 @@ static void one_by_one(const struct line_block *b, bool linear)
         const uint32_t *in = b->in + y * b->in_stride + x - part;
         uint32_t mean = mean_of(in, b, linear);
         if (part != 0) {
-            const uint32_t next = mean_of(in + LINE_SPARSE, b, linear), middle = between(mean, next);
-            mean = part == 1 ? between(mean, middle) : part == 2 ? middle : between(middle, next);
+            const uint32_t next = mean_of(in + LINE_SPARSE, b, linear), middle = middle_of(mean, next);
+            mean = part == 1 ? middle_of(mean, middle) : part == 2 ? middle : middle_of(middle, next);
         }
         b->out[y * b->out_stride + x] = mean;
     }
@@ -127,11 +127,11 @@ static void prepare_sparse(struct kernel_call *c)
 static void prepare_mix(struct kernel_call *c)
 {
     uint32_t *in = c->plane[IN], *out = c->plane[OUT];
-    const uint32_t alike = kernel_random() % 4u;
+    const uint32_t alike = random_u32() % 4u;
     c->bytes[IN] = c->bytes[OUT] = c->n * 4;
     for (int32_t i = 0; i < c->n; i++) {
-        const uint32_t near = out[i] ^ (kernel_random() & 0x0f0f0fu);
-        in[i] = kernel_random() % 4u < alike ? out[i] : kernel_random() % 2u != 0 ? near : in[i];
+        const uint32_t near = out[i] ^ (random_u32() & 0x0f0f0fu);
+        in[i] = random_u32() % 4u < alike ? out[i] : random_u32() % 2u != 0 ? near : in[i];
     }
 }
 
@@ -176,8 +176,7 @@ static void mix_light_best(struct kernel_call *c) { mix(c, smear_line_mix, true)
 #define BEST "plain"
 #endif
 
-extern const struct kernel kernels_line_means[];
-const struct kernel kernels_line_means[] = {
+KERNELS(line_means) = {
     { .name = "line_means", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare, .timed = 24,
       .form = { { "reference", codes_reference }, { "one by one", codes_one_by_one }, { BEST, codes_best } } },
     { .name = "line_means (eight taps)", .least = 1, .most = 25, .size = { 4, 4 }, .prepare = prepare_eight, .timed = 24,

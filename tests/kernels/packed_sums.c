@@ -21,10 +21,10 @@ static void make_pixels(struct kernel_call *c, int plane)
 /* A sum of up to `instants` instants. */
 static struct packed_sum any_sum(uint32_t instants)
 {
-    const uint32_t times = kernel_random() % (instants + 1), most = 255 * times + 1;
+    const uint32_t times = random_u32() % (instants + 1), most = 255 * times + 1;
     uint32_t channel[3];
     for (int i = 0; i < 3; i++)
-        channel[i] = (kernel_random() & 3u) == 0 ? most - 1 : kernel_random() % most;
+        channel[i] = (random_u32() & 3u) == 0 ? most - 1 : random_u32() % most;
     return (struct packed_sum){ channel[0] << 16 | channel[2], times << 16 | channel[1] };
 }
 
@@ -37,7 +37,7 @@ static void prepare_sums(struct kernel_call *c)
     make_pixels(c, COLOR);
     make_pixels(c, OTHER);
     for (int32_t i = 0; i < c->n; i++) {
-        if ((kernel_random() & 1u) != 0)
+        if ((random_u32() & 1u) != 0)
             color[i] = PACKED_NOTHING;
         packed_sum_put(&sums, i, any_sum(PACKED_INSTANTS_MAX - 1));
     }
@@ -62,7 +62,7 @@ static void prepare_means(struct kernel_call *c)
 {
     struct packed_sum *sum = c->plane[OTHER];
     make_pixels(c, COLOR);
-    c->word[INSTANTS] = (uint32_t)kernel_between(2, PACKED_INSTANTS_MAX);
+    c->word[INSTANTS] = (uint32_t)between(2, PACKED_INSTANTS_MAX);
     for (int32_t i = 0; i < c->n; i++)
         sum[i] = any_sum(c->word[INSTANTS]);
 }
@@ -81,8 +81,7 @@ static void means_best(struct kernel_call *c)
 }
 #endif
 
-extern const struct kernel kernels_packed_sums[];
-const struct kernel kernels_packed_sums[] = {
+KERNELS(packed_sums) = {
     { .name = "packed_add", .least = 1, .most = 35, .size = { 4, 4, 8 }, .align = { 4, 4, 4 }, .prepare = prepare_sums,
       .timed = 128, .form = { { "reference", add_reference },
 #if SMEAR_VECTORS

@@ -146,8 +146,7 @@ static void l4_blocks(struct kernel_call *c)
 }
 #endif
 
-extern const struct kernel kernels_pixel_rows[];
-const struct kernel kernels_pixel_rows[] = {
+KERNELS(pixel_rows) = {
     { .name = "row_xrgb8888", .most = 35, .size = { 4, 4 },
       .form = { { "reference", xrgb8888_reference } VECTOR_FORM("vector", xrgb8888_vector) } },
     { .name = "row_nearest", .most = 67, .size = { 2, 4 }, .prepare = prepare_nearest,

@@ -10,11 +10,11 @@ enum { LEAST, FIRST, FOUND };
 static void prepare(struct kernel_call *c)
 {
     uint32_t *const a = c->plane[0], *const b = c->plane[1];
-    c->word[LEAST] = (uint32_t)kernel_between(0, 32);
-    c->word[FIRST] = (uint32_t)kernel_between(0, c->n);
+    c->word[LEAST] = (uint32_t)between(0, 32);
+    c->word[FIRST] = (uint32_t)between(0, c->n);
     for (int32_t i = 0; i < c->n; i++) {
-        const int shift = 8 * kernel_between(0, 3);
-        const uint32_t code = a[i] >> shift & 255u, step = c->word[LEAST] + (kernel_between(0, 7) == 0 ? 1u : 0u);
+        const int shift = 8 * between(0, 3);
+        const uint32_t code = a[i] >> shift & 255u, step = c->word[LEAST] + (between(0, 7) == 0 ? 1u : 0u);
         b[i] = (a[i] & ~(255u << shift)) | (code + step < 256 ? code + step : code - step) << shift;
     }
 }
@@ -26,12 +26,9 @@ static void prepare(struct kernel_call *c)
     }
 
 CALL(reference)
-#if SMEAR_VECTORS
-CALL(vector)
-#endif
+VECTORS(CALL(vector))
 
-extern const struct kernel kernels_pixel_steps[];
-const struct kernel kernels_pixel_steps[] = {
+KERNELS(pixel_steps) = {
     { .name = "next_step", .most = 40, .size = { 4, 4 }, .prepare = prepare, .timed = 40,
       .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = NULL }

@@ -52,8 +52,7 @@ static void vector(struct kernel_call *c)
 }
 #endif
 
-extern const struct kernel kernels_places[];
-const struct kernel kernels_places[] = {
+KERNELS(places) = {
     { .name = "places (vertices)", .most = 40, .size = { 6, sizeof(struct smear_place) }, .align = { 2, 4 },
       .prepare = prepare, .timed = 40,
       .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },

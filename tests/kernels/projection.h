@@ -12,7 +12,7 @@ enum { SHIFT = 9, NEAR, FAR, CLOSE = 6 };       /* words of a call: of the first
 /* Brings a call's words into range. The depth's shift is below `shifts`. */
 static inline void projection_prepare(struct kernel_call *c, uint32_t shifts)
 {
-    const uint32_t bits = 8 + kernel_random() % 13u;
+    const uint32_t bits = 8 + random_u32() % 13u;
     for (int i = 0; i < 9; i++)         /* sums of three products and an offset stay below 2^30 */
         c->word[i] = (uint32_t)((int32_t)c->word[i] >> (i < 6 ? 3 : (int)(31 - bits)));
     c->word[SHIFT] = c->word[SHIFT] % shifts;

@@ -12,9 +12,9 @@ enum { Q, U, V, DQ, DU, DV, SLOPE, KIND };      /* words */
 static void prepare(struct kernel_call *c)
 {
     c->bytes[0] = c->n * 48;
-    if (kernel_random() % 4u == 0)
+    if (random_u32() % 4u == 0)
         return;
-    const uint32_t bits = kernel_random() % 16u;
+    const uint32_t bits = random_u32() % 16u;
     c->word[Q] = c->word[Q] >> 2 >> bits;
     c->word[U] = c->word[Q] >> 1;
     c->word[V] = 0u - c->word[Q] / 3u;
@@ -211,8 +211,7 @@ static void row_square(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDT
 static void row_square_lanes(struct kernel_call *c) { row_by(c, TEXELS_WIDE, LOG2_WIDTH, texels_row_lanes); }
 #endif
 
-extern const struct kernel kernels_texel_track[];
-const struct kernel kernels_texel_track[] = {
+KERNELS(texel_track) = {
     { .name = "texel_track", .least = 1, .most = 19, .size = { 48 }, .align = { 4 }, .prepare = prepare, .timed = 20,
       .form = { { "reference", reference },
 #if SMEAR_ASM_ARMV6M

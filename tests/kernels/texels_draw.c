@@ -19,15 +19,15 @@ static void prepare(struct kernel_call *c)
     c->word[V] = (c->word[V] & ~255u) | 128u;
     c->word[DV] &= ~255u;
     c->word[DDV] &= ~255u;
-    c->word[FORMAT] = (uint32_t)formats[kernel_random() % 3u];
-    if (kernel_random() % 4u != 0) {            /* textures that are magnified: most pixels show the same texel */
+    c->word[FORMAT] = (uint32_t)formats[random_u32() % 3u];
+    if (random_u32() % 4u != 0) {            /* textures that are magnified: most pixels show the same texel */
         c->word[DU] >>= 6;
         c->word[DV] = c->word[DV] >> 5 & ~255u;
         c->word[DDU] = c->word[DDV] = 0;
     }
     c->bytes[TEXTURE] = TEXELS * 4;
     for (int i = 0; i < PALETTE; i++)
-        palette[i] = kernel_random();
+        palette[i] = random_u32();
 }
 
 /* Any form, with sizes that are constants where `kind` is one whose texels are copied. */
@@ -121,12 +121,12 @@ static void curves_prepare(struct kernel_call *c)
 {
     c->bytes[TEXTURE] = TEXELS * 4;
     for (int i = 0; i < 4; i++) {
-        const int32_t left = kernel_between(0, STRIDE - 1);
-        sides[i] = (struct span_side){ left, kernel_between(i == 0 ? left - 2 : left, STRIDE), 0 };
+        const int32_t left = between(0, STRIDE - 1);
+        sides[i] = (struct span_side){ left, between(i == 0 ? left - 2 : left, STRIDE), 0 };
     }
     for (int i = 0; i < 2; i++)
-        polynomials[i] = (struct curve){ (int32_t)kernel_random(), (int32_t)kernel_random(), (int32_t)kernel_random(),
-                                         (int32_t)(kernel_random() >> 12), (int32_t)kernel_random(), (int32_t)kernel_random() };
+        polynomials[i] = (struct curve){ (int32_t)random_u32(), (int32_t)random_u32(), (int32_t)random_u32(),
+                                         (int32_t)(random_u32() >> 12), (int32_t)random_u32(), (int32_t)random_u32() };
 }
 
 SMEAR_INLINE void curves_by(struct kernel_call *c, void draw(struct texel_curve_rows *, int, int, enum texel_kind), enum texel_kind kind)
@@ -153,8 +153,7 @@ CURVES(curves_armv7em, armv7em)
     { .name = NAME, .least = 1, .most = 19, .size = { SIZE, 2, 4 }, .prepare = prepare, .timed = 240, \
       .form = { { "reference", KIND##_reference }, { "unrolled", KIND##_unrolled } BEST(KIND##_best) ARMV6M(KIND##_armv6m) } }
 
-extern const struct kernel kernels_texels_draw[];
-const struct kernel kernels_texels_draw[] = {
+KERNELS(texels_draw) = {
     KERNEL("texels_draw", wide, 4),
     KERNEL("texels_draw (narrow)", narrow, 2),
     KERNEL("texels_draw (any size)", wide_any, 4),

@@ -79,8 +79,7 @@ CALLS(light, true, true, false)
 
 #define FORMS(NAME) .form = { { "reference", NAME##_reference }, { "unrolled", NAME##_unrolled }, { "best", NAME##_best } }
 
-extern const struct kernel kernels_tiny_box[];
-const struct kernel kernels_tiny_box[] = {
+KERNELS(tiny_box) = {
     { .name = "tiny_box (one colour)", .most = 40, .size = { 2, 4 }, .timed = 40, FORMS(flat) },
     { .name = "tiny_box (one colour, narrow)", .most = 40, .size = { 2, 2 }, .timed = 40, FORMS(flat_narrow) },
     { .name = "tiny_box (shaded)", .most = 40, .size = { 2, 4 }, .timed = 40, FORMS(codes) },

@@ -109,9 +109,7 @@ static void range_vector(struct kernel_call *c)
 }
 #endif
 
-
-extern const struct kernel kernels_triangles[];
-const struct kernel kernels_triangles[] = {
+KERNELS(triangles) = {
     { .name = "triangles (made, looked at)", .least = 4 * FOURS, .most = 4 * FOURS, .size = { 1 }, .timed = 4 * FOURS,
       .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = "indices_range", .most = 35, .size = { 2 }, .timed = 192,

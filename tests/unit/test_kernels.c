@@ -35,37 +35,27 @@ static union {
 } made[KERNEL_PLANES], work[KERNEL_PLANES], wanted[KERNEL_PLANES];
 
 static int32_t start[KERNEL_PLANES], used[KERNEL_PLANES];      /* of a plane: its first byte; bytes with both guards */
-static uint32_t random_state = 1;
-
-uint32_t kernel_random(void)
-{
-    random_state = random_state * 1664525u + 1013904223u;
-    uint32_t x = random_state;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    return x ^ x >> 13;
-}
 
 static uint32_t extreme(void)
 {
     static const uint32_t values[] = { 0, 1, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0xffffu, 0x10000u, 0x7fff8000u };
-    return values[kernel_random() % (sizeof values / sizeof *values)];
+    return values[random_u32() % (sizeof values / sizeof *values)];
 }
 
 /* Kinds of data: random, extreme, random in runs of equal words, small. */
 static uint32_t datum(int kind, uint32_t before)
 {
     switch (kind) {
-    case 0:  return kernel_random();
+    case 0:  return random_u32();
     case 1:  return extreme();
-    case 2:  return kernel_random() % 4u == 0 ? kernel_random() : before;
-    default: return kernel_random() & 0x01010101u;
+    case 2:  return random_u32() % 4u == 0 ? random_u32() : before;
+    default: return random_u32() & 0x01010101u;
     }
 }
 
 void kernel_call_make(const struct kernel *k, struct kernel_call *c, int32_t n, int shift, int kind)
 {
-    uint32_t word = kernel_random();
+    uint32_t word = random_u32();
     *c = (struct kernel_call){ .n = n };
     for (int i = 0; i < KERNEL_WORDS; i++)
         c->word[i] = word = datum(kind, word);
@@ -215,6 +205,7 @@ KERNEL_FAMILIES
 
 void suite_kernels(void)
 {
+    random_state = 1;
 #define FAMILY(name) RUN(test_every_form_does_what_its_reference_does_in_##name);
     KERNEL_FAMILIES
 #undef FAMILY
