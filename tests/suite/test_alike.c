@@ -232,7 +232,7 @@ static void check_values(double *value, uint32_t count, const char *what, double
 static void check_look(enum look look)
 {
     static double value[PICTURES][VALUES][CASES_MAX];
-    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 200 : 20);
+    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 200 : 100);
     const uint32_t count = wanted < CASES_MAX ? wanted : CASES_MAX, first = number_from("SMEAR_FIRST", 1);
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO);
