@@ -12,8 +12,7 @@
 
 enum { PACKED_INSTANTS_MAX = 256 };
 
-/* What pixels of an instant are where nothing moves: no colour has it, but a texel that is as good as a hole. Its bytes are alike, so
- * memset writes it. */
+/* What pixels of an instant are where nothing moves: others have no upper byte then. Its bytes are alike, so memset writes it. */
 #define PACKED_NOTHING 0x01010101u
 
 /* The assembly needs Thumb's high registers, which GCC keeps to itself where size counts. */

@@ -125,8 +125,9 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
         "subs r4, r4, r0\n\t" \
         "push {r0, r4, r5, r6}\n\t"
 
-/* On the stack lie the rows, whose members have come to the row before. PLACE makes a pixel's address of that of its depth. */
-#define ARMV6M_CURVE_ROWS(LOAD, STORE, SIZE, PLACE) \
+/* On the stack lie the rows, whose members have come to the row before. PLACE makes a pixel's address of that of its depth, a
+ * pixel's code has so many BYTES. */
+#define ARMV6M_CURVE_ROWS(LOAD, STORE, SIZE, BYTES, PLACE) \
     __asm__ volatile( \
         ".syntax unified\n\t" \
         "push {r0}\n\t" \
@@ -146,7 +147,7 @@ static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int lo
         "ldr r6, [r7, #12]\n\t" \
         "ldr r5, [r7, #16]\n\t" \
         "pop {r0, r1, r2, r3}\n\t" \
-        "movs r7, #34\n\t" \
+        "movs r7, #" BYTES "\n\t" \
         "muls r7, r0\n\t" \
         PLACE \
         "add pc, r7\n\t" \
@@ -172,9 +173,9 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct
     texel_curve_rows_before(rows);
     register struct texel_curve_rows *r0 __asm__("r0") = rows;
     if (kind == TEXELS_NARROW)
-        ARMV6M_CURVE_ROWS("ldrh", "strh", "1", "adds r0, r1, r6\n\t");
+        ARMV6M_CURVE_ROWS("ldrh", "strh", "1", "34", "adds r0, r1, r6\n\t");
     else
-        ARMV6M_CURVE_ROWS("ldr", "str", "2", "adds r0, r1, r1\n\tadds r0, r0, r6\n\t");
+        ARMV6M_CURVE_ROWS("ldr", ARMV6M_STORE_WIDE, "2", "38", "adds r0, r1, r1\n\tadds r0, r0, r6\n\t");
 }
 #endif
 

@@ -9,7 +9,7 @@
 
 /* How texels become pixels. */
 enum texel_kind {
-    TEXELS_WIDE,            /* 0xAARRGGBB, copied */
+    TEXELS_WIDE,            /* 0xAARRGGBB, copied but for the upper byte, where pixels say how dark a shadow is */
     TEXELS_NARROW,          /* RGB565, copied */
     TEXELS_LIT,             /* of any format and light, to 32 bits */
     TEXELS_LIT_NARROW       /* to RGB565 */
@@ -172,7 +172,7 @@ SMEAR_INLINE void texel_put(void *color, int32_t i, const void *texels, struct t
     if (kind == TEXELS_NARROW)
         ((uint16_t *)color)[i] = ((const uint16_t *)texels)[index];
     else if (kind == TEXELS_WIDE)
-        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index];
+        ((uint32_t *)color)[i] = ((const uint32_t *)texels)[index] & 0xffffffu;
     else if (kind == TEXELS_LIT_NARROW)
         ((uint16_t *)color)[i] = (uint16_t)texel_light_pixel(light, index);
     else

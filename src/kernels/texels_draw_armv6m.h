@@ -28,6 +28,9 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
         "bhs " LABEL "f\n\t" \
         "strh r6, [r1, #2*(" I ")]\n\t"
 
+/* Stores a wide pixel without its texel's upper byte. */
+#define ARMV6M_STORE_WIDE "lsls r6, r6, #8\n\tlsrs r6, r6, #8\n\tstr"
+
 /* Pixel I of a round, whose colour has 2^SIZE bytes; LABEL is behind it. r0 points to colours,
  * r1 to depths; z is in r2, u in r3, v in r4, r5 points to texels; dz in r8, du in r9, dv in r10, ddu in r11, ddv in r12. */
 #define ARMV6M_PIXEL(LOAD, STORE, SIZE, I, LABEL) \
@@ -112,7 +115,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_light, pixel) == 0 && offsetof(struct 
           [from_u] "i"(32 - log2_width) \
         : "r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Copied texels: 16 instructions a pixel, 18 where the changes of coordinates change. The sizes are constants. */
+/* Copied texels: 16 instructions a pixel, 18 where the changes of coordinates change, two more of wide ones. The sizes are constants. */
 static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texel_run *p, int log2_width,
                                                                      int log2_height, enum texel_kind kind)
 {
@@ -125,9 +128,9 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
             ARMV6M_COPY("ldrh", "strh", "1", "");
     } else {
         if (bends)
-            ARMV6M_COPY("ldr", "str", "2", ARMV6M_BEND);
+            ARMV6M_COPY("ldr", ARMV6M_STORE_WIDE, "2", ARMV6M_BEND);
         else
-            ARMV6M_COPY("ldr", "str", "2", "");
+            ARMV6M_COPY("ldr", ARMV6M_STORE_WIDE, "2", "");
     }
 }
 
@@ -188,7 +191,7 @@ static inline __attribute__((always_inline)) void texels_copy_armv6m(struct texe
         : \
         : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory")
 
-/* Copied texels of any size: 19 1/2 instructions a pixel, 23 1/2 where the changes of coordinates change. */
+/* Copied texels of any size: 19 1/2 instructions a pixel, 23 1/2 where the changes of coordinates change, two more of wide ones. */
 SMEAR_INLINE void texels_copy_any_armv6m(struct texel_run *p, int log2_width, int log2_height, enum texel_kind kind)
 {
     const bool bends = (p->ddu | p->ddv) != 0;
@@ -204,9 +207,9 @@ SMEAR_INLINE void texels_copy_any_armv6m(struct texel_run *p, int log2_width, in
             ARMV6M_COPY_ANY("ldrh", "strh", "1", EVEN);
     } else {
         if (bends)
-            ARMV6M_COPY_ANY("ldr", "str", "2", BENT);
+            ARMV6M_COPY_ANY("ldr", ARMV6M_STORE_WIDE, "2", BENT);
         else
-            ARMV6M_COPY_ANY("ldr", "str", "2", EVEN);
+            ARMV6M_COPY_ANY("ldr", ARMV6M_STORE_WIDE, "2", EVEN);
     }
 }
 

@@ -20,7 +20,7 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_run, dz) == 0 && offsetof(struct texel
 #define ARMV7EM_DEPTH_NARROW(OF) OF ", [r7, r8]\n\t"
 #define ARMV7EM_DEPTH_WIDE(OF) OF ", [r7]\n\t"
 #define ARMV7EM_LOAD_NARROW  "ldrh r0, [r12, r0, lsl #1]\n\t"
-#define ARMV7EM_LOAD_WIDE    "ldr r0, [r12, r0, lsl #2]\n\t"
+#define ARMV7EM_LOAD_WIDE    "ldr r0, [r12, r0, lsl #2]\n\tbic r0, r0, #0xff000000\n\t"
 #define ARMV7EM_STORE_NARROW "strh r0, [r7]\n"
 #define ARMV7EM_STORE_WIDE   "str r0, [r8]\n"
 #define ARMV7EM_PUT_NARROW   "strh r0, [r7], #2\n\t"

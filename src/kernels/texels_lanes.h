@@ -75,8 +75,8 @@ SMEAR_INLINE void texels_eight(void *color, const void *texels, smear_v4i low, s
     const uint64_t p = x[0], q = x[1], r = y[0], l = y[1];      /* two indices each */
     const smear_v4u first = { t[(uint32_t)p], t[p >> 32], t[(uint32_t)q], t[q >> 32] };
     const smear_v4u second = { t[(uint32_t)r], t[r >> 32], t[(uint32_t)l], t[l >> 32] };
-    v4u_store(out, v4u_choose(v4i_twice_low(hidden), v4u_load(out), first));
-    v4u_store(out + 4, v4u_choose(v4i_twice_high(hidden), v4u_load(out + 4), second));
+    v4u_store(out, v4u_choose(v4i_twice_low(hidden), v4u_load(out), first & 0xffffffu));
+    v4u_store(out + 4, v4u_choose(v4i_twice_high(hidden), v4u_load(out + 4), second & 0xffffffu));
 }
 
 /* Where a row has come to, and the depth codes of its next eight pixels. */

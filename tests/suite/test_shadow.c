@@ -196,4 +196,40 @@ static void test_every_method_draws_and_blurs_them(void)
     }
 }
 
+/* A ground of texels with this upper byte, which opaque draws do not look at, as it lies there or moves. Some are as PACKED_NOTHING
+ * but for that byte. */
+static bool see_over_texels(uint32_t *out, int method, bool round, bool moves, int width, uint32_t upper)
+{
+    static uint32_t texels[64 * 64];
+    static const int16_t uv[] = { 0, 0, 0, 32767, 32767, 32767, 32767, 0 };
+    const int height = width == 32 ? 16 : width;
+    for (int i = 0; i < width * height; i++)
+        texels[i] = upper << 24 | (i % 3 == 0 ? 0x010101u : (uint32_t)i * 2654435761u >> 8);
+    const smear_texture texture = { .texels = texels, .width = (uint16_t)width, .height = (uint16_t)height };
+    const smear_transform open = smear_move(q16(-0.2), 0, 0), close = smear_move(q16(0.2), 0, 0);
+    struct shaded s;
+    make_shaded(&s, method, false, round, 0.25);
+    s.ground_mesh.uv = uv;
+    s.ground = (smear_material){ .texture = &texture, .unlit = 1 };
+    if (moves)
+        s.draw[0].open = &open, s.draw[0].close = &close;
+    return see(out, &s);
+}
+
+static void test_upper_bytes_of_opaque_texels_make_no_difference(void)
+{
+    static const uint8_t upper[] = { 1, 0x80, 0xff }, width[] = { 8, 32, 64 };
+    static uint32_t want[PIXELS], got[PIXELS];
+    for (int k = 0; k < 24; k++) {
+        const int method = k & 1 ? SMEAR_AUTO : SMEAR_NONE, size = width[k >> 3];
+        const bool round = k >> 1 & 1, moves = k >> 2 & 1;
+        if (!see_over_texels(want, method, round, moves, size, 0))
+            return;
+        for (int i = 0; i < 3; i++)
+            if (see_over_texels(got, method, round, moves, size, upper[i]) && !CHECK(memcmp(want, got, sizeof want) == 0))
+                printf("  %s method %d, %d texels, upper byte %d%s: %.3f\n", round ? "round" : "planar", method, size, upper[i],
+                       moves ? ", moving" : "", rms_of(want, got, PIXELS));
+    }
+}
+
 #include "build/suites/shadow.h"
