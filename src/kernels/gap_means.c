@@ -246,20 +246,22 @@ SMEAR_INLINE void means4(const struct gap_planes *p, int32_t at, const struct ga
     mean4(p->color + at, sum, mean);
 }
 
-void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
-                            enum gap_cover cover)
+void smear_gap_means_vector(const struct gap_planes *p, const struct gap_rows *r, const struct gap_taps *taps, enum gap_cover cover)
 {
-    const int32_t end = at + n;
     const struct gap_planes planes = *p;
     const struct packed_mean mean = *taps->mean;
     const struct gap_taps all = *taps, own = { { NULL, 0, 1 }, all.unit_log2, 0, &mean };
-    if (all.at.pairs == 0)
-        for (; at + 4 <= end; at += 4)
-            means4(&planes, at, &own, &mean, COVER_NONE);
-    for (; at + 4 <= end; at += 4)
-        means4(&planes, at, &all, &mean, cover);
-    const struct gap_rows rest = { at, end - at, 1, 0 };
-    smear_gap_means_two_passes(p, &rest, taps, cover);
+    const int32_t fours = r->n & ~3;
+    for (int32_t row = 0, first = r->at; row < r->rows; row++, first += r->pitch) {
+        if (all.at.pairs == 0)
+            for (int32_t at = first; at < first + fours; at += 4)
+                means4(&planes, at, &own, &mean, COVER_NONE);
+        else
+            for (int32_t at = first; at < first + fours; at += 4)
+                means4(&planes, at, &all, &mean, cover);
+    }
+    const struct gap_rows rest = { r->at + fours, r->n - fours, r->rows, r->pitch };
+    if (rest.n != 0)
+        smear_gap_means_two_passes(p, &rest, taps, cover);
 }
 #endif
-

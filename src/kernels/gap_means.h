@@ -163,20 +163,10 @@ void smear_gap_means_reference(const struct gap_planes *p, int32_t at, int32_t n
 void smear_gap_means_two_passes(const struct gap_planes *p, const struct gap_rows *rows, const struct gap_taps *taps,
                                 enum gap_cover cover);
 #if SMEAR_VECTORS
-void smear_gap_means_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps,
-                            enum gap_cover cover);
-#endif
-
-static inline void smear_gap_means(const struct gap_planes *p, const struct gap_rows *r, const struct gap_taps *taps,
-                                   enum gap_cover cover)
-{
-#if SMEAR_VECTORS
-    for (int32_t row = 0, at = r->at; row < r->rows; row++, at += r->pitch) {
-        smear_gap_means_vector(p, at, r->n, taps, cover);
-    }
+void smear_gap_means_vector(const struct gap_planes *p, const struct gap_rows *rows, const struct gap_taps *taps, enum gap_cover cover);
+#define smear_gap_means smear_gap_means_vector
 #else
-    smear_gap_means_two_passes(p, r, taps, cover);
+#define smear_gap_means smear_gap_means_two_passes
 #endif
-}
 
 #endif

@@ -86,22 +86,33 @@ static void reference(struct kernel_call *c)
 }
 
 /* In two rows, where there are two of a length. */
-static void call_rows(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps, enum gap_cover cover)
+static struct gap_rows rows_of(int32_t at, int32_t n)
 {
     const int32_t rows = GAP_ROWS ? 2 - (n & 1) : 1;
-    const struct gap_rows r = { at, n / rows, rows, n / rows };
+    return (struct gap_rows){ at, n / rows, rows, n / rows };
+}
+
+static void rows_two_passes(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps, enum gap_cover cover)
+{
+    const struct gap_rows r = rows_of(at, n);
     smear_gap_means_two_passes(p, &r, taps, cover);
 }
 
 static void two_passes(struct kernel_call *c)
 {
-    call(c, call_rows);
+    call(c, rows_two_passes);
 }
 
 #if SMEAR_VECTORS
+static void rows_vector(const struct gap_planes *p, int32_t at, int32_t n, const struct gap_taps *taps, enum gap_cover cover)
+{
+    const struct gap_rows r = rows_of(at, n);
+    smear_gap_means_vector(p, &r, taps, cover);
+}
+
 static void vector(struct kernel_call *c)
 {
-    call(c, smear_gap_means_vector);
+    call(c, rows_vector);
 }
 #endif
 
