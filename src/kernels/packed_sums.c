@@ -52,6 +52,10 @@ void smear_packed_add(uint32_t *color, const uint32_t *background, struct packed
         for (; i + 4 <= n; i += 4)
             add4(color + i, background + i, sums.rb + i, sums.gn + i);
     } else {
+        for (; i + 8 <= n; i += 8) {        /* what most have */
+            add4(color + i, NULL, sums.rb + i, sums.gn + i);
+            add4(color + i + 4, NULL, sums.rb + i + 4, sums.gn + i + 4);
+        }
         for (; i + 4 <= n; i += 4)
             add4(color + i, NULL, sums.rb + i, sums.gn + i);
         if (i < n && n >= 4) {
