@@ -201,12 +201,8 @@ static inline bool assembly_is_textured(const struct smear_assembly *d)
 static inline void placement_transform(struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index)
 {
     transform_vertex(h, &p->now, p->position + 3 * index);
-    if (SMEAR_WITH_DEFORM && p->extra_count != 0) {
-        struct smear_homogeneous sum = *h;
-        smear_placement_add(SMEAR_ONE_COPY ? h : &sum, p, index);
-        if (!SMEAR_ONE_COPY)
-            *h = sum;
-    }
+    if (SMEAR_WITH_DEFORM && p->extra_count != 0)
+        smear_placement_add(h, p, index);
 }
 
 /* Transforms a vertex as it is in a pose of the assembly. */
