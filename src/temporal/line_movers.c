@@ -40,14 +40,16 @@ static bool is_far(const smear_camera *c, uint32_t units)
                              : (int64_t)units * c->far_plane <= (int64_t)c->near_plane << (NEAR_LOG2 + PART_LOG2);
 }
 
-/* Returns how a draw goes on the screen, as some of its vertices tell, and whether it goes far. */
-static enum smear_line_kind kind_of(bool *far, const struct smear_flow *own, const struct smear_lines *lines,
+/* Returns how a draw goes on the screen, as some of its vertices tell, and whether one picture of it does not do: it goes far, or it shows
+ * something else every few pixels and goes less than the shortest line blurs. */
+static enum smear_line_kind kind_of(bool *twice, const struct smear_flow *own, const struct smear_lines *lines,
                                     const struct smear_placement *place, const struct smear_window *w, const smear_mesh *mesh,
                                     const smear_camera *camera)
 {
-    enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256, FAR = 8 * 256 };      /* q8 px */
+    enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256, FAR = 8 * 256, SHORT = 384,     /* q8 px */
+           FINE_LOG2 = 4 };             /* px of its box per vertex */
     const struct smear_viewport viewport = { w->width, w->height };
-    int32_t apart = 0, way = 0;
+    int32_t apart = 0, way = 0, x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
     bool seen = false, behind = true;
     for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
         struct smear_homogeneous h;
@@ -56,6 +58,10 @@ static enum smear_line_kind kind_of(bool *far, const struct smear_flow *own, con
         if ((placement_project(&s, &h, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
             continue;           /* what goes round the camera is seen in part */
         seen = true;
+        x0 = min_i32(x0, s.x >> 8);
+        x1 = max_i32(x1, s.x >> 8);
+        y0 = min_i32(y0, s.y >> 8);
+        y1 = max_i32(y1, s.y >> 8);
         smear_flow_at(own, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, a);
         smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, (uint32_t)s.depth >> 11, b);
         smear_flow_at(&lines->flow, s.x >> 8, s.y >> 8, 0, c);
@@ -63,7 +69,7 @@ static enum smear_line_kind kind_of(bool *far, const struct smear_flow *own, con
         apart = max_i32(apart, max_i32(abs_i32(a[0] - b[0]), abs_i32(a[1] - b[1])));
         way = max_i32(way, max_i32(abs_i32(a[0]), abs_i32(a[1])));
     }
-    *far = !seen || way > FAR;
+    *twice = !seen || way > FAR || (way < SHORT && (uint32_t)((x1 - x0) * (y1 - y0)) >> FINE_LOG2 < mesh->vertex_count);
     return !seen ? LINE_MOVES : apart <= ALIKE ? LINE_GOES_ALONG : way > STILL ? LINE_MOVES : behind ? LINE_IS_BEHIND : LINE_IS_STILL;
 }
 
@@ -81,15 +87,15 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
     }
     smear_lines_make_flow(&lines->own[draw], shot, w, camera);
     smear_draw_poses_place(&place, p, shot, mesh, &lines->mover_instant[0]);
-    bool far;
-    const enum smear_line_kind kind = kind_of(&far, &lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
+    bool twice;
+    const enum smear_line_kind kind = kind_of(&twice, &lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
     if (kind != LINE_GOES_ALONG && !lines->takes_movers)
         return false;
     lines->kind[draw] = (uint8_t)kind;
     lines->movers = (uint16_t)(lines->movers + (kind != LINE_GOES_ALONG));
     lines->behind = (uint16_t)(lines->behind + (kind == LINE_IS_BEHIND));
-    if (kind == LINE_MOVES && far && !lines->goes_far) {
-        lines->goes_far = true;
+    if (kind == LINE_MOVES && twice && !lines->twice) {
+        lines->twice = true;
         smear_lines_take(lines, shot, lines->pictures);
     }
     return true;

@@ -103,7 +103,7 @@ bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
 {
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
-    lines->goes_far = false;
+    lines->twice = false;
     const int least = least_pictures(shot, target, lines->most), pictures = min_i32(pictures_for(lines, target, least), lines->most);
     if (least > lines->most) {
         lines_forget(lines);

@@ -59,7 +59,7 @@ struct smear_lines {
     uint8_t most;                   /* pictures in this frame */
     uint8_t wait;                   /* frames by instants after one that lines did not do for */
     bool takes_movers;              /* else they are drawn at instants */
-    bool goes_far;                  /* one of them does, so that there are two pictures of all */
+    bool twice;                     /* one picture of one of them does not do, so that there are two of all */
     uint8_t *kind;                  /* of each draw: enum smear_line_kind */
     struct smear_flow *own;         /* of each draw that has one */
     struct smear_line_block *block; /* of the tile row */
@@ -68,7 +68,7 @@ struct smear_lines {
 
 static inline int line_mover_pictures(const struct smear_lines *lines)
 {
-    return lines->goes_far ? min_i32(lines->pictures, LINE_MOVERS) : 1;
+    return lines->twice ? min_i32(lines->pictures, LINE_MOVERS) : 1;
 }
 
 /* How a draw goes: with what stands still or drawn at instants, or it is a mover, which stays where it is on the screen or not. What
