@@ -135,7 +135,7 @@ static void channels_at(const struct setup *s, const struct span *p, const struc
         return;
     }
     const int32_t left = max_i32(p->left, 0), right = min_i32(p->right, s->frame->width);
-    if (in_fog && fog_row_is_even(s, left, right)) {
+    if (SMEAR_WITH_FOG && in_fog && fog_row_is_even(s, left, right)) {
         const uint32_t color = smear_fog_row_color(s, left, right, p->y);
         for (int i = 0; i < 3; i++) {
             c[i] = (uint32_t)channel_value_of_code(s->frame, color >> (16 - 8 * i) & 255u);

@@ -117,12 +117,12 @@ enum { FAR = 16 }; /* 1/16 px */
 
 static uint32_t add_saturated(uint32_t a, uint32_t b) { return a + min_u32(b, UINT32_MAX - a); }
 
-/* Adds what closed gaps leave of a block where the tiles end above or below: where a gap goes more than a pixel down or up,
- * taps of the last row would lie beyond it, and that row, an eighth of the block, stays as it is. It is seen as a line
+/* Adds what closed gaps leave of a block where the tiles end above or below: where a gap goes a pixel down or up, as that of a steep way
+ * always does, taps of the last row would lie beyond it, and that row, an eighth of the block, stays as it is. It is seen as a line
  * beside what is closed: it weighs twice. */
-static void add_border(struct smear_contrast *c, uint32_t plain, int32_t down, int32_t last)
+static void add_border(struct smear_contrast *c, uint32_t plain, int32_t across, int32_t down, int32_t last)
 {
-    const int at = (min_i32(last, down >> 4) + 1) >> 1;
+    const int at = (min_i32(last, 2 * down >= across ? last : down >> 4) + 1) >> 1;
     c->closed[at] = add_saturated(c->closed[at], plain >> 2);
 }
 
@@ -135,7 +135,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
            FLAT = 4000 };
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
     const uint32_t shortness = longer >= FAR ? l->shortness : 16;
-    const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST) * shortness >> 4;
+    const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST - 1) * shortness >> 4;
     const uint32_t plain = min_u32(whole, MOST);
     /* Taps lie on whole pixels: what lies beside the path is mixed in by as much as they are off it. */
     const uint32_t off = (uint32_t)(512 * min_i32(shorter, longer - shorter) / longer);
@@ -152,7 +152,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     c->rounded[at] = add_saturated(c->rounded[at], (plain >> 7) * closing->rounded >> 9);
     c->floor[at] = add_saturated(c->floor[at], floor);
     if (l->at_border && last != 0)
-        add_border(c, plain, y, last);
+        add_border(c, plain, x, y, last);
     return last;
 }
 

@@ -124,11 +124,11 @@ static uint32_t error_of(const struct smear_contrast *c, uint32_t unseen, int32_
     const uint32_t square = (uint32_t)(instants * instants);
     uint32_t sum = over(unseen, square);
     for (int k = 0; k < CLOSING_CLASSES; k++) {
-        const uint32_t plain = over(c->plain[k], square);
+        const uint32_t plain = over(c->plain[k], square), closed = c->closed[k], left_open = (c->plain[k] >> 8) * open;
         if (!may_close || (instants + 1) >> 1 > k)
             sum += plain;
         else
-            sum += over(c->closed[k] + (c->plain[k] >> 8) * open, square) + rounded(c->rounded[k], plain) + c->floor[k];
+            sum += over(closed + min_u32(left_open, UINT32_MAX - closed), square) + rounded(c->rounded[k], plain) + c->floor[k];
     }
     return sum;
 }
