@@ -49,9 +49,12 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
  * within 0.8 and 1.9 of it. */
 static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 };
 
-/* Returns the squared error that so many pictures may have, in quarters of what is asked for: a sketch's second picture costs as much as
- * its first. */
-static uint64_t allowed(int pictures, int32_t target) { return pictures == 1 && target_is_sketch(target) ? 11 : 6; }
+/* Returns the squared error that so many pictures may have as foretold, in quarters of what is asked for: a sketch's second picture costs
+ * as much as its first. */
+static uint64_t allowed(const struct smear_lines *lines, int pictures, int32_t target)
+{
+    return pictures == 1 && target_is_sketch(target) ? 11 : transfer_is_linear(lines->transfer) ? 5 : 6;
+}
 
 enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
 
@@ -78,7 +81,7 @@ static int pictures_for(const struct smear_lines *lines, int32_t target, int k)
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
            && (uint64_t)lines->contrast * left_of_contrast[k - 1]
-                  > most * lines->blocks / 32 * (allowed(k, target) * (k < lines->pictures ? 7 : 8)))
+                  > most * lines->blocks / 32 * (allowed(lines, k, target) * (k < lines->pictures ? 7 : 8)))
         k++;
     return k;
 }
@@ -104,12 +107,12 @@ bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
     lines->twice = false;
+    lines->transfer = transfer;
     const int least = least_pictures(shot, target, lines->most), pictures = min_i32(pictures_for(lines, target, least), lines->most);
     if (least > lines->most) {
         lines_forget(lines);
         return false;
     }
-    lines->transfer = transfer;
     lines->movers = lines->behind = 0;
     lines->drawn = lines->finished = 0;
     lines_forget(lines);
@@ -146,7 +149,7 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     int k = lines->pictures;
     for (; k <= lines->most; k++) {
         /* The rest may have what is left of the frame's error, or its own share if that is more. */
-        const uint64_t each = (uint64_t)target * (uint64_t)target * VALUES * allowed(k, target) / 4, own = each * (all - blocks);
+        const uint64_t each = (uint64_t)target * (uint64_t)target * VALUES * allowed(lines, k, target) / 4, own = each * (all - blocks);
         if (rest * left_of_contrast[k - 1] <= (each * all > error + own ? each * all - error : own))
             break;
     }
