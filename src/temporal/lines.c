@@ -33,7 +33,7 @@ bool smear_lines_turn(const struct smear_shot *shot, const smear_transform *open
 }
 
 void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
-                           const smear_camera camera[3])
+                           const smear_camera *camera)
 {
     const struct smear_shutter_order at = smear_shot_order(shot);
     const struct smear_instant middle = smear_instant_middle(shot);

@@ -115,7 +115,7 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
 
 /* Makes the flow of what stands still before three cameras, those of the shot's poses. */
 void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *shot, const struct smear_window *w,
-                           const smear_camera camera[3]);
+                           const smear_camera *camera);
 
 /* Finds the displacement from one of so many pictures to the next of what is seen at a pixel, in whole pixels (q8), so that blocks
  * beside each other often have the same, and no longer along y than lines reach. Returns how many times as long it is, about. */
