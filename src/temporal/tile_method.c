@@ -91,13 +91,14 @@ static int32_t least_instants(const struct smear_chooser *chooser, const struct 
 
 /* Returns the squared error that so many blocks may have together, in the unit of struct smear_contrast: codes^2, summed
  * over three channels, times the 12 of an edge that passes. In linear light dark codes differ by more than their light:
- * by 1.3 in the mean; of the finest targets less is left than is told. What stands still has no error, and others may have theirs, up to
- * as much as their own; but with `alone`: where something passes the eye, of which little is known, and for the finest targets. */
+ * by 1.3 in the mean; of the finest targets less is left than is told. What stands still has no error, and others may have 7/8 of
+ * that, up to 7/8 of their own; but with `alone`: where something passes the eye, of which little is known, for the finest targets, and
+ * where each instant is another place within the pixel. */
 static uint32_t allowed(const struct smear_tile_plan *plan, uint32_t blocks, bool alone)
 {
     const struct smear_chooser *chooser = plan->chooser;
     const uint32_t still = alone ? 0 : plan->tiles[0], others = max_u32(plan->tiles[1], 1);
-    const uint32_t share = 256 + (min_u32(still, others) << 8) / others;         /* q8 */
+    const uint32_t share = 256 + (min_u32(still, others) * 224) / others;         /* q8 */
     const uint64_t target = (uint64_t)min_i32(chooser->target, 8191);
     const uint64_t parts = (transfer_is_linear(chooser->transfer) ? 7u : 9u) + (target < 64 ? 2u : 0u);
     const uint64_t sum = target * target * parts * blocks * share >> 18;
@@ -144,7 +145,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
     const int32_t widest = target_is_sketch(chooser->target) ? SKETCH_STEP_MAX : STEP_MAX;
     int32_t least = first, reach = 0, instants;
     uint32_t unseen = c->unseen;
-    bool alone = chooser->target < 64;
+    bool alone = chooser->target < 64 || (SMEAR_EDGES && bins_margin(t->frame->bins) != 0);
     for (int i = 0; i < tiles; i++) {
         const struct smear_tile_travel *tile = &plan->travel[i];
         least = max_i32(least, least_instants(chooser, tile));
