@@ -342,7 +342,7 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     f->changes = NULL;
     smear_add_changes(&contrast, f, &changes);
     int32_t wanted = smear_tile_plan_instants(plan, f->t, &contrast, first);
-    if (first < 2 * LOOKS && (wanted > first || (passing & ~f->space->seen) != 0))          /* few see little of it */
+    if (first == LOOKS && (wanted > first || (passing & ~f->space->seen) != 0))      /* so few see little of it */
         wanted = max_i32(wanted, 3 * first);
     if (2 * wanted <= 3 * first)
         return samples;

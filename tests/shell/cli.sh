@@ -193,6 +193,13 @@ claim "the target of fine is fine" drawn same fine.ppm target.ppm $turn --target
 claim "--target" render $moving --method reconstruct --target 0.5 -o target.ppm
 claim "without a target does not change reconstruct" drawn same target.ppm reconstruct.ppm $moving --method reconstruct
 
+# samples SCENE DEGREES: how many pixels of instants are drawn
+samples() { render "builtin:$1" --size 160x120 --time 0.8 --poses shutter --shutter "$2" -o short.ppm --stats short.json && stat_of short.json samples; }
+for scene in demo/race suite/dolly suite/pan suite/textured suite/near test/room; do
+    whole=$(samples $scene 180) two_thirds=$(samples $scene 120) half=$(samples $scene 90)
+    claim "$scene: less of an exposure takes no more" is_true "$two_thirds <= $whole && $half <= $two_thirds"
+done
+
 claim "--method none" render $moving --method none -o none.ppm
 claim "--shutter 0 is none" drawn same none.ppm shut.ppm $moving --shutter 0
 claim "--method auto is the default" drawn same out.ppm auto.ppm $moving --method auto
