@@ -11,11 +11,9 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
         LEFT = 13,              /* q8: of the squared error where all goes alike: instants are sharp, pixels square */
         WON = 65536 / 4,        /* q16: by closing; so it pays for instants two thirds of a pixel apart or farther */
         UNLIKE_LOG2 = 6,        /* the rest goes with the square of what is unlike, q8 */
-        SHORT = 8 * 16,         /* 1/16 px: the ends of shorter ways weigh more than what narrow gaps win */
         ROUNDED = 10066330,     /* q24: 0.6 of what an instant per pixel of the path leaves */
         FLOOR = 1677722         /* q24: 0.1 of that: ends of edges' ways are rounded */
     };
-    const int32_t longer = max_i32(abs_i32(x), abs_i32(y));
     const uint32_t square = (uint32_t)(x * x + y * y) + 1u, apart = (uint32_t)min_i32(unlike, 32767) * (uint32_t)min_i32(unlike, 32767);
     struct smear_closing c = { 256, 0, 0, 0, unlike };
     if (apart >> 1 >= 2 * square || unlike == INT16_MAX)
@@ -24,8 +22,6 @@ struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
     c.rounded = min_u32(ROUNDED / square, 65536);
     c.floor = min_u32((FLOOR + (c.left - LEFT) * 4 * 65536) / square, 65536);
     c.last = closed_instants(WON, max_u32(c.floor, 1));
-    if (longer < SHORT)
-        c.last = min_i32(c.last, longer >> 5);
     return c;
 }
 

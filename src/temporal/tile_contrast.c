@@ -170,7 +170,9 @@ static struct smear_step way_of(const struct subframes *f, const struct smear_ti
 static void look_at_block(struct smear_contrast *c, const struct subframes *f, const struct smear_tile_plan *plan,
                           struct look *l, bool drawn)
 {
-    enum { LEFT = 55 };     /* q8: gaps are closed where that leaves a fifth of the squared error at most */
+    enum { LEFT = 55,       /* q8: gaps are closed where that leaves a fifth of the squared error at most */
+           SHORT = 8 * 16 };        /* 1/16 px: the ends of shorter ways weigh more than what gaps below a pixel win; of light over
+                                     * dark, where little is many codes, than those below two */
     const struct smear_tile_run *t = f->t;
     const struct smear_tile_travel *tile = l->tile;
     const int32_t y0 = t->background.y0, rows = (t->background.y1 - y0 + BLOCK_PX - 1) >> BLOCK_SHIFT,
@@ -185,10 +187,12 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     const struct smear_step way = way_of(f, tile, b);
     l->way_x = way.x;
     l->way_y = way.y;
+    const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
+    if (longest < SHORT)
+        closing.last = min_i32(closing.last, longest >> (transfer_is_linear(plan->chooser->transfer) ? 5 : 4));
     b->last = (uint8_t)closing.last;
     if (!drawn)
         return;
-    const int32_t longest = max_i32(max_i32(abs_i32(l->way_x), abs_i32(l->way_y)), 1);
     l->dx = next_on_path(l->way_x, longest);
     l->dy = next_on_path(l->way_y, longest);
     l->spreads = closing.last != 0 && closing.unlike >= 32;
