@@ -132,7 +132,8 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
                          const struct smear_closing *closing)
 {
     enum { MOST = 1 << 22,
-           FLAT = 4000 };
+           FLAT = 4000,
+           ASKEW = 512 / 3 };       /* edges along the way that pass a flat block at other times would be blurred across */
     const int32_t x = abs_i32(l->way_x), y = abs_i32(l->way_y), longer = max_i32(max_i32(x, y), 1), shorter = min_i32(x, y);
     const uint32_t shortness = longer >= FAR ? l->shortness : 16;
     const uint32_t whole = min_u32((d->along >> 6) * (uint32_t)longer >> 4, 2 * MOST - 1) * shortness >> 4;
@@ -144,7 +145,7 @@ static int32_t add_block(struct smear_contrast *c, const struct look *l, const s
     const uint32_t floor = ((plain >> 7) * closing->floor >> 9) + ((d->beside >> 5) * off >> 11)
                          + beside / max_u32((uint32_t)(longer * longer) >> 10, 1);
     int32_t last = closing->last;
-    if (last != 0 && d->along + d->beside >= FLAT)
+    if (last != 0 && (d->along + d->beside >= FLAT || off >= ASKEW))
         last = min_i32(closed_instants(plain >> 1, max_u32(floor, 1)), last);
     const int at = (last + 1) >> 1;
     c->plain[at] = add_saturated(c->plain[at], whole);
