@@ -31,7 +31,7 @@
 
 /* ------------------------------------------------------------------ night */
 
-/* A scene of built-in models for small displays of few greys. a scene for displays of few greys: windmills before a black sky. */
+/* A scene for displays of few greys: windmills before a black sky. */
 
 enum { NIGHT_LOOP_FRAMES = 48 };
 
@@ -154,63 +154,31 @@ static void night_move(double time, struct scene_instant *out)
     }
 }
 
-static const struct stage_kind kind = { "night", 128, 64, 5 / 30.0, 0x000000, night_build,
-                                        night_move };
-
-static bool night_open(struct scene *out, struct failure *f)
-{
-    return stage_open(&kind, 1, kind.name, out, f);
-}
+static const struct stage_kind night = { "night", 128, 64, 5 / 30.0, 0x000000, night_build,
+                                         night_move };
 
 /* ------------------------------------------------------------------ layout */
 
 /* Pictures made of pictures. *out is allocated by each function, and empty on failure. */
+
+enum { SEAM = 2 };              /* pixels between pictures */
 
 static uint8_t *pixel_at(const struct image *image, int x, int y)
 {
     return image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
 }
 
-static void fill(struct image *image, uint8_t red, uint8_t green, uint8_t blue)
+/* Pictures of one size: side by side with white lines between neighbours, or one below the other with black ones. */
+static bool layout_all(const struct image *pictures, int count, bool down, struct image *out, struct failure *f)
 {
-    for (int y = 0; y < image->height; y++)
-        for (int x = 0; x < image->width; x++)
-            memcpy(pixel_at(image, x, y), (const uint8_t[4]){ red, green, blue, 255 }, 4);
-}
-
-/* Side by side, with a white line of `gap` pixels between neighbours. All of one size. */
-static bool layout_row(const struct image *pictures, int count, int gap, struct image *out,
-                       struct failure *f)
-{
-    int width = pictures[0].width, height = pictures[0].height;
-    *out = (struct image){ .rgba = NULL };
-    for (int i = 1; i < count; i++)
-        if (!image_check_same_size(&pictures[0], &pictures[i], f))
-            return false;
-    if (!image_alloc(out, count * width + (count - 1) * gap, height, f))
+    const int width = pictures[0].width, height = pictures[0].height, across = down ? 0 : width + SEAM, below = down ? height + SEAM : 0;
+    if (!image_alloc(out, width + (count - 1) * across, height + (count - 1) * below, f))
         return false;
-    fill(out, 255, 255, 255);
+    if (!down)
+        memset(out->rgba, 255, 4 * (size_t)out->width * (size_t)out->height);
     for (int i = 0; i < count; i++)
         for (int y = 0; y < height; y++)
-            memcpy(pixel_at(out, i * (width + gap), y), pixel_at(&pictures[i], 0, y),
-                   4 * (size_t)width);
-    return true;
-}
-
-/* One above the other, with a black line between. */
-static bool layout_column(const struct image *pictures, int count, int gap, struct image *out,
-                          struct failure *f)
-{
-    int width = pictures[0].width, height = pictures[0].height;
-    *out = (struct image){ .rgba = NULL };
-    for (int i = 1; i < count; i++)
-        if (!image_check_same_size(&pictures[0], &pictures[i], f))
-            return false;
-    if (!image_alloc(out, width, count * height + (count - 1) * gap, f))
-        return false;
-    for (int i = 0; i < count; i++)
-        memcpy(pixel_at(out, 0, i * (height + gap)), pictures[i].rgba,
-               4 * (size_t)width * (size_t)height);
+            memcpy(pixel_at(out, i * across, i * below + y), pixel_at(&pictures[i], 0, y), 4 * (size_t)width);
     return true;
 }
 
@@ -225,11 +193,10 @@ static bool layout_zoom(const struct image *picture, int scale, struct image *ou
     return true;
 }
 
-/* The same as lamps behind dark glass: squares of scale - 1 in the colour 0xRRGGBB x grey, with
- * seams between them. */
-static bool layout_lamps(const struct image *picture, int scale, unsigned color, struct image *out,
-                         struct failure *f)
+/* The same as lamps behind dark glass: squares of scale - 1 in their colour x grey, with seams between them. */
+static bool layout_lamps(const struct image *picture, int scale, struct image *out, struct failure *f)
 {
+    const unsigned color = 0xcfeaff;
     static const uint8_t glass[4] = { 8, 9, 11, 255 };
     if (!image_alloc(out, picture->width * scale, picture->height * scale, f))
         return false;
@@ -255,7 +222,8 @@ static bool layout_lamps(const struct image *picture, int scale, unsigned color,
 enum film_look {
     FILM_SHARP,                 /* the instant */
     FILM_BLURRED,               /* by SMEAR_AUTO */
-    FILM_EXACT                  /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
+    FILM_EXACT,                 /* the truth: the mean of FILM_INSTANTS instants, each posed anew */
+    FILM_LOOKS
 };
 
 enum { FILM_INSTANTS = 64 };
@@ -318,160 +286,59 @@ static bool film_take(struct film *film, double time, enum film_look look, struc
 
 /* ------------------------------------------------------------------ exhibits */
 
-/* What is made of a scene. */
-enum exhibit_kind {
-    SHARP, BLURRED, EXACT,      /* one look: enum film_look */
-    PAIR,                       /* sharp | blurred */
-    TRIPLE,                     /* sharp | blurred | exact */
-    SCREEN,                     /* blurred, RGB565, enlarged */
-    OLED                        /* sharp above blurred, 16 greys, enlarged */
-};
+/* Sets of looks. */
+enum { SHARP = 1 << FILM_SHARP, BLURRED = 1 << FILM_BLURRED, PAIR = SHARP | BLURRED, TRIPLE = PAIR | 1 << FILM_EXACT };
 
+/* A scene, and what is shown of it: looks side by side; of SMEAR_L4 one above the other, as lamps. */
 struct exhibit {
-    const char *name, *what;
-    enum exhibit_kind kind;
+    const char *name, *scene, *what;
+    int looks;
+    smear_format format;
     int width, height;          /* of one look; 0: the scene's */
-    int zoom;                   /* of SCREEN and OLED */
+    int zoom;                   /* 0: 1 */
     int frames;                 /* from time 0 on; 0: one picture, at */
     double time;                /* or, with 0, at the scene's */
     double fps;                 /* of frames; 0: the scene's */
+    bool readme;                /* a picture of the README, too */
 };
 
-/* A scene and what is shown of it. */
-struct room {
-    const char *builtin;        /* demo/..., or */
-    bool (*open)(struct scene *out, struct failure *f);     /* a scene of the demo */
-    const struct exhibit *exhibit;
-    int count;
+static const struct exhibit exhibits[] = {
+    /* Ten frames a second: what a small machine draws. */
+    { "race-ten.gif", "demo/race", "sharp | blurred, a loop of two seconds at ten frames a second", PAIR, .width = 240, .height = 180,
+      .frames = 20, .fps = 10, .readme = true },
+    { "race.gif", "demo/race", "blurred, a loop of two seconds", BLURRED, .width = 240, .height = 180, .frames = 60 },
+    { "race.png", "demo/race", "sharp | blurred | the mean of 64 instants, what blur aims at", .looks = TRIPLE },
+    { "race-640.png", "demo/race", "blurred, 640x480", BLURRED, .width = 640, .height = 480 },
+    { "drone.png", "demo/drone", "a car rushes by below a drone: sharp | blurred", PAIR, .width = 320, .height = 240, .time = 1.95 },
+    { "drone.gif", "demo/drone", "sharp | blurred, a loop of two seconds", PAIR, .width = 240, .height = 180, .frames = 60 },
+    { "drone.apng", "demo/drone", "blurred, a loop of two seconds, true colour", BLURRED, .frames = 60 },
+    { "screen.png", "demo/drone", "a display of 240x240 in RGB565, blurred, three times as large", BLURRED, SMEAR_RGB565, .zoom = 3,
+      .time = 1.95 },
+    { "oled.png", "night", "mills on a display of 128x64 in 16 greys, sharp above blurred, three times as large", PAIR, SMEAR_L4,
+      .zoom = 3, .readme = true },
+    { "oled.gif", "night", "the same as a loop", PAIR, SMEAR_L4, .zoom = 3, .frames = NIGHT_LOOP_FRAMES },
 };
 
-#define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
-
-/* Ten frames a second: what a small machine draws. */
-#define README_LOOP \
-    { .name = "race-ten.gif", .kind = PAIR, .width = 240, .height = 180, .frames = 20, .fps = 10, \
-      .what = "sharp | blurred, a loop of two seconds at ten frames a second" }
-
-static const struct exhibit race[] = {
-    { .name = "race-sharp.png", .kind = SHARP,
-      .what = "racing car and drone, the sharp instant" },
-    { .name = "race-blurred.png", .kind = BLURRED,
-      .what = "the same blurred" },
-    { .name = "race-exact.png", .kind = EXACT,
-      .what = "the mean of 64 instants: what blur aims at" },
-    { .name = "race-pair.png", .kind = PAIR, .what = "sharp | blurred" },
-    { .name = "race-triple.png", .kind = TRIPLE, .what = "sharp | blurred | mean of 64 instants" },
-    { .name = "race-640.png", .kind = BLURRED, .width = 640, .height = 480,
-      .what = "blurred, 640x480" },
-};
-
-static const struct exhibit race_film[] = {
-    { .name = "race.gif", .kind = BLURRED, .width = 240, .height = 180, .frames = 60,
-      .what = "blurred, a loop of two seconds" },
-    README_LOOP,
-};
-
-static const struct exhibit drone[] = {
-    { .name = "drone-pair.png", .kind = PAIR, .width = 320, .height = 240, .time = 1.95,
-      .what = "a car rushes by below a drone: sharp | blurred" },
-    { .name = "screen-240.png", .kind = SCREEN, .zoom = 3, .time = 1.95,
-      .what = "a display of 240x240 in RGB565, blurred, three times as large" },
-    { .name = "drone-pair.gif", .kind = PAIR, .width = 240, .height = 180, .frames = 60,
-      .what = "sharp | blurred, a loop of two seconds" },
-    { .name = "drone.apng", .kind = BLURRED, .frames = 60,
-      .what = "blurred, a loop of two seconds, true colour" },
-};
-
-static const struct exhibit night[] = {
-    { .name = "oled-128x64.png", .kind = OLED, .zoom = 5,
-      .what = "a display of 128x64 in 16 greys, sharp above blurred, five times as large" },
-    { .name = "oled-128x64.gif", .kind = OLED, .zoom = 5, .frames = NIGHT_LOOP_FRAMES,
-      .what = "the same as a loop" },
-};
-
-static const struct room demo_rooms[] = {
-    { .builtin = "demo/race", .exhibit = race_film, .count = COUNT_OF(race_film) },
-    { .builtin = "demo/race", .exhibit = race, .count = COUNT_OF(race) },
-    { .builtin = "demo/drone", .exhibit = drone, .count = COUNT_OF(drone) },
-    { .open = night_open, .exhibit = night, .count = COUNT_OF(night) },
-};
-
-/* ------------------------------------------------------------------ of the README */
-
-static const struct exhibit readme_race[] = { README_LOOP };
-static const struct exhibit readme_night[] = {
-    { .name = "oled.png", .kind = OLED, .zoom = 3, .what = "mills on a display of 128x64 in 16 greys, sharp above blurred" },
-};
-
-static const struct room readme_rooms[] = {
-    { .builtin = "demo/race", .exhibit = readme_race, .count = COUNT_OF(readme_race) },
-    { .open = night_open, .exhibit = readme_night, .count = COUNT_OF(readme_night) },
-};
-
-/* ------------------------------------------------------------------ making pictures */
-
-enum { SEAM = 2, MAX_PATH = 4096 };     /* pixels between pictures side by side */
-
-/* The first `count` looks of the same instant. */
-static bool take_looks(struct film *film, double time, int count, struct image *picture,
-                       struct failure *f)
+static bool make_picture(struct film *film, const struct exhibit *e, double time, struct image *out, struct failure *f)
 {
-    static const enum film_look look[3] = { FILM_SHARP, FILM_BLURRED, FILM_EXACT };
-    for (int i = 0; i < count; i++)
-        if (!film_take(film, time, look[i], &picture[i], f))
-            return false;
-    return true;
-}
-
-static bool make_row(struct film *film, double time, int count, struct image *out,
-                     struct failure *f)
-{
-    struct image picture[3] = { { .rgba = NULL } };
-    bool ok = take_looks(film, time, count, picture, f) && layout_row(picture, count, SEAM, out, f);
+    struct image picture[FILM_LOOKS] = { { .rgba = NULL } }, all = { .rgba = NULL };
+    const bool is_lamps = e->format == SMEAR_L4;
+    const int zoom = e->zoom > 0 ? e->zoom : 1;
+    int count = 0;
+    bool ok = true;
+    *out = (struct image){ .rgba = NULL };
+    for (int look = 0; look < FILM_LOOKS && ok; look++)
+        if (e->looks >> look & 1)
+            ok = film_take(film, time, (enum film_look)look, &picture[count++], f);
+    ok = ok && layout_all(picture, count, is_lamps, &all, f)
+      && (is_lamps ? layout_lamps(&all, zoom, out, f) : layout_zoom(&all, zoom, out, f));
     for (int i = 0; i < count; i++)
         image_free(&picture[i]);
+    image_free(&all);
     return ok;
 }
 
-static bool make_screen(struct film *film, double time, int zoom, struct image *out,
-                        struct failure *f)
-{
-    struct image picture;
-    bool ok = film_take(film, time, FILM_BLURRED, &picture, f) &&
-              layout_zoom(&picture, zoom, out, f);
-    image_free(&picture);
-    return ok;
-}
-
-static bool make_oled(struct film *film, double time, int zoom, struct image *out,
-                      struct failure *f)
-{
-    enum { LAMP_COLOR = 0xcfeaff };
-    struct image picture[2] = { { .rgba = NULL } }, column = { .rgba = NULL };
-    bool ok = take_looks(film, time, 2, picture, f) &&
-              layout_column(picture, 2, SEAM, &column, f) &&
-              layout_lamps(&column, zoom, LAMP_COLOR, out, f);
-    image_free(&picture[0]);
-    image_free(&picture[1]);
-    image_free(&column);
-    return ok;
-}
-
-static bool make_picture(struct film *film, const struct exhibit *e, double time, struct image *out,
-                         struct failure *f)
-{
-    *out = (struct image){ .rgba = NULL };
-    switch (e->kind) {
-    case SHARP: return film_take(film, time, FILM_SHARP, out, f);
-    case BLURRED: return film_take(film, time, FILM_BLURRED, out, f);
-    case EXACT: return film_take(film, time, FILM_EXACT, out, f);
-    case PAIR: return make_row(film, time, 2, out, f);
-    case TRIPLE: return make_row(film, time, 3, out, f);
-    case SCREEN: return make_screen(film, time, e->zoom, out, f);
-    case OLED: return make_oled(film, time, e->zoom, out, f);
-    }
-    return false;
-}
+enum { MAX_PATH = 4096 };
 
 static bool write_exhibit(const char *folder, struct film *film, const struct exhibit *e, struct failure *f)
 {
@@ -497,41 +364,22 @@ static bool write_exhibit(const char *folder, struct film *film, const struct ex
     return ok;
 }
 
-static bool make_exhibit(const char *folder, struct scene *scene, const struct exhibit *e, struct failure *f)
+static bool make_exhibit(const char *folder, const struct exhibit *e, struct failure *f)
 {
-    int width = e->width > 0 ? e->width : scene->width;
-    int height = e->height > 0 ? e->height : scene->height;
-    smear_format format = e->kind == SCREEN ? SMEAR_RGB565
-                        : e->kind == OLED   ? SMEAR_L4
-                                            : SMEAR_XRGB8888;
+    struct scene scene = { .data = NULL };
     struct film film;
-    const double fps = scene->fps;
+    if (!(strcmp(e->scene, night.name) == 0 ? stage_open(&night, 1, night.name, &scene, f) : demo_make(e->scene, &scene, f)))
+        return false;
     if (e->fps > 0)
-        scene->fps = e->fps;
-    bool ok = film_open(&film, scene, width, height, format, f) && write_exhibit(folder, &film, e, f);
+        scene.fps = e->fps;
+    const bool ok = film_open(&film, &scene, e->width > 0 ? e->width : scene.width, e->height > 0 ? e->height : scene.height, e->format, f)
+                 && write_exhibit(folder, &film, e, f);
     film_close(&film);
-    scene->fps = fps;
+    scene_free(&scene);
     return ok;
 }
 
 /* ------------------------------------------------------------------ all of them */
-
-/* A status. */
-static int show_room(const struct room *room, const char *folder)
-{
-    struct scene scene = { .data = NULL };
-    struct failure f = { "" };
-    int status = STATUS_OK;
-    if (!(room->open != NULL ? room->open(&scene, &f) : demo_make(room->builtin, &scene, &f)))
-        return say_bad_input("built-in scene", &f);
-    for (int i = 0; i < room->count; i++) {
-        f = (struct failure){ "" };
-        if (!make_exhibit(folder, &scene, &room->exhibit[i], &f))
-            status = say_bad_input(room->exhibit[i].name, &f);
-    }
-    scene_free(&scene);
-    return status;
-}
 
 /* Makes the folder and those above it. */
 static bool make_folders(const char *folder, struct failure *f)
@@ -580,12 +428,10 @@ int main(int argc, char **argv)
     output_catch_signals();
     if (!make_folders(folder, &f))
         return say_bad_input(folder, &f);
-    const struct room *room = is_readme ? readme_rooms : demo_rooms;
     int status = STATUS_OK;
-    for (int i = 0; i < (is_readme ? COUNT_OF(readme_rooms) : COUNT_OF(demo_rooms)); i++) {
-        const int result = show_room(&room[i], folder);
-        status = result != STATUS_OK ? result : status;
-    }
+    for (size_t i = 0; i < sizeof exhibits / sizeof *exhibits; i++)
+        if ((!is_readme || exhibits[i].readme) && !make_exhibit(folder, &exhibits[i], &f))
+            status = say_bad_input(exhibits[i].name, &f);
     printf("pictures in %s\n", folder);
     return status;
 }
