@@ -615,7 +615,7 @@ claim "info of a textured file" works info "$base/in/card.obj"
 claim "has its size" out_has '0 16x16$'
 claim "info of a built-in scene" works info builtin:suite/pan
 claim "has its frame rate" out_has '^fps: '
-instances=$here/tests/fuzz/corpus/gltf/42bd4e21fe24
+instances=$here/tests/fuzz/corpus/gltf/instances
 claim "info of instances" works info "$instances"
 claim "counts them beside their node" out_has '^  0 "", mesh 0, 5 instances$'
 claim "and their triangles" out_has '^triangles: 60$'
