@@ -2,9 +2,9 @@
 /* test_noise.c - walls of noise, of grains from one pixel to eight, that travel past the camera by up to three views: as it slides,
  * turns, turns behind a long lens or rolls. The default method is near the mean of exact instants, which nearly is one grey.
  * SMEAR_CASES=1000 draws as many; SMEAR_FIRST=17 begins with that one, and names each. */
-#include "tests/rig.h"
+#include "tests/ref/sweep.h"
 
-enum { WIDTH = 160, ROWS = 120, BYTES = WIDTH * ROWS * 4, TEXELS = 256, PANELS = 12, CASES_MAX = 20000 };
+enum { WIDTH = 160, ROWS = 120, BYTES = WIDTH * ROWS * 4, TEXELS = 256, PANELS = 12 };
 
 enum kind { SLIDE, TURN, LENS, ROLL, KINDS };
 
@@ -57,10 +57,11 @@ static smear_camera camera_of(const struct pass *p, double part)
     return c;
 }
 
-static bool draw(struct rig *r, const struct pass *p, uint8_t method, double part, uint8_t *out)
+static bool draw(struct rig *r, const void *scene, uint8_t method, uint16_t target, double part)
 {
     enum { UNIT = 1024, HIGH = 2, WIDE = 8 }; /* steps of a unit; units to either side */
     static const smear_texture texture = { .texels = texels, .width = TEXELS, .height = TEXELS };
+    const struct pass *p = scene;
     const smear_material material = { .texture = &texture, .bilinear = p->smooth, .unlit = 1, .double_sided = 1 };
     static const smear_transform still = SMEAR_IDENTITY;
     static int16_t position[PANELS][12], uv[PANELS][8];
@@ -89,71 +90,45 @@ static bool draw(struct rig *r, const struct pass *p, uint8_t method, double par
     const smear_camera now = camera_of(p, sharp ? part : 0), open = camera_of(p, -0.5), close = camera_of(p, 0.5);
     const smear_frame frame = { .camera = &now, .open = sharp ? NULL : &open, .close = sharp ? NULL : &close, .method = method,
                                 .light_space = p->linear ? SMEAR_LIGHT_LINEAR : SMEAR_LIGHT_ENCODED, .cut = sharp,
-                                .shutter = { .poses = 1 } };
-    if (!CHECK_EQ(rig_frame(r, &frame, draws, panels), SMEAR_OK))
-        return false;
-    memcpy(out, r->picture, BYTES);
-    return true;
+                                .shutter = { .poses = 1 }, .target = target };
+    return CHECK_EQ(rig_frame(r, &frame, draws, panels), SMEAR_OK);
 }
 
 /* Finds how far the method's picture is from the mean of exact instants, and how far one instant is. */
 static bool measure(double *error, double *sharp_error, struct rig *r, const struct pass *p)
 {
-    static double sum[BYTES];
-    static uint8_t sharp[BYTES], blurred[BYTES];
-    enum { INSTANTS = 512 };        /* of 256 the finest are up to a code off themselves */
-    double light[256], squares = 0, apart = 0;
-    memset(sum, 0, sizeof sum);
-    for (int i = 0; i < 256; i++)
-        light[i] = p->linear ? light_of(i) : i / 255.0;
-    for (int i = 0; i < INSTANTS; i++) {
-        if (!draw(r, p, SMEAR_NONE, (i + 0.5) / INSTANTS - 0.5, sharp))
-            return false;
-        for (int k = 0; k < BYTES; k++)
-            sum[k] += light[sharp[k]];
-    }
-    if (!draw(r, p, SMEAR_NONE, 0, sharp) || !draw(r, p, SMEAR_AUTO, 0, blurred))
+    static double mean[BYTES];
+    if (!sweep_mean(mean, r, draw, p, 512, p->linear) || !draw(r, p, SMEAR_NONE, 0, 0))   /* of 256 the finest are up to a code off */
         return false;
-    for (int k = 0; k < BYTES; k++) {
-        if (k % 4 == 3)
-            continue;
-        const double exact = p->linear ? code_of(sum[k] / INSTANTS) : 255 * sum[k] / INSTANTS;
-        squares += (blurred[k] - exact) * (blurred[k] - exact);
-        apart += (sharp[k] - exact) * (sharp[k] - exact);
-    }
-    *error = sqrt(squares / (WIDTH * ROWS * 3));
-    *sharp_error = sqrt(apart / (WIDTH * ROWS * 3));
+    *sharp_error = sweep_error(r, mean);
+    if (!draw(r, p, SMEAR_AUTO, 0, 0))
+        return false;
+    *error = sweep_error(r, mean);
     return true;
 }
 
 static void test_walls_of_noise_are_near_the_exact_mean(void)
 {
-    static double error[CASES_MAX];
-    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 300 : 24);
-    const uint32_t count = wanted < CASES_MAX ? wanted : CASES_MAX, first = number_from("SMEAR_FIRST", 1);
+    static double error[SWEEP_MOST];
+    const struct sweep sweep = sweep_of(24, 300);
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO);
     desc.max_draws = PANELS;
     RIG(r, &desc, false);
     double sharp = 0;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < sweep.count; i++) {
         double apart = 0;
-        random_state = (first + i) * 2654435761u + 77u;
-        for (int k = 0; k < 4; k++)
-            random_u32();
+        sweep_seed(sweep.first + i);
         const struct pass p = random_pass();
         END_UNLESS(measure(&error[i], &apart, &r, &p));
-        sharp += apart / count;
-        if (getenv("SMEAR_FIRST") != NULL)
+        sharp += apart / sweep.count;
+        if (sweep.tells)
             printf("  %.2f codes, sharp %.1f: case %u: %s, grain %.1f travels %.0f px, heading %.2f yaw %.2f%s%s\n", error[i], apart,
-                   (unsigned)(first + i), kind_name[p.kind], p.grain, p.travel, p.heading, p.yaw, p.linear ? ", linear" : "",
+                   (unsigned)(sweep.first + i), kind_name[p.kind], p.grain, p.travel, p.heading, p.yaw, p.linear ? ", linear" : "",
                    p.smooth ? ", smooth" : "");
     }
-    qsort(error, count, sizeof error[0], by_value);
-    printf("  of %u walls of noise half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f; sharp ones are "
-           "%.1f off\n", (unsigned)count, error[count / 2], error[count * 9 / 10], error[count - 1], sharp);
-    CHECK_CLOSE(error[count * 9 / 10], 0, 1.9);
-    CHECK_CLOSE(error[count - 1], 0, 3);
+    printf("  walls of noise: sharp ones are %.1f codes off\n", sharp);
+    sweep_check(error, sweep.count, "off the exact mean", 1.9, 3);
 }
 
 #include "build/suites/noise.h"

@@ -2,9 +2,9 @@
 /* test_rooms.c - rooms of a few large textured squares around a camera that goes in a circle, falls or turns, or goes fast around them
  * outside: the default method is near the mean of exact instants, and lines take as many pictures as a coarser target asks for, or give
  * way. SMEAR_CASES=1000 draws as many; SMEAR_FIRST=17 begins with that one, and names those far off. */
-#include "tests/rig.h"
+#include "tests/ref/sweep.h"
 
-enum { WIDTH = 120, ROWS = 90, BYTES = WIDTH * ROWS * 4, SIDES = 6, TEXELS = 32, CASES_MAX = 20000 };
+enum { WIDTH = 120, ROWS = 90, BYTES = WIDTH * ROWS * 4, SIDES = 6, TEXELS = 32 };
 
 enum kind { ORBIT, FALL, TURN, INSIDE, OUTSIDE = INSIDE, KINDS };
 
@@ -59,7 +59,7 @@ static smear_camera camera_of(const struct visit *v, double part)
     return c;
 }
 
-static bool draw(struct rig *r, const struct visit *v, uint8_t method, uint16_t target, double part, uint8_t *out)
+static bool draw(struct rig *r, const void *scene, uint8_t method, uint16_t target, double part)
 {
     /* Floor, ceiling and walls of a room of 10 x 4 x 10 units, a 256th of one a step. */
     static const int16_t corner[8][3] = { { -1280, 0, -1280 }, { 1280, 0, -1280 }, { 1280, 0, 1280 }, { -1280, 0, 1280 },
@@ -69,6 +69,7 @@ static bool draw(struct rig *r, const struct visit *v, uint8_t method, uint16_t 
     static const smear_texture texture = { .texels = texels, .width = TEXELS, .height = TEXELS };
     static const smear_transform still = SMEAR_IDENTITY;
     const smear_material material = { .texture = &texture, .unlit = 1, .double_sided = 1 };
+    const struct visit *v = scene;
     int16_t position[SIDES][12], uv[SIDES][8];
     smear_mesh mesh[SIDES];
     smear_draw draws[SIDES];
@@ -87,40 +88,19 @@ static bool draw(struct rig *r, const struct visit *v, uint8_t method, uint16_t 
     const smear_camera now = camera_of(v, sharp ? part : 0), open = camera_of(v, -0.5), close = camera_of(v, 0.5);
     const smear_frame frame = { .camera = &now, .open = sharp ? NULL : &open, .close = sharp ? NULL : &close, .method = method,
                                 .light_space = SMEAR_LIGHT_ENCODED, .cut = sharp, .shutter = { .poses = 1 }, .target = target };
-    if (!CHECK_EQ(rig_frame(r, &frame, draws, SIDES), SMEAR_OK))
-        return false;
-    memcpy(out, r->picture, BYTES);
-    return true;
-}
-
-/* Returns by how many codes a picture is off the mean of so many. */
-static double error_of(const uint8_t *picture, const uint32_t *sum, int instants)
-{
-    double squares = 0;
-    for (int k = 0; k < BYTES; k++) {
-        const double off = picture[k] - (double)sum[k] / instants;
-        squares += k % 4 == 3 ? 0 : off * off;
-    }
-    return sqrt(squares / (WIDTH * ROWS * 3));
+    return CHECK_EQ(rig_frame(r, &frame, draws, SIDES), SMEAR_OK);
 }
 
 /* Finds by how many codes the blurred picture is off the exact mean, and the sharp one of the middle. */
 static bool measure(double *error, double *unblurred, struct rig *r, const struct visit *v, uint16_t target)
 {
-    enum { INSTANTS = 256 };       /* of 64 they are half a code off themselves */
-    static uint32_t sum[BYTES];
-    static uint8_t sharp[BYTES], blurred[BYTES];
-    memset(sum, 0, sizeof sum);
-    for (int i = 0; i < INSTANTS; i++) {
-        if (!draw(r, v, SMEAR_NONE, 0, (i + 0.5) / INSTANTS - 0.5, sharp))
-            return false;
-        for (int k = 0; k < BYTES; k++)
-            sum[k] += sharp[k];
-    }
-    if (!draw(r, v, SMEAR_NONE, 0, 0, sharp) || !draw(r, v, SMEAR_AUTO, target, 0, blurred))
+    static double mean[BYTES];
+    if (!sweep_mean(mean, r, draw, v, 256, false) || !draw(r, v, SMEAR_NONE, 0, 0))     /* means of 64 are half a code off themselves */
         return false;
-    *error = error_of(blurred, sum, INSTANTS);
-    *unblurred = error_of(sharp, sum, INSTANTS);
+    *unblurred = sweep_error(r, mean);
+    if (!draw(r, v, SMEAR_AUTO, target, 0))
+        return false;
+    *error = sweep_error(r, mean);
     return true;
 }
 
@@ -128,30 +108,25 @@ static bool measure(double *error, double *unblurred, struct rig *r, const struc
  * drawn without lines before and after. */
 static void check_target(bool outside, uint16_t target, uint16_t methods, double most_of_nine, double most)
 {
-    static double error[CASES_MAX];
+    static double error[SWEEP_MOST];
     double sharp = 0, farther = 0;
-    const uint32_t wanted = number_from("SMEAR_CASES", number_from("SMEAR_THOROUGH", 0) != 0 ? 1000 : 100);
-    const uint32_t count = wanted < CASES_MAX ? wanted : CASES_MAX, first = number_from("SMEAR_FIRST", 1);
+    const struct sweep sweep = sweep_of(100, 1000);
     smear_desc desc = small_desc(WIDTH, ROWS);
     desc.methods = SMEAR_SET(SMEAR_AUTO) | methods;
     RIG(r, &desc, false);
-    for (uint32_t i = 0; i < count; i++) {
-        random_state = (first + i) * 2654435761u + 77u;
-        for (int k = 0; k < 4; k++)
-            random_u32();
+    for (uint32_t i = 0; i < sweep.count; i++) {
+        sweep_seed(sweep.first + i);
         const struct visit v = random_visit(outside);
         END_UNLESS(measure(&error[i], &sharp, &r, &v, target));
         farther = fmax(farther, error[i] - sharp);
-        if (getenv("SMEAR_FIRST") != NULL && (error[i] > most * 0.8 || error[i] > sharp + 1))
+        if (sweep.tells && (error[i] > most * 0.8 || error[i] > sharp + 1))
             printf("  %.2f codes, sharp %.2f: case %u: %s speed %.3f yaw %.2f pitch %.2f radius %.1f at %.1f %.1f %.1f repeats %d\n",
-                   error[i], sharp, (unsigned)(first + i), kind_name[v.kind], v.speed, v.yaw, v.pitch, v.radius, v.x, v.y, v.z, v.repeats);
+                   error[i], sharp, (unsigned)(sweep.first + i), kind_name[v.kind], v.speed, v.yaw, v.pitch, v.radius, v.x, v.y, v.z,
+                   v.repeats);
     }
-    qsort(error, count, sizeof error[0], by_value);
-    printf("  of %u textured rooms half are within %.2f codes of the exact mean, 9 of 10 within %.2f, all within %.2f: %.2f + sharp\n",
-           (unsigned)count, error[count / 2], error[count * 9 / 10], error[count - 1], farther);
+    sweep_check(error, sweep.count, "textured rooms off the exact mean", most_of_nine, most);
+    printf("    farther off than sharp ones: %.2f\n", farther);
     CHECK(farther <= 1);
-    CHECK_CLOSE(error[count * 9 / 10], 0, most_of_nine);
-    CHECK_CLOSE(error[count - 1], 0, most);
 }
 
 static void test_nine_of_ten_textured_rooms_are_near_the_exact_mean(void)
