@@ -84,8 +84,8 @@ VIEW_SRC  := $(wildcard tools/view/*.c)
 BENCH_SRC := $(wildcard tools/bench/*.c)
 # Of the tools only what the demo uses, so that a fresh clone shows it in seconds.
 DEMO_SRC  := $(wildcard tools/demo/*.c) $(addprefix tools/player/,crew.c device.c exact.c picture.c) $(addprefix tools/options/,say.c sink.c) \
-    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c output.c palette.c pfm.c \
-        png_read.c png_write.c ppm.c) \
+    $(addprefix tools/image/,animation.c apng.c crc32.c deflate.c file.c gif.c image.c inflate.c netpbm.c output.c palette.c \
+        png_read.c png_write.c) \
     $(addprefix tools/scenes/,backdrop.c build.c demo.c demo_car.c demo_drone.c demo_track.c present.c present_surface.c scene.c stage.c)
 REF_SRC   := $(wildcard tools/ref/*.c)
 TOOL_SRC  := $(IMAGE_SRC) $(MODEL_SRC) $(SCENE_SRC) $(CONVERT_SRC)

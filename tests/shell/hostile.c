@@ -7,17 +7,11 @@
  */
 #include "tools/image/png.h"
 
-static void put32(struct buffer *b, uint32_t value)
-{
-    buffer_le16(b, value);
-    buffer_le16(b, value >> 16);
-}
-
 static void put_float(struct buffer *b, float value)
 {
     uint32_t word;
     memcpy(&word, &value, 4);
-    put32(b, word);
+    buffer_le32(b, word);
 }
 
 static uint32_t state = 1;
@@ -51,14 +45,14 @@ static void write_glb(struct glb *g, FILE *to)
     while (g->bin.size % 4 != 0)
         buffer_byte(&g->bin, 0);
     buffer_append(&out, "glTF", 4);
-    put32(&out, 2);
-    put32(&out, (uint32_t)(12 + 8 + g->json.size + (g->bin.size > 0 ? 8 + g->bin.size : 0)));
-    put32(&out, (uint32_t)g->json.size);
-    put32(&out, 0x4e4f534a);
+    buffer_le32(&out, 2);
+    buffer_le32(&out, (uint32_t)(12 + 8 + g->json.size + (g->bin.size > 0 ? 8 + g->bin.size : 0)));
+    buffer_le32(&out, (uint32_t)g->json.size);
+    buffer_le32(&out, 0x4e4f534a);
     buffer_append(&out, g->json.data, g->json.size);
     if (g->bin.size > 0) {
-        put32(&out, (uint32_t)g->bin.size);
-        put32(&out, 0x004e4942);
+        buffer_le32(&out, (uint32_t)g->bin.size);
+        buffer_le32(&out, 0x004e4942);
         buffer_append(&out, g->bin.data, g->bin.size);
     }
     fwrite(out.data, 1, out.size, to);
@@ -70,7 +64,7 @@ static void triangles(struct glb *g, unsigned vertices, unsigned corners)
     for (unsigned i = 0; i < vertices * 3; i++)
         put_float(&g->bin, any_place());
     for (unsigned i = 0; i < corners; i++)
-        put32(&g->bin, i < vertices ? i : any(vertices));
+        buffer_le32(&g->bin, i < vertices ? i : any(vertices));
 }
 
 /* Accessors 0 (positions) and 1 (indices) of triangles() and the views 0 and 1 behind them. */
@@ -146,7 +140,7 @@ static void skins(struct glb *g)
     for (int i = 0; i < 9; i++)
         put_float(&g->bin, corner[i]);
     for (unsigned i = 0; i < 3; i++)
-        put32(&g->bin, i);
+        buffer_le32(&g->bin, i);
     for (unsigned i = 0; i < 12; i++)           /* joints of three vertices, and their weights */
         buffer_append(&g->bin, i % 4 == 0 ? "\1\0" : "\0\0", 2);
     for (unsigned i = 0; i < 12; i++)
@@ -203,7 +197,7 @@ static void layers(struct glb *g)
     for (int i = 0; i < 9; i++)
         put_float(&g->bin, far[i]);
     for (unsigned i = 0; i < corners; i++)
-        put32(&g->bin, i % 3);
+        buffer_le32(&g->bin, i % 3);
     buffer_print(&g->json, BEGIN ",'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'camera':0,'translation':[0,0,3]}],"
         "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}],'materials':[{'doubleSided':true,"
         "'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}]"

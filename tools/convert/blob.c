@@ -9,21 +9,10 @@
 
 #include <string.h>
 
-static void put_u16(struct buffer *b, unsigned value)
-{
-    buffer_le16(b, value & 0xffffu);
-}
-
-static void put_u32(struct buffer *b, uint32_t value)
-{
-    put_u16(b, value & 0xffffu);
-    put_u16(b, value >> 16);
-}
-
 static void put_i32s(struct buffer *b, const int32_t *value, int count)
 {
     for (int i = 0; i < count; i++)
-        put_u32(b, (uint32_t)value[i]);
+        buffer_le32(b, (uint32_t)value[i]);
 }
 
 static void align(struct buffer *b)
@@ -41,9 +30,9 @@ static void put_array(struct buffer *b, const void *data, size_t count, int size
         if (size == 1)
             buffer_byte(b, bytes[i]);
         else if (size == 2)
-            put_u16(b, halves[i]);
+            buffer_le16(b, halves[i]);
         else
-            put_u32(b, words[i]);
+            buffer_le32(b, words[i]);
     }
     align(b);
 }
@@ -109,11 +98,11 @@ static void put_surfaces(struct blob_writer *w)
     begin_table(w, BLOB_TEXTURE, c->texture_count);
     for (int i = 0; i < c->texture_count; i++) {
         const smear_texture *t = &c->texture[i];
-        put_u32(b, w->texels[i]);
-        put_u32(b, w->palette[i]);
-        put_u16(b, (unsigned)c->palette_count[i]);
-        put_u16(b, t->width);
-        put_u16(b, t->height);
+        buffer_le32(b, w->texels[i]);
+        buffer_le32(b, w->palette[i]);
+        buffer_le16(b, (unsigned)c->palette_count[i]);
+        buffer_le16(b, t->width);
+        buffer_le16(b, t->height);
         buffer_byte(b, t->format);
         buffer_byte(b, t->wrap_u);
         buffer_byte(b, t->wrap_v);
@@ -123,7 +112,7 @@ static void put_surfaces(struct blob_writer *w)
     begin_table(w, BLOB_MATERIAL, c->model.material_count);
     for (int i = 0; i < c->model.material_count; i++) {
         const smear_material *m = &c->model.material[i];
-        put_u16(b, m->texture != NULL ? (unsigned)(m->texture - c->texture) : SMEAR_MODEL_NONE);
+        buffer_le16(b, m->texture != NULL ? (unsigned)(m->texture - c->texture) : SMEAR_MODEL_NONE);
         for (int k = 0; k < 4; k++)
             buffer_byte(b, m->color[k]);
         buffer_byte(b, m->alpha);
@@ -137,17 +126,17 @@ static void put_surfaces(struct blob_writer *w)
     for (int i = 0; i < c->model.mesh_count; i++) {
         const smear_mesh *mesh = &c->model.mesh[i];
         const struct smear_blob_mesh *at = &w->mesh[i];
-        put_u32(b, at->position);
-        put_u32(b, at->normal);
-        put_u32(b, at->uv);
-        put_u32(b, at->color);
-        put_u32(b, at->face_color);
-        put_u32(b, at->index);
-        put_u32(b, mesh->triangle_count);
-        put_u16(b, mesh->vertex_count);
+        buffer_le32(b, at->position);
+        buffer_le32(b, at->normal);
+        buffer_le32(b, at->uv);
+        buffer_le32(b, at->color);
+        buffer_le32(b, at->face_color);
+        buffer_le32(b, at->index);
+        buffer_le32(b, mesh->triangle_count);
+        buffer_le16(b, mesh->vertex_count);
         buffer_byte(b, (uint8_t)mesh->shift);
         buffer_byte(b, mesh->uv_shift);
-        put_u32(b, (uint32_t)mesh->scale);
+        buffer_le32(b, (uint32_t)mesh->scale);
         put_i32s(b, mesh->offset, 3);
     }
 }
@@ -178,16 +167,16 @@ static void put_head(struct buffer *b, const smear_model *m)
 {
     const uint32_t words[4] = { SMEAR_BLOB_MAGIC, SMEAR_MODEL_FORMAT, 0, 0 };
     put_array(b, words, 4, 4);
-    put_u16(b, m->transform_count);
-    put_u16(b, m->deformed_count);
-    put_u16(b, m->joint_count);
-    put_u16(b, m->normals);
-    put_u32(b, m->deformed_vertices);
-    put_u32(b, (uint32_t)m->unit_shift);
+    buffer_le16(b, m->transform_count);
+    buffer_le16(b, m->deformed_count);
+    buffer_le16(b, m->joint_count);
+    buffer_le16(b, m->normals);
+    buffer_le32(b, m->deformed_vertices);
+    buffer_le32(b, (uint32_t)m->unit_shift);
     put_i32s(b, m->center, 3);
-    put_u32(b, (uint32_t)m->radius);
+    buffer_le32(b, (uint32_t)m->radius);
     for (int i = 0; i < 2 * BLOB_TABLES; i++)
-        put_u32(b, 0);
+        buffer_le32(b, 0);
 }
 
 bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, struct failure *f)
@@ -210,13 +199,9 @@ bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, 
     free(w.mesh);
     free(w.texels);
     free(w.palette);
-    if (!ok) {
+    if (!ok || w.b.size > 1u << 30) {
         buffer_free(&w.b);
-        return fail(f, "out of memory");
-    }
-    if (w.b.size > 1u << 30) {
-        buffer_free(&w.b);
-        return fail(f, "is larger than a gigabyte");
+        return fail(f, ok ? "is larger than a gigabyte" : "out of memory");
     }
     for (size_t i = 0; i < BLOB_TABLES; i++) {
         set_u32(&w.b, offsetof(struct smear_blob_head, table) + 8 * i, w.table[i].at);
@@ -224,9 +209,7 @@ bool convert_to_blob(const struct conversion *c, uint8_t **bytes, size_t *size, 
     }
     set_u32(&w.b, 8, (uint32_t)w.b.size);
     set_u32(&w.b, 12, crc32_update(0, w.b.data + SMEAR_BLOB_CRC_FROM, w.b.size - SMEAR_BLOB_CRC_FROM));
-    *bytes = w.b.data;
-    *size = w.b.size;
-    return true;
+    return buffer_give(&w.b, bytes, size);
 }
 
 /* ------------------------------------------------------------------ records */

@@ -372,8 +372,7 @@ static void put_top(struct header_writer *w, const char *from)
 {
     const smear_model *m = &w->c->model;
     buffer_print(&w->b, "/* %s.h - ", w->name);
-    for (; *from != '\0'; from++)           /* nothing that ends the comment */
-        buffer_byte(&w->b, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
+    buffer_comment(&w->b, from);
     buffer_print(&w->b, " for smear, written by smear convert.\n *\n"
            " * %d triangles, %d vertices, %u draws, %d textures, %u nodes, %u clips: "
            "%zu bytes of constant data.\n"
@@ -403,7 +402,7 @@ bool convert_to_header(const struct conversion *c, const char *name, const char 
     for (size_t i = 0; i < length; i++)
         w.upper[i] = name[i] >= 'a' && name[i] <= 'z' ? (char)(name[i] - 'a' + 'A') : name[i];
     put_top(&w, from);
-    bool ok = put_clip_constants(&w);
+    w.b.failed = !put_clip_constants(&w) || w.b.failed;
     put_constants(&w, "NODE", c->node_name, c->model.node_count);
     buffer_print(&w.b, "\n");
     put_textures(&w);
@@ -413,11 +412,5 @@ bool convert_to_header(const struct conversion *c, const char *name, const char 
     put_model(&w);
     put_lights(&w);
     buffer_print(&w.b, "#endif\n");
-    if (w.b.failed || !ok) {
-        buffer_free(&w.b);
-        return fail(f, "out of memory");
-    }
-    *bytes = w.b.data;
-    *size = w.b.size;
-    return true;
+    return buffer_give(&w.b, bytes, size) || fail(f, "out of memory");
 }

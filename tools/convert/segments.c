@@ -89,8 +89,7 @@ bool segments_to_header(const uint8_t *bytes, size_t size, double scale, const c
     for (size_t i = 0; name[i] != '\0' && i + 1 < sizeof big; i++)
         big[i] = (char)(name[i] >= 'a' && name[i] <= 'z' ? name[i] - 'a' + 'A' : name[i]);
     buffer_print(&r.out, "/* %s.h - ", name);
-    for (; *from != '\0'; from++)               /* nothing that ends the comment */
-        buffer_byte(&r.out, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
+    buffer_comment(&r.out, from);
     buffer_print(&r.out, " for smear, written by smear convert. Include it in one source file. */\n#include <smear_ribbon.h>\n\n"
                          "static const smear_segment %s[] = {\n", name);
     bool ok = true;
@@ -99,14 +98,10 @@ bool segments_to_header(const uint8_t *bytes, size_t size, double scale, const c
     if (ok && r.count == 0)
         ok = fail(f, "no lines (l): --lines is for OBJ files that have some");
     buffer_print(&r.out, "};\n\n#define %s_SEGMENTS %d\n", big, r.count);
-    if (ok && r.out.failed)
-        ok = fail(f, "out of memory");
     obj_text_close(&r.text);
     free(r.place);
+    *count = r.count;
     if (!ok)
         buffer_free(&r.out);
-    *out = ok ? r.out.data : NULL;
-    *out_size = ok ? r.out.size : 0;
-    *count = r.count;
-    return ok;
+    return buffer_give(&r.out, out, out_size) || (ok && fail(f, "out of memory"));
 }

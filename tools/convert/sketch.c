@@ -35,33 +35,27 @@ struct zip {
     unsigned count;
 };
 
-static void put_le32(struct buffer *b, size_t value)
-{
-    buffer_le16(b, value & 65535);
-    buffer_le16(b, value >> 16 & 65535);
-}
-
 static void zip_add(struct zip *z, const char *name, const void *data, size_t size)
 {
     const size_t at = z->files.size;
     const uint32_t crc = crc32_update(0, data, size);
     for (int i = 0; i < 2; i++) {
         struct buffer *b = i == 0 ? &z->files : &z->directory;
-        put_le32(b, i == 0 ? 0x04034b50 : 0x02014b50);
+        buffer_le32(b, i == 0 ? 0x04034b50 : 0x02014b50);
         if (i == 1)
             buffer_le16(b, 10);                 /* made by version 1.0 of MS-DOS */
-        put_le32(b, 10);                        /* read by it; no flags */
-        put_le32(b, 0);                         /* stored, at midnight */
+        buffer_le32(b, 10);                        /* read by it; no flags */
+        buffer_le32(b, 0);                         /* stored, at midnight */
         buffer_le16(b, 1 << 5 | 1);             /* of 1980-01-01 */
-        put_le32(b, crc);
-        put_le32(b, size);
-        put_le32(b, size);
+        buffer_le32(b, crc);
+        buffer_le32(b, (uint32_t)size);
+        buffer_le32(b, (uint32_t)size);
         buffer_le16(b, (unsigned)strlen(name));
         buffer_le16(b, 0);
         for (int k = 0; i == 1 && k < 5; k++)   /* no comment; disk 0; no attributes */
             buffer_le16(b, 0);
         if (i == 1)
-            put_le32(b, at);
+            buffer_le32(b, (uint32_t)at);
         buffer_append(b, name, strlen(name));
     }
     buffer_append(&z->files, data, size);
@@ -73,22 +67,16 @@ static bool zip_end(struct zip *z, uint8_t **bytes, size_t *size, struct failure
     struct buffer *b = &z->files;
     const size_t at = b->size, length = z->directory.size;
     buffer_append(b, z->directory.data, length);
-    put_le32(b, 0x06054b50);
-    put_le32(b, 0);
+    buffer_le32(b, 0x06054b50);
+    buffer_le32(b, 0);
     buffer_le16(b, z->count);
     buffer_le16(b, z->count);
-    put_le32(b, length);
-    put_le32(b, at);
+    buffer_le32(b, (uint32_t)length);
+    buffer_le32(b, (uint32_t)at);
     buffer_le16(b, 0);
-    const bool ok = !b->failed && !z->directory.failed;
+    b->failed = b->failed || z->directory.failed;
     buffer_free(&z->directory);
-    if (!ok) {
-        buffer_free(b);
-        return fail(f, "out of memory");
-    }
-    *bytes = b->data;
-    *size = b->size;
-    return true;
+    return buffer_give(b, bytes, size) || fail(f, "out of memory");
 }
 
 /* ------------------------------------------------------------------ the kit */

@@ -129,8 +129,7 @@ static void put_header(struct sprite *s, const char *name, const char *from, con
     static const char *const formats[] = { "MASK1", "MASK4", "PALETTE4", "PALETTE8" };
     struct buffer *out = &s->text;
     buffer_print(out, "/* %s.h - ", name);
-    for (; *from != '\0'; from++)           /* nothing that ends the comment */
-        buffer_byte(out, *from == '*' || (unsigned char)*from < 32 ? '?' : (unsigned char)*from);
+    buffer_comment(out, from);
     buffer_print(out, " for smear, written by smear convert: %d of %dx%d pixels, %zu bytes.\n * Include it in one source file. */\n",
                  r->cells, r->width, r->height, r->bytes);
     buffer_print(out, "#include <smear_overlay.h>\n\n");
@@ -167,14 +166,9 @@ bool sprite_to_header(const struct image *image, const struct sprite_options *op
     pack(&s, by_alpha);
     const size_t palette = s.color_count == 0 ? 0 : s.format == SMEAR_IMAGE_PALETTE4 ? 64 : 1024;
     *report = (struct sprite_report){ s.width, s.height, s.cells, formats[s.format], s.pixels.size + palette };
+    s.text.failed = s.pixels.failed;
     if (!s.pixels.failed)
         put_header(&s, name, from, report);
     buffer_free(&s.pixels);
-    if (s.pixels.failed || s.text.failed) {
-        buffer_free(&s.text);
-        return fail(f, "out of memory");
-    }
-    *bytes = s.text.data;
-    *size = s.text.size;
-    return true;
+    return buffer_give(&s.text, bytes, size) || fail(f, "out of memory");
 }

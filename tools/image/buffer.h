@@ -69,10 +69,33 @@ static inline void buffer_le16(struct buffer *b, unsigned value)
     buffer_byte(b, value >> 8 & 255);
 }
 
+static inline void buffer_le32(struct buffer *b, uint32_t value)
+{
+    buffer_le16(b, value & 65535);
+    buffer_le16(b, value >> 16);
+}
+
 static inline void buffer_be32(struct buffer *b, uint32_t value)
 {
     for (int shift = 24; shift >= 0; shift -= 8)
         buffer_byte(b, value >> shift & 255);
+}
+
+/* Text for a comment of C: nothing in it ends one. */
+static inline void buffer_comment(struct buffer *b, const char *text)
+{
+    for (; *text != '\0'; text++)
+        buffer_byte(b, *text == '*' || (unsigned char)*text < 32 ? '?' : (unsigned char)*text);
+}
+
+/* Hands the bytes over, for the caller to free; false, and none, where memory has run out. */
+static inline bool buffer_give(struct buffer *b, uint8_t **bytes, size_t *size)
+{
+    if (b->failed)
+        buffer_free(b);
+    *bytes = b->data;
+    *size = b->size;
+    return b->data != NULL;
 }
 
 /* Text in printf style, of 1000 bytes at most. */

@@ -148,16 +148,9 @@ bool png_encode(const struct image *image, uint8_t **bytes, size_t *size, struct
         png_header_chunk(&out, image->width, image->height, has_alpha);
         png_chunk(&out, "IDAT", packed.data, packed.size);
         png_chunk(&out, "IEND", NULL, 0);
-        ok = !out.failed;
     }
     buffer_free(&packed);
-    if (!ok) {
-        buffer_free(&out);
-        return fail(f, "out of memory (picture of %d x %d)", image->width, image->height);
-    }
-    *bytes = out.data;
-    *size = out.size;
-    return true;
+    return (ok && buffer_give(&out, bytes, size)) || fail(f, "out of memory (picture of %d x %d)", image->width, image->height);
 }
 
 bool png_save(const char *path, const struct image *image, struct failure *f)

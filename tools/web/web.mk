@@ -8,7 +8,7 @@ WEB    := build/web
 
 # What the page needs of the tools, and scenes that are to be looked at in place of all.
 WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tools/web/libc/*.c) $(LIB_SRC) $(MODEL_SRC) $(CONVERT_SRC) \
-    $(filter-out $(addprefix tools/image/,apng.c metrics.c output.c pfm.c ppm.c),$(IMAGE_SRC)) \
+    $(filter-out $(addprefix tools/image/,apng.c metrics.c netpbm.c output.c),$(IMAGE_SRC)) \
     $(addprefix tools/scenes/,backdrop.c build.c builtin.c demo.c demo_car.c demo_drone.c demo_track.c methods.c model_scene.c present.c present_surface.c \
         scene.c stage.c sight.c) \
     $(filter-out $(addprefix tools/cli/,compare.c help.c info.c main.c render.c show.c show_choose.c view.c) $(addprefix tools/options/,apart.c sink.c) \
