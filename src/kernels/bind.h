@@ -256,22 +256,10 @@
 
 /* TEXEL_BLOCKS: several blocks of copied texels along a row are one. */
 #define TEXEL_BLOCKS SMEAR_ASM_ARMV7EM
-#if TEXEL_BLOCKS
-#define texel_blocks texel_blocks_armv7em
-#else
-#define texel_blocks texel_blocks_reference
-#endif
 
 /* TEXEL_CURVE_ROWS where rows of copied texels whose places are polynomials, one below the other, are a kernel: compilers have no
  * registers for what rows have in common. */
 #define TEXEL_CURVE_ROWS (SMEAR_ASM_ARMV6M || SMEAR_ASM_ARMV7EM)
-#if SMEAR_ASM_ARMV6M
-#define texel_curve_rows_draw texel_curve_rows_armv6m
-#elif SMEAR_ASM_ARMV7EM
-#define texel_curve_rows_draw texel_curve_rows_armv7em
-#else
-#define texel_curve_rows_draw texel_curve_rows_reference
-#endif
 
 /* ------------------------------------------------------------------ high words of products, from products of 16 bits */
 

@@ -45,14 +45,7 @@ static inline void fill_eights(pixel_word *p, uint32_t value, int32_t n, int32_t
 }
 #endif
 
-/* Sets n >= 0 words. */
-static inline void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
-{
-    for (int32_t i = 0; i < n; i++)
-        p[i] = value;
-}
-
-/* Eight words a round: stores of many registers where a core has them. */
+/* Sets n >= 0 words, eight a round: stores of many registers where a core has them. */
 static inline void pixels_fill(uint32_t *p, uint32_t value, int32_t n)
 {
     fill_eights(p, value, n >> 3, n, 1);
@@ -73,14 +66,7 @@ static inline void pixels_fill_rows(uint32_t *p, uint32_t value, int32_t n, int3
             p[i] = value;
 }
 
-/* Sets n >= 0 pixels of 16 bits to value < 2^16. */
-static inline void pixels_fill_narrow_reference(uint16_t *p, uint32_t value, int32_t n)
-{
-    for (int32_t i = 0; i < n; i++)
-        p[i] = (uint16_t)value;
-}
-
-/* In words, from the first aligned one on. */
+/* Sets n >= 0 pixels of 16 bits to value < 2^16: in words, from the first aligned one on. */
 static inline void pixels_fill_narrow(uint16_t *p, uint32_t value, int32_t n)
 {
     if (n > 0 && ((uintptr_t)p & 2u) != 0) {

@@ -69,24 +69,6 @@ static inline void flat_lines_go_down(struct flat_lines *l, struct edge_fine sid
     l->depth = (uint16_t *)(void *)((uint8_t *)l->depth + l->depth_bytes);
 }
 
-/* Draws pixels of n rows, one at least, from one side to before the other, if there are any, like flat_run. The next row is then that
- * below. */
-static inline void flat_lines_reference(struct flat_lines *l, int32_t n)
-{
-    struct edge_fine side[2];
-    flat_lines_take_sides(l, side);
-    for (; n > 0; n--) {
-        void *const pixels = (void *)((uintptr_t)l->depth * (l->narrow ? 1u : 2u) + l->to_pixels);
-        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
-        for (int32_t x = a; x < b; x++)
-            flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, l->breaks), l->narrow ? l->color & 0xffffu : l->color,
-                       l->narrow);
-        flat_lines_go_down(l, side);
-    }
-    flat_lines_side(l, 0, &side[0]);
-    flat_lines_side(l, 1, &side[1]);
-}
-
 /* Draws pixels [a, b) of the next row, a < b. Those of a row whose codes have their break within it one by one. */
 SMEAR_INLINE void flat_line(const struct flat_lines *l, int32_t a, int32_t b, bool narrow)
 {

@@ -44,7 +44,8 @@ static inline void flat_lines_start(struct flat_lines *l, int side, const int32_
     flat_lines_start_any(l, side, a, b, rows);
 }
 
-/* Draws as flat_lines_reference does. `narrow`: l->narrow, where that may be. */
+/* Draws pixels of n rows, one at least, from one side to before the other, if there are any, like flat_run. The next row is then that
+ * below. `narrow`: l->narrow, where that may be. */
 SMEAR_INLINE void flat_lines(struct flat_lines *l, int32_t n, bool narrow)
 {
 #if SMEAR_ASM_ARMV6M

@@ -7,21 +7,11 @@
 #include "kernels/kernels.h"
 #include "kernels/vector.h"
 
-/* Whether all depths of `rows` rows of n >= 1 pairs, one `stride` pairs below the other, are 2 half at least; half is 2^15 - 1 at most.
- * Pairs lie on multiples of four bytes. */
-SMEAR_INLINE bool hidden_box_reference(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
-{
-    for (; rows > 0; rows--, depth += stride)
-        for (int32_t i = 0; i < n; i++)
-            if ((depth[i] & 0xffffu) >> 1 < half || depth[i] >> 17 < half)
-                return false;
-    return true;
-}
-
 /* Of two depths, halved, less the two of `least` the highest bit stays where they are no less. */
 #define HIDDEN_PAIR(I) all &= (pair[I] >> 1 | top) - least
 
-/* Both at once: 2 1/2 instructions a pixel, of 6. */
+/* Whether all depths of `rows` rows of n >= 1 pairs, one `stride` pairs below the other, are 2 half at least; half is 2^15 - 1 at most.
+ * Pairs lie on multiples of four bytes. 2 1/2 instructions a pixel. */
 SMEAR_INLINE bool hidden_box_unrolled(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
 {
     const uint32_t least = half * 0x10001u;

@@ -6,8 +6,9 @@
  *
  * A kernel NAME consists of
  *   - its contract, the comment above it: shapes, ranges, alignment, what may overlap, rounding;
- *   - NAME_reference, a short scalar loop that defines the result bit for bit;
- *   - its variants, beside the reference: NAME_lanes or NAME_vector where SMEAR_VECTORS is set, NAME_armv6m where
+ *   - NAME_reference, a short scalar loop that defines the result bit for bit: here where some build draws by it, else beside its
+ *     test in tests/kernels/FAMILY.c;
+ *   - its variants: NAME_lanes or NAME_vector where SMEAR_VECTORS is set, NAME_armv6m where
  *     SMEAR_ASM_ARMV6M is, NAME_armv7em where SMEAR_ASM_ARMV7EM is, NAME_arm where SMEAR_ASM_ARM is, NAME_unrolled
  *     where plain C that compilers turn into better code pays on every core;
  *   - NAME itself, which the library calls: the best variant of this build, else the reference. bind.h says which that is.

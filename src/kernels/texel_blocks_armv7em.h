@@ -10,21 +10,6 @@
 
 /* Draws `count` >= 0 whole blocks, then `rest` pixels that are no more than a block and the one behind them, if there are any. Of
  * the run, colours, depths and z are then those of the next pixel, and coordinates and their changes are anything. */
-static inline void texel_blocks_reference(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height,
-                                          enum texel_kind kind)
-{
-    for (; count > 0; count--) {
-        texel_track_next_reference(k);
-        texels_draw_reference(&k->run, 1 << k->log2, log2_width, log2_height, kind);
-    }
-    while (rest > 0) {
-        const int32_t n = block_next(1 << k->log2, rest);
-        texel_track_part_reference(k, n);
-        rest -= n;
-        texels_draw_reference(&k->run, n + (rest == 0), log2_width, log2_height, kind);
-    }
-}
-
 #if SMEAR_ASM_ARMV7EM
 
 SMEAR_STATIC_ASSERT(offsetof(struct texel_track, q) == 52 && offsetof(struct texel_track, place) == 64
@@ -230,6 +215,10 @@ static inline __attribute__((always_inline)) void texel_blocks_armv7em(struct te
     else
         ARMV7EM_BLOCKS(WIDE, "ldr r8, [r0, #-28]\n\tldrd r7, r9, [r0, #-24]\n\t", "str r8, [r0, #-28]\n\tstrd r7, r9, [r0, #-24]");
 }
+#define texel_blocks texel_blocks_armv7em
+#else
+/* Nowhere, and not called. */
+void texel_blocks(struct texel_track *k, int32_t count, int32_t rest, int log2_width, int log2_height, enum texel_kind kind);
 #endif
 
 #endif

@@ -31,13 +31,6 @@ SMEAR_STATIC_ASSERT(offsetof(struct texel_curve_rows, u) == 32 && offsetof(struc
                     "the assembly knows struct texel_curve_rows and struct span_side");
 #endif
 
-static inline uint32_t curve_at(const struct curve *p, uint32_t x, uint32_t y, uint32_t *step)
-{
-    const uint32_t dxx = (uint32_t)p->dxx, dx = (uint32_t)p->dxy * y + (uint32_t)p->dx + dxx * x;
-    *step = dx + dxx * (x + 1u);
-    return (uint32_t)p->at + ((uint32_t)p->dyy * y + (uint32_t)p->dy) * y + dx * x;
-}
-
 /* Assembly begins each row by going on to the next one. */
 static inline void texel_curve_rows_before(struct texel_curve_rows *r)
 {
@@ -48,24 +41,6 @@ static inline void texel_curve_rows_before(struct texel_curve_rows *r)
 
 /* Draws rows from left to before right, where there are such pixels, as texels_draw does. Afterwards the rows are anything. Texels are
  * narrow or wide. */
-static inline void texel_curve_rows_reference(struct texel_curve_rows *r, int log2_width, int log2_height, enum texel_kind kind)
-{
-    for (int32_t row = 0; row < r->count; row++) {
-        const int32_t left = r->side[row].left, n = r->side[row].right - left, bytes = row * r->stride + 2 * left;
-        struct texel_run run = { .dz = r->dz, .texels = r->texels };
-        struct texcoord c = { .curvature_u = 0u - r->ddu, .curvature_v = 0u - r->ddv };
-        c.u = curve_at(&r->u, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.du);
-        c.v = curve_at(&r->v, (uint32_t)(left - r->x0), (uint32_t)(r->y + row), &c.dv);
-        texcoord_run(&run, c);
-        texel_run_start(&run, log2_width, log2_height);
-        run.z = r->z + r->dz_down * (uint32_t)row + r->dz * (uint32_t)left;
-        run.depth = (uint16_t *)((uintptr_t)r->depth + (uintptr_t)bytes);
-        run.color = (void *)((uintptr_t)run.depth * (texels_are_narrow(kind) ? 1u : 2u) + (uintptr_t)r->to_pixels);
-        if (n > 0)
-            texels_draw_reference(&run, n, log2_width, log2_height, kind);
-    }
-}
-
 #if SMEAR_ASM_ARMV6M
 
 /* Of a polynomial at r7, of x in r10 and y in r6: the value into r4, the first change into r3. Takes r0 to r5. */
@@ -177,6 +152,7 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv6m(struct
     else
         ARMV6M_CURVE_ROWS("ldr", ARMV6M_STORE_WIDE, "2", "38", "adds r0, r1, r1\n\tadds r0, r0, r6\n\t");
 }
+#define texel_curve_rows_draw texel_curve_rows_armv6m
 #endif
 
 #if SMEAR_ASM_ARMV7EM
@@ -234,6 +210,12 @@ static inline __attribute__((always_inline)) void texel_curve_rows_armv7em(struc
     else
         ARMV7EM_CURVE_ROWS(WIDE, "add r8, r8, r7, lsl #1\n\t");
 }
+#define texel_curve_rows_draw texel_curve_rows_armv7em
+#endif
+
+#if !TEXEL_CURVE_ROWS
+/* Nowhere, and not called. */
+void texel_curve_rows_draw(struct texel_curve_rows *rows, int log2_width, int log2_height, enum texel_kind kind);
 #endif
 
 #endif

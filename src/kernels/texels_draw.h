@@ -10,21 +10,6 @@
  * which it then replaces, the pixel becomes the texel at the run's coordinates. Then z changes by dz, u and v by du
  * and dv, these by ddu and ddv, all modulo 2^32. Afterwards color, depth and z are those of the next pixel; coordinates
  * and their changes are as before. Sizes are 2 at least; texels, light, colours and depths don't overlap. */
-SMEAR_INLINE void texels_draw_reference(struct texel_run *run, int32_t n, int log2_width, int log2_height,
-                                        enum texel_kind kind)
-{
-    struct texel_run r = *run;
-    for (; n > 0; n--) {
-        texel_pixel(r.color, r.depth, r.z, r.texels, r.light, texel_run_uv(&r), log2_width, log2_height, kind);
-        texel_run_advance(&r, 1, texels_are_narrow(kind));
-        texel_run_step(&r);
-        r.z += r.dz;
-    }
-    run->color = r.color;
-    run->depth = r.depth;
-    run->z = r.z;
-}
-
 #if TEXELS_PACKED
 SMEAR_INLINE void texels_step(struct texel_run *r, int32_t i, int log2_width, int log2_height, enum texel_kind kind)
 {

@@ -38,93 +38,6 @@ static inline int32_t pair_x(uint32_t pair) { return (int16_t)(pair & 0xffffu); 
 static inline int32_t pair_y(uint32_t pair) { return (int16_t)(pair >> 16); }
 static inline uint32_t pair_of(int32_t x, int32_t y) { return ((uint32_t)x & 0xffffu) | (uint32_t)y << 16; }
 
-static inline int32_t triangle_bias(int32_t dx, int32_t dy) { return ~(dy * 65536 - dx) >> 31; }
-
-/* Finds which centres of a tiny box are covered. */
-static inline void triangle_cover(struct smear_triangles *out, int k, const struct smear_place *first)
-{
-    const int32_t x1 = pair_x(out->edge1[k]), y1 = pair_y(out->edge1[k]);
-    const int32_t x2 = pair_x(out->edge2[k]), y2 = pair_y(out->edge2[k]);
-    const int32_t cx = (int16_t)(pair_x(out->low[k]) * 256 + 128 - first->screen.x);
-    const int32_t cy = (int16_t)(pair_y(out->low[k]) * 256 + 128 - first->screen.y);
-    int32_t e2 = x1 * cy - y1 * cx, e1 = y2 * cx - x2 * cy;
-    int32_t e0 = out->area[k] - e1 - e2 + triangle_bias(x2 - x1, y2 - y1);
-    e1 += triangle_bias(-x2, -y2);
-    e2 += triangle_bias(x1, y1);
-    out->e1[k] = e1;
-    out->e2[k] = e2;
-    out->covered[k] = 0;
-    for (int i = 0; i < 4; i++) {
-        const int32_t right = (i & 1) * 256, down = (i >> 1) * 256;
-        const int32_t all = (e0 + right * (y1 - y2) + down * (x2 - x1)) | (e1 + right * y2 - down * x2)
-                          | (e2 - right * y1 + down * x1);
-        if (all >= 0 && pair_x(out->low[k]) + (i & 1) < pair_x(out->high[k])
-            && pair_y(out->low[k]) + (i >> 1) < pair_y(out->high[k]))
-            out->covered[k] |= 1u << i;
-    }
-}
-
-static inline bool edge_is_far(int32_t d) { return d > TRIANGLES_EDGE_MOST || d < -TRIANGLES_EDGE_MOST - 1; }
-
-/* Looks at triangle k; false where it is not seen. */
-static inline bool triangle_look(struct smear_triangles *out, int k, const struct smear_place *const p[3],
-                                 const struct triangles_setup *s)
-{
-    int32_t x[2], y[2], low[2] = { INT16_MAX, INT16_MAX }, high[2] = { INT16_MIN, INT16_MIN };
-    for (int i = 0; i < 2; i++) {
-        x[i] = p[i + 1]->screen.x - p[0]->screen.x;
-        y[i] = p[i + 1]->screen.y - p[0]->screen.y;
-        if (edge_is_far(x[i]) || edge_is_far(y[i])) {
-            out->far |= 1u << k;
-            return false;
-        }
-    }
-    int32_t area = x[0] * y[1] - x[1] * y[0];
-    const bool back = s->both_sides && area < 0;
-    area = back ? -area : area;
-    if (area <= 0)
-        return false;
-    for (int i = 0; i < 3; i++) {
-        low[0] = min_i32(low[0], pair_x(p[i]->first));
-        low[1] = min_i32(low[1], pair_y(p[i]->first));
-        high[0] = max_i32(high[0], pair_x(p[i]->first));
-        high[1] = max_i32(high[1], pair_y(p[i]->first));
-    }
-    for (int i = 0; i < 2; i++) {
-        low[i] = (int16_t)(low[i] - s->margin);
-        high[i] = (int16_t)(high[i] + s->margin);
-    }
-    const bool tiny = (int16_t)(high[0] - low[0]) <= 2 && (int16_t)(high[1] - low[1]) <= 2;
-    low[0] = max_i32(low[0], pair_x(s->low));
-    low[1] = max_i32(low[1], pair_y(s->low));
-    high[0] = min_i32(high[0], pair_x(s->high));
-    high[1] = min_i32(high[1], pair_y(s->high));
-    if (low[0] >= high[0] || low[1] >= high[1])
-        return false;
-    out->area[k] = area;
-    out->low[k] = pair_of(low[0], low[1]);
-    out->high[k] = pair_of(high[0], high[1]);
-    out->edge1[k] = pair_of(x[back], y[back]);
-    out->edge2[k] = pair_of(x[!back], y[!back]);
-    out->back |= (uint32_t)back << k;
-    if (!tiny)
-        return true;
-    out->tiny |= 1u << k;
-    triangle_cover(out, k, p[0]);
-    return out->covered[k] != 0;
-}
-
-static inline void triangles_reference(struct smear_triangles *out, const struct smear_place *place,
-                                       const uint16_t index[12], const struct triangles_setup *s)
-{
-    out->seen = out->far = out->tiny = out->back = 0;
-    for (int k = 0; k < 4; k++) {
-        const uint16_t *i = index + 3 * k;
-        const struct smear_place *const p[3] = { place + i[0], place + i[s->second], place + i[s->third] };
-        out->seen |= (uint32_t)triangle_look(out, k, p, s) << k;
-    }
-}
-
 #if SMEAR_VECTORS
 /* The same corner of four triangles: places of two in each vector of four numbers, and pairs of `first`. */
 struct triangles_corner {
@@ -248,7 +161,7 @@ SMEAR_INLINE void triangles_vector(struct smear_triangles *out, const struct sme
 }
 #define triangles_look triangles_vector
 #else
-#define triangles_look triangles_reference
+triangles_fn triangles_look;            /* nowhere: SMEAR_PLACES */
 #endif
 
 /* ------------------------------------------------------------------ indices */

@@ -4,6 +4,18 @@
 
 #include "tests/kernels/kernels.h"
 
+static void pixels_fill_reference(uint32_t *p, uint32_t value, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++)
+        p[i] = value;
+}
+
+static void pixels_fill_narrow_reference(uint16_t *p, uint32_t value, int32_t n)
+{
+    for (int32_t i = 0; i < n; i++)
+        p[i] = (uint16_t)value;
+}
+
 static void words_reference(struct kernel_call *c) { pixels_fill_reference(c->plane[0], c->word[0], c->n); }
 static void words_unrolled(struct kernel_call *c) { pixels_fill(c->plane[0], c->word[0], c->n); }
 

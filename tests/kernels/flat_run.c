@@ -17,6 +17,23 @@ enum { STRIDE = 35, COLUMNS = 32 };
         flat_run_##FORM(c->plane[0], c->plane[1], c->n, c->word[Z], c->word[DZ], c->word[COLOR] & 0xffffu, true); \
     }
 
+/* What flat_lines is to draw. */
+static void flat_lines_reference(struct flat_lines *l, int32_t n)
+{
+    struct edge_fine side[2];
+    flat_lines_take_sides(l, side);
+    for (; n > 0; n--) {
+        void *const pixels = (void *)((uintptr_t)l->depth * (l->narrow ? 1u : 2u) + l->to_pixels);
+        const int32_t a = max_i32(edge_fine_pixel(&side[0]), l->x0), b = min_i32(edge_fine_pixel(&side[1]), l->x1);
+        for (int32_t x = a; x < b; x++)
+            flat_pixel(pixels, l->depth, x, flat_code(l->z + l->dz * (uint32_t)x, l->breaks), l->narrow ? l->color & 0xffffu : l->color,
+                       l->narrow);
+        flat_lines_go_down(l, side);
+    }
+    flat_lines_side(l, 0, &side[0]);
+    flat_lines_side(l, 1, &side[1]);
+}
+
 CALLS(reference)
 CALLS(unrolled)
 VECTORS(CALLS(vector))

@@ -19,6 +19,15 @@ static void prepare(struct kernel_call *c)
         depth[between(0, 2 * c->n - 1)] = (uint16_t)(2u * c->word[HALF] - (uint32_t)between(1, 2));
 }
 
+static bool hidden_box_reference(const pixel_word *depth, ptrdiff_t stride, int32_t n, int32_t rows, uint32_t half)
+{
+    for (; rows > 0; rows--, depth += stride)
+        for (int32_t i = 0; i < n; i++)
+            if ((depth[i] & 0xffffu) >> 1 < half || depth[i] >> 17 < half)
+                return false;
+    return true;
+}
+
 #define CALL(FORM) \
     static void FORM(struct kernel_call *c) \
     { \

@@ -20,6 +20,46 @@ static void make(struct place_setup *s, int32_t m[3][4], const struct kernel_cal
     s->depth_most = 1 << 27;
 }
 
+/* Returns how many leading zeros w has in all four, or -1 where they are not found. */
+static inline int places_zeros(const int32_t w[4], const struct place_setup *s)
+{
+    const int zeros = count_leading_zeros((uint32_t)w[0] | 1u);
+    for (int i = 0; i < 4; i++)
+        if (w[i] < s->near_distance || w[i] > s->far_distance || w[i] >> (31 - zeros) != 1)
+            return -1;
+    return zeros < 21 && s->depth_shift + zeros <= PLACES_UP_MOST ? zeros : -1;
+}
+
+static inline bool places_reference(struct smear_place out[4], const int16_t v[12], const struct place_setup *s)
+{
+    int32_t row[3][4], w[4];
+    for (int i = 0; i < 4; i++) {
+        for (int r = 0; r < 3; r++) {
+            const int32_t *m = s->m[r];
+            int32_t high = 0, low = 0;
+            for (int j = 0; j < 3; j++) {
+                high = add_wrap(high, v[3 * i + j] * (m[j] >> 16));
+                low += v[3 * i + j] * (int32_t)(((uint32_t)m[j] & 0xffffu) >> 2);
+            }
+            row[r][i] = add_wrap(add_wrap(high, low >> 14), m[3]);
+        }
+        w[i] = row[2][i];
+    }
+    const int zeros = places_zeros(w, s);
+    if (zeros < 0)
+        return false;
+    const int down = 21 - zeros, up = s->depth_shift + zeros;
+    for (int i = 0; i < 4; i++) {
+        const int32_t r = (int32_t)recip_norm((uint32_t)w[i] << zeros);
+        struct smear_screen *p = &out[i].screen;
+        p->x = s->x + ((mulh_i32(row[0][i], r) + (1 << (down - 1))) >> down);
+        p->y = s->y + ((mulh_i32(row[1][i], r) + (1 << (down - 1))) >> down);
+        p->depth = clamp_i32(scale_sat(mulh_i32(s->depth_mantissa, r), max_i32(up, -31)), s->depth_least, s->depth_most);
+        out[i].first = place_first(p->x, p->y);
+    }
+    return true;
+}
+
 static void none(struct smear_place *out)
 {
     for (int i = 0; i < 4; i++)

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* texel_track.c - how check_kernels calls kernels/texel_track.h: blocks one after the other, along planes of which some are like those of
  * triangles and some are anything; and texel_blocks_armv7em.h. */
-#include "kernels/texel_blocks_armv7em.h"
-#include "kernels/texel_track.h"
-#include "kernels/texels_draw.h"
-
 #include "tests/kernels/kernels.h"
+#include "tests/kernels/texels.h"
 
 enum { Q, U, V, DQ, DU, DV, SLOPE, KIND };      /* words */
 

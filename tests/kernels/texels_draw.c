@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* texels_draw.c - how check_kernels calls kernels/texels_draw.h: textures of 16 x 8 texels, whose sizes the compiler knows, and
  * those it doesn't, as of lit ones; and texel_curve_rows.h. */
-#include "kernels/texel_curve_rows.h"
-#include "kernels/texels_draw.h"
-
 #include "tests/kernels/kernels.h"
+#include "tests/kernels/texels.h"
 
 enum { LOG2_WIDTH = 4, LOG2_HEIGHT = 3, TEXELS = 1 << (LOG2_WIDTH + LOG2_HEIGHT), PALETTE = 256 };
 enum { U, V, DU, DV, DDU, DDV, Z, DZ, LIGHT, FORMAT, COLOR_END, DEPTH_END };    /* words */
