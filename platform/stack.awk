@@ -17,7 +17,7 @@ BEGIN {
     reach["src/smear.c"] = "lights\\.c:begin(\\.|$)"
     reach["src/draws.c"] = "lights\\.c:see(\\.|$)"
     reach["src/geometry/vertex.c"] = "lights\\.c:shade_"
-    reach["src/display/overlay.c"] = "(^|:)(turned|line)_(find_box|draw_row)(\\.|$)"
+    reach["src/overlay/overlay.c"] = "(^|:)(turned|line)_(find_box|draw_row)(\\.|$)"
     reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"

@@ -6,14 +6,12 @@
  * texels only by their place (smear_frame.refresh). */
 #include "display/damage.h"
 
-#include "display/points.h"
-
 #if SMEAR_WITH_DAMAGE
 
 /* ------------------------------------------------------------------ hash */
 
 /* Two lanes, in each of which every step is a permutation of its state, and of the word. */
-static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
+SMEAR_NOINLINE void smear_damage_mix(uint32_t h[2], const int32_t *word, int count)
 {
     uint32_t h0 = h[0], h1 = h[1];
     for (int i = 0; i < count; i++) {
@@ -26,25 +24,10 @@ static SMEAR_NOINLINE void mix(uint32_t h[2], const int32_t *word, int count)
     h[1] = h1;
 }
 
-/* Words of a pointer. */
-enum { POINTER_WORDS = sizeof(void *) > 4 ? 2 : 1 };
-
-static void put_pointer(int32_t *word, const void *p)
-{
-    word[0] = (int32_t)(uint32_t)(uintptr_t)p;
-    if (POINTER_WORDS == 2)
-        word[POINTER_WORDS - 1] = (int32_t)(uint32_t)((uint64_t)(uintptr_t)p >> 32);
-}
-
-static int32_t bytes(int a, int b, int c, int d)
-{
-    return (int32_t)((uint32_t)a << 24 | (uint32_t)b << 16 | (uint32_t)c << 8 | (uint32_t)d);
-}
-
 static void mix_transform(uint32_t h[2], const smear_transform *t)
 {
-    mix(h, t->basis, 9);
-    mix(h, t->origin, 3);
+    smear_damage_mix(h, t->basis, 9);
+    smear_damage_mix(h, t->origin, 3);
 }
 
 static void mix_mesh(uint32_t h[2], const smear_mesh *m)
@@ -53,15 +36,15 @@ static void mix_mesh(uint32_t h[2], const smear_mesh *m)
     const void *const part[PARTS] = { m->position, m->normal, m->uv, m->color, m->face_color, m->index };
     int32_t word[WORDS + 9];
     for (int i = 0; i < PARTS; i++)
-        put_pointer(word + i * POINTER_WORDS, part[i]);
+        damage_put_pointer(word + i * POINTER_WORDS, part[i]);
     for (int i = 0; i < 3; i++) {
         word[WORDS + i] = (int32_t)((uint32_t)m->bounds[i] << 16 | (uint16_t)m->bounds[3 + i]);
         word[WORDS + 3 + i] = m->offset[i];
     }
     word[WORDS + 6] = (int32_t)m->triangle_count;
-    word[WORDS + 7] = bytes(m->vertex_count >> 8, m->vertex_count & 255, (uint8_t)m->shift, m->uv_shift);
+    word[WORDS + 7] = damage_bytes(m->vertex_count >> 8, m->vertex_count & 255, (uint8_t)m->shift, m->uv_shift);
     word[WORDS + 8] = m->scale;
-    mix(h, word, WORDS + 9);
+    smear_damage_mix(h, word, WORDS + 9);
 }
 
 static void mix_material(uint32_t h[2], const smear_material *m)
@@ -69,14 +52,14 @@ static void mix_material(uint32_t h[2], const smear_material *m)
     static const smear_texture none = { 0 };
     const smear_texture *t = m->texture != NULL ? m->texture : &none;
     int32_t word[5 + 2 * POINTER_WORDS] = {
-        bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
-        bytes(m->alpha, m->cutoff, m->unlit != 0, (m->double_sided != 0) << 1 | (m->bilinear != 0)),
-        (int32_t)((uint32_t)t->width << 16 | t->height), bytes(t->levels, t->format, t->wrap_u, t->wrap_v),
-        bytes(0, 0, m->gloss, m->shine)
+        damage_bytes(m->color[0], m->color[1], m->color[2], m->color[3]),
+        damage_bytes(m->alpha, m->cutoff, m->unlit != 0, (m->double_sided != 0) << 1 | (m->bilinear != 0)),
+        (int32_t)((uint32_t)t->width << 16 | t->height), damage_bytes(t->levels, t->format, t->wrap_u, t->wrap_v),
+        damage_bytes(0, 0, m->gloss, m->shine)
     };
-    put_pointer(word + 5, t->texels);
-    put_pointer(word + 5 + POINTER_WORDS, t->palette);
-    mix(h, word, (int)(sizeof word / sizeof *word));
+    damage_put_pointer(word + 5, t->texels);
+    damage_put_pointer(word + 5 + POINTER_WORDS, t->palette);
+    smear_damage_mix(h, word, (int)(sizeof word / sizeof *word));
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -87,13 +70,13 @@ void smear_damage_begin(struct smear_damage *d, const smear_camera *camera, uint
     const int32_t word[] = { camera->focal, camera->half_height, camera->near_plane, camera->far_plane, (int32_t)clear, kind };
     d->next[0] = d->next[1] = 0;
     mix_transform(d->next, &camera->pose);
-    mix(d->next, word, (int)(sizeof word / sizeof *word));
+    smear_damage_mix(d->next, word, (int)(sizeof word / sizeof *word));
     for (int i = 0; i < 3; i++) {
         const int32_t light[] = { sun->direction[i], sun->ambient[i], sun->diffuse[i] };
-        mix(d->next, light, 3);
+        smear_damage_mix(d->next, light, 3);
     }
     if (SMEAR_WITH_LIGHTS && sun->lights != NULL)
-        mix(d->next, sun->lights->word, LIGHTS_WORDS);
+        smear_damage_mix(d->next, sun->lights->word, LIGHTS_WORDS);
 }
 
 /* Takes in as much of a draw as its picture depends on. */
@@ -102,7 +85,7 @@ static void mix_draw(uint32_t h[2], const smear_draw *draw)
     const int32_t look = (int32_t)draw->billboard << 1 | (draw->material != NULL);
     mix_mesh(h, draw->mesh);
     mix_transform(h, draw->now);
-    mix(h, &look, 1);
+    smear_damage_mix(h, &look, 1);
     if (draw->material != NULL)
         mix_material(h, draw->material);
 }
@@ -117,10 +100,10 @@ void smear_damage_find(struct smear_damage *d, const struct smear_rows *rows, bo
     if (SMEAR_WITH_FOG && frame_has_fog(&rows->raster)) {
         const struct smear_fog_levels *fog = frame_fog(&rows->raster);
         const int32_t word[] = { (int32_t)fog->scale, fog->shift, fog->base };
-        mix(d->next, word, 3);
+        smear_damage_mix(d->next, word, 3);
     }
     if (rows_have_sky(rows))
-        mix(d->next, (const int32_t *)(const void *)rows->sky, (int)(offsetof(smear_sky, kind) / sizeof(int32_t)));
+        smear_damage_mix(d->next, (const int32_t *)(const void *)rows->sky, (int)(offsetof(smear_sky, kind) / sizeof(int32_t)));
     d->is_same = d->is_whole && !refresh && d->next[0] == d->scene[0] && d->next[1] == d->scene[1];
     d->is_whole = false;
     d->scene[0] = d->next[0];
@@ -178,99 +161,6 @@ void smear_damage_drop(struct smear_damage *d, uint32_t first, const smear_desc 
         damage_draws(d)[i].look[0] = damage_draws(d)[i].look[1] = 0;
     }
 }
-
-#if SMEAR_WITH_OVERLAY
-
-/* Hashes what is the same for all of item number `i`: an image's pixels only by their place. */
-static void mix_item(uint32_t h[2], const smear_overlay_item *item, int32_t i)
-{
-    static const smear_image none = { 0 };
-    const bool is_text = item->text != NULL && item->shape == NULL;
-    const smear_image *m = is_text ? &item->font->glyph : item->image != NULL ? item->image : &none;
-    int32_t word[11 + 3 * POINTER_WORDS] = {
-        i, bytes(item->color[0], item->color[1], item->color[2], item->color[3]), item->x, item->y,
-        (int32_t)((uint32_t)item->width << 16 | item->height), (int32_t)((uint32_t)item->scale << 16 | item->cell),
-        (int32_t)((uint32_t)m->width << 16 | m->height), bytes(0, m->format, is_text, is_text ? item->font->first : 0), m->cells,
-        (int32_t)((uint32_t)item->turn << 16 | item->zoom), (int32_t)((uint32_t)(uint16_t)item->to_x << 16 | (uint16_t)item->to_y)
-    };
-    put_pointer(word + 11, m->pixels);
-    put_pointer(word + 11 + POINTER_WORDS, m->palette);
-    put_pointer(word + 11 + 2 * POINTER_WORDS, item->shape);
-    h[0] = h[1] = 0;
-    mix(h, word, (int)(sizeof word / sizeof *word));
-}
-
-/* Adds a hash to the sums of tiles that a box touches. */
-static void add_box(uint32_t *over, const struct smear_window *w, const struct overlay_box *box, uint32_t hash)
-{
-    const int32_t x0 = max_i32(box->x0, 0), x1 = min_i32(box->x1, w->width), y1 = min_i32(box->y1, w->height);
-    for (int32_t y = max_i32(box->y0, 0) >> w->tile_shift; x0 < x1 && y << w->tile_shift < y1; y++)
-        for (int32_t x = x0 >> w->tile_shift; x << w->tile_shift < x1; x++)
-            over[y * w->columns + x] += hash;
-}
-
-/* Adds the hashes of what lies over tiles, letter by letter, times `sign` to their sums. */
-static void add_items(uint32_t *over, const smear_overlay *overlay, const struct smear_window *w, uint32_t sign)
-{
-    for (int32_t i = 0; i < overlay->count; i++) {
-        const smear_overlay_item *item = &overlay->item[i];
-        uint32_t h[2];
-        mix_item(h, item, i);
-        if (item->shape != NULL || item->text == NULL) {
-            const struct overlay_box box = smear_overlay_box(item);
-            add_box(over, w, &box, sign * (h[0] + h[1]));
-            continue;
-        }
-        struct overlay_box box = smear_overlay_letter(item);
-        const int32_t step = smear_overlay_advance(item);
-        for (const char *c = item->text; *c != '\0' && box.x0 < w->width; c++, box.x0 += step, box.x1 += step) {
-            const int32_t word[2] = { *c, box.x0 };
-            uint32_t letter[2] = { h[0], h[1] };
-            mix(letter, word, 2);
-            add_box(over, w, &box, sign * (letter[0] + letter[1]));
-        }
-    }
-}
-
-/* Adds the hashes of where points are seen. */
-static void add_points(uint32_t *over, const smear_points *points, const struct smear_window *w, uint32_t sign)
-{
-    for (int32_t i = 0; points != NULL && i < points->count; i++) {
-        const smear_point *point = &points->point[i];
-        const smear_point_place *p = &point->place;
-        const struct overlay_box box = { p->x0, p->y0, p->x1, p->y1 };
-        const int32_t word[] = { i, p->x, p->y, p->length, (int32_t)p->gain, p->along_x, p->along_y, p->depth,
-                                 bytes(point->color[0], point->color[1], point->color[2], point->mode) };
-        uint32_t h[2] = { 0, 0 };
-        mix(h, word, (int)(sizeof word / sizeof *word));
-        add_box(over, w, &box, sign * (h[0] + h[1]));
-    }
-}
-
-static void add_all(uint32_t *over, const smear_overlay *overlay, const struct smear_window *w, uint32_t sign)
-{
-    add_items(over, overlay, w, sign);
-    add_points(over, overlay->points, w, sign);
-}
-
-/* What is left of a tile's sum without this frame's items is what differs. */
-void smear_damage_find_overlay(struct smear_damage *d, const struct smear_rows *rows)
-{
-    static const smear_overlay none = { NULL, 0, NULL };
-    const struct smear_window *w = &rows->window;
-    const smear_overlay *overlay = rows->overlay != NULL ? rows->overlay : &none;
-    if (!damage_has_tiles(d))
-        return;
-    add_all(d->over, overlay, w, 0u - 1u);
-    for (int32_t i = 0; i < w->columns * w->rows; i++) {
-        if (d->over[i] != 0)
-            d->tiles.tile[i] = rows->desc->reuse.buffer_age;
-        d->over[i] = 0;
-    }
-    add_all(d->over, overlay, w, 1);
-}
-
-#endif
 
 void smear_damage_end(struct smear_damage *d, struct smear_rows *rows, bool disturbed)
 {

@@ -15,6 +15,24 @@ struct smear_damaged_draw {
     bool changed;                   /* its look is not that of the frame before */
 };
 
+/* Takes words into a hash of two lanes. */
+void smear_damage_mix(uint32_t h[2], const int32_t *word, int count);
+
+/* Words of a pointer. */
+enum { POINTER_WORDS = sizeof(void *) > 4 ? 2 : 1 };
+
+static inline void damage_put_pointer(int32_t *word, const void *p)
+{
+    word[0] = (int32_t)(uint32_t)(uintptr_t)p;
+    if (POINTER_WORDS == 2)
+        word[POINTER_WORDS - 1] = (int32_t)(uint32_t)((uint64_t)(uintptr_t)p >> 32);
+}
+
+static inline int32_t damage_bytes(int a, int b, int c, int d)
+{
+    return (int32_t)((uint32_t)a << 24 | (uint32_t)b << 16 | (uint32_t)c << 8 | (uint32_t)d);
+}
+
 enum { COMPARES_NEVER, COMPARES_OTHERS, COMPARES_THIS };
 
 struct smear_damage {

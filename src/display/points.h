@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* points.h - points of smear_overlay.h: found on the screen once a frame, drawn as streaks over parts of rows on their way to
- * the display.
- *
- * A dot's light falls off as (1 - (r / a)^2)^2 up to its radius a. The light that a pixel gets while a dot passes at distance
- * d is the integral of that along a chord, a polynomial, from where the dot is at shutter open to where it is at close:
- * neither instants nor tables are needed, and streaks look alike in all directions. */
+/* points.h - what is asked of overlay/: points of smear_overlay.h, found on the screen once a frame, and what lies over it, drawn over
+ * parts of rows on their way to the display. */
 #ifndef SMEAR_DISPLAY_POINTS_H
 #define SMEAR_DISPLAY_POINTS_H
 
@@ -14,23 +10,10 @@
 #include "display/row.h"
 #include "geometry/shot.h"
 
-/* Boxes, sprites and text (smear_overlay.h), drawn over parts of rows on their way to the display. */
-
 /* Pixels of the frame that an item may touch: columns [x0, x1), rows [y0, y1). */
 struct overlay_box {
     int32_t x0, y0, x1, y1;
 };
-
-struct overlay_box smear_overlay_box(const smear_overlay_item *item);
-
-/* Return an item's colour, the bytes of an image's row, and a pixel of one, straight alpha, where `argb` is the item's. */
-uint32_t smear_overlay_color(const smear_overlay_item *item);
-uint32_t smear_image_pitch(const smear_image *m);
-uint32_t smear_image_pixel(const smear_image *m, const uint8_t *row, int32_t i, uint32_t argb);
-
-/* Return the pixels of a text's first letter, and the columns from one letter to the next. */
-struct overlay_box smear_overlay_letter(const smear_overlay_item *item);
-int32_t smear_overlay_advance(const smear_overlay_item *item);
 
 /* Whether an item may touch pixels of a box. */
 bool smear_overlay_touches(const smear_overlay *overlay, const struct overlay_box *box);
@@ -43,14 +26,6 @@ static inline bool rows_are_covered(const struct smear_rows *rows, const struct 
 /* Draws all items over pixels of `area`, which is within the target. */
 void smear_overlay_draw(const smear_overlay *overlay, const struct smear_raster_target *t, const struct overlay_box *area,
                         smear_transfer transfer);
-
-enum {
-    SMEAR_NO_POINT = UINT16_MAX,
-    SMEAR_POINT_RADIUS = 13, /* fraction bits of lengths in radii of a dot */
-    /* A streak's `x`, `y` is its middle, and `length` is from there to its ends; of a short one, where it is less, to the two
-     * places that weigh. */
-    SMEAR_POINT_SHORT = 1 << (SMEAR_POINT_RADIUS - 2)
-};
 
 static inline bool rows_have_points(const struct smear_rows *rows)
 {

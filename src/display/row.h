@@ -63,7 +63,7 @@ struct smear_rows {
     struct smear_refill *refill;        /* null: the lists hold all triangles of the row */
     bool blends;                /* some draw is blended */
     bool keeps_motion;          /* triangles that move write velocities into the window */
-    uint16_t points;            /* the first listed point of the overlay's, or SMEAR_NO_POINT: points.h */
+    uint16_t points;            /* the first listed point of the overlay's, or SMEAR_NO_POINT: overlay.h */
     uint32_t clear;             /* 0x00RRGGBB */
     smear_sky *sky;             /* in its place; or null */
     const smear_overlay *overlay;       /* what lies over the finished frame; or null */

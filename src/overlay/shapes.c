@@ -2,7 +2,7 @@
 /* shapes.c - sprites that are turned and lines, of smear_overlay.h. Nothing else in the library calls them, so that they are linked
  * where a program names them. */
 #include "base/fixmath.h"
-#include "display/points.h"
+#include "overlay/overlay.h"
 
 #if SMEAR_WITH_OVERLAY
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* points_place.c - where points are seen during the exposure: see points.h.
+/* points_place.c - where points are seen during the exposure: see overlay.h.
  *
  * Positions become 15-bit steps from the eye, as many of them to a unit as the point's distance allows, which the rows of a
  * projection take as they take vertices. Between poses places are sums in clip space, as those of draws are. */
-#include "display/points.h"
+#include "overlay/overlay.h"
 
 #include "base/fixmath.h"
 #include "geometry/transform.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* points.c - see points.h. Lengths along and across a streak are in radii of its dot, q13; weights of pixels, at most one,
+/* points.c - see overlay.h. Lengths along and across a streak are in radii of its dot, q13; weights of pixels, at most one,
  * in q15. */
-#include "display/points.h"
+#include "overlay/overlay.h"
 
 #include "base/fixmath.h"
 

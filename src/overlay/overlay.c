@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* overlay.c - see overlay.h. */
-#include "display/points.h"
+#include "overlay/overlay.h"
 
 #include "kernels/fill.h"
 
