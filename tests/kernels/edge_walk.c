@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* edge_walk.c - how check_kernels calls kernels/edge_walk.h and edge_sides.h. */
+/* edge_walk.c - how check_kernels calls kernels/edge_walk.h. */
 #include "kernels/edge_walk.h"
 #include "kernels/flat_lines_armv6m.h"
 
@@ -25,6 +25,51 @@ static void prepare(struct kernel_call *c)
     c->word[BX] = (uint32_t)bx;
     c->word[BY] = (uint32_t)by;
     c->word[Y] = (uint32_t)(first < end ? between(first, end - 1) : end);
+}
+
+/* What all of them are to find: by remainders, exactly. */
+struct edge_rest {
+    int32_t x;              /* q8: the edge's place at this row's centres,
+                             * rounded up; 127 more for edge_pixel */
+    int32_t rest;           /* what was added by rounding, in 1/dy: -dy < rest <= 0 */
+    int32_t step, step_rest;
+    int32_t dy;
+};
+
+static void edge_rest_start(struct edge_rest *e, const int32_t *a, const int32_t *b, int32_t y)
+{
+    const int32_t dx = b[0] - a[0], dy = b[1] - a[1];       /* |dx| <= 2^20 */
+    const int32_t first = (a[1] + 127) >> 8;        /* first row below a */
+    const int32_t down = first * 256 + 128 - a[1];  /* 0 .. 255 */
+    const uint32_t rows = (uint32_t)(y - first);
+    e->dy = dy;
+    e->x = a[0] + 127;
+    e->step = divide_floor(dx * 256, dy, &e->step_rest);
+    e->x += divide_floor(dx * down, dy, &e->rest);
+    if (rows != 0) {        /* rows < 2^12 - 2^10, rests < 2^20: the sum fits */
+        const uint32_t rest = (uint32_t)e->rest + rows * (uint32_t)e->step_rest;
+        e->x += e->step * (int32_t)rows + (int32_t)(rest / (uint32_t)dy);
+        e->rest = (int32_t)(rest % (uint32_t)dy);
+    }
+    if (e->rest > 0) {
+        e->rest -= dy;
+        e->x++;
+    }
+}
+
+static int32_t edge_rest_pixel(const struct edge_rest *e)
+{
+    return e->x >> 8;
+}
+
+static void edge_rest_step(struct edge_rest *e)
+{
+    e->x += e->step;
+    e->rest += e->step_rest;
+    if (e->rest > 0) {
+        e->rest -= e->dy;
+        e->x++;
+    }
 }
 
 /* Pixels of up to n rows that have a centre beside the edge. */
