@@ -146,11 +146,6 @@
 #define SMEAR_SPAN_ROWS (!SMEAR_SMALL_FILE)
 #endif
 
-/* Interpolated light over a texture has rows of its own, of the same bits. */
-#ifndef SMEAR_SHADED_ROWS
-#define SMEAR_SHADED_ROWS (SMEAR_SPAN_ROWS && SMEAR_WITH_GOURAUD && SMEAR_WITH_TEXTURE && !SMEAR_ON_ARMV6M)
-#endif
-
 /* Textured triangles are drawn from the front (kept.h): not in a page or in the GBA's fast memory. */
 #define SMEAR_FRONT_ORDER (SMEAR_RASTER_CACHE && SMEAR_WITH_TEXTURE && !SMEAR_ON_WASM && !SMEAR_ON_ARMV4T)
 

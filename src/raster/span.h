@@ -84,9 +84,6 @@ smear_rows_fn *smear_rows_choose(const struct setup *s);
 /* Interpolated colours without a texture, opaque: color_rows.c. */
 smear_rows_fn smear_rows_shade;
 
-/* Of a triangle whose texture's sizes are powers of two, repeated, texels nearest and opaque: shaded_rows.c. */
-smear_rows_fn *smear_shaded_rows_choose(const struct setup *s);
-
 /* Whole rows lie in the target and in one slope of the depth code, and have no velocities. */
 static inline bool rows_are_whole(const struct setup *s, const struct span_rows *r)
 {

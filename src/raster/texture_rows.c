@@ -586,7 +586,7 @@ smear_rows_fn *smear_rows_choose(const struct setup *s)
     const bool copied = s->segment->shade == SHADE_NONE && t->format == (narrow ? SMEAR_TEXEL_565 : SMEAR_TEXEL_8888);
     if (!copied || fog_of(s) != FOG_NONE) {
         if (segment_gouraud(s->segment) && !s->even_color)
-            return SMEAR_SHADED_ROWS && fog_of(s) == FOG_NONE ? smear_shaded_rows_choose(s) : NULL;
+            return NULL;
         if (SMEAR_DIRECT && narrow)
             return is_curved ? curves_lit_narrow : rows_lit_narrow;
         return is_curved ? curves_lit : rows_lit;
