@@ -12,7 +12,7 @@
 BEGIN {
     reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_work is given, by any file
     reach["src/display/row.c"] = "(draws\\.c|sky\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"  # draws.c: a row whose triangles find no room at once; skies
-    reach["src/methods/sharp.c"] = reach["src/methods/smooth.c"] = "sky\\.c:fill(\\.|$)"
+    reach["src/methods/sharp.c"] = reach["src/smooth/smooth.c"] = "sky\\.c:fill(\\.|$)"
     reach["src/frame.c"] = reach["src/accumulate/accumulate.c"] = "sky\\.c:aim(\\.|$)"
     reach["src/smear.c"] = "lights\\.c:begin(\\.|$)"
     reach["src/draws.c"] = "lights\\.c:see(\\.|$)"

@@ -2,13 +2,13 @@
 /* smooth.c - see temporal.h.
  *
  *     below       the pixel row below the tile row, which the last one is compared with
- *     find        where colours differ from pixel to pixel (raster/edges.h)
+ *     find        where colours differ from pixel to pixel (edges.h)
  *     for each run of columns that there is memory for, and for each other place within the pixel:
  *         draw    what is static, where there are edges
  *     mean        of all places */
 #include "methods/temporal.h"
 
-#include "raster/edges.h"
+#include "smooth/edges.h"
 
 #if SMEAR_EDGES
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* edges.c - see edges.h. */
-#include "raster/edges.h"
+#include "smooth/edges.h"
 
 #include "base/fixmath.h"
 #include "kernels/fill.h"

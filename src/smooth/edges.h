@@ -2,8 +2,8 @@
 /* edges.h - smooth edges of what stands still: where colours differ from pixel to pixel, all is drawn at three more places
  * within the pixel, and each pixel becomes the mean of all four. They lie on lines of their own along x and along y, and their
  * mean is the centre. */
-#ifndef SMEAR_RASTER_EDGES_H
-#define SMEAR_RASTER_EDGES_H
+#ifndef SMEAR_SMOOTH_EDGES_H
+#define SMEAR_SMOOTH_EDGES_H
 
 #include "raster/target.h"
 
