@@ -108,9 +108,9 @@ SMEAR_INLINE void edge_fine_start(struct edge_fine *e, const int32_t *a, const i
         edge_fine_pass(e, (uint32_t)rows);
 }
 
-static inline int32_t edge_fine_pixel(const struct edge_fine *e) { return e->high >> 10; }
+SMEAR_INLINE_ALWAYS int32_t edge_fine_pixel(const struct edge_fine *e) { return e->high >> 10; }
 
-static inline void edge_fine_step(struct edge_fine *e)
+SMEAR_INLINE_ALWAYS void edge_fine_step(struct edge_fine *e)
 {
     e->low += e->step_low;
     e->high = add_wrap(e->high, e->step_high + (e->low < e->step_low));
