@@ -177,8 +177,7 @@ int32_t smear_arc_number(int32_t before, int32_t now, int32_t time)
     return narrow_sat(now + ((((int64_t)now - before) * time + (1 << 23)) >> 24));
 }
 
-/* Finds Q - 1 for a turn about the axis n by an angle of which cosine and sine are given, q29:
- * sin [n] + (1 - cos) (n n' - 1). */
+/* Finds Q - 1 for a turn about the axis n by an angle of which cosine and sine are given, q29: sin [n] + (1 - cos) (n n' - 1). */
 static void rotation(int32_t m[3][3], const int32_t axis[3], int32_t c, int32_t s)
 {
     int64_t versine = ((int64_t)1 << 30) - c;               /* 0 .. 2, q30 */
@@ -202,8 +201,7 @@ static void turn_basis(int32_t out[9], int32_t m[3][3], const int32_t basis[9])
             out[3 * i + j] = narrow_sat(basis[3 * i + j] + ((dot_wide(m[i], 1, basis + j, 3) + (1 << 28)) >> 29));
 }
 
-/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by
- * changes linearly. */
+/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by changes linearly. */
 static void turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before)
 {
     int32_t m[3][3];
@@ -324,10 +322,9 @@ static void find_faster(struct smear_curve *c, const struct smear_axes *last, co
     c->is_steady = along > (1 << 30) - (1 << 22) && magnitude(faster) <= c->turn.angle / 16;
 }
 
-/* Chooses the second difference of the origin's places. Without a third pose the origin goes straight. With one it takes
- * the curve that leads through it, unless the motion was another in the last frame: then both a straight line and a
- * screw foretell it badly, by more than half of the displacement, or a quarter where it is not steady. It goes straight
- * then, too, unless the screw is clearly better. */
+/* Chooses the second difference of the origin's places. Without a third pose the origin goes straight. With one it takes the curve that
+ * leads through it, unless the motion was another in the last frame: then both a straight line and a screw foretell it badly, by more
+ * than half of the displacement, or a quarter where it is not steady. It goes straight then, too, unless the screw is clearly better. */
 static void choose_second(struct smear_curve *c, const int32_t first[3], const smear_transform *older)
 {
     int32_t screw[3] = { 0, 0, 0 }, beside[3];
@@ -394,8 +391,7 @@ static int64_t parabola(int32_t time)
     return ((int64_t)time * time + (int64_t)time * (1 << 24)) >> 25;
 }
 
-/* Finds B(t) as a complex number, q24. With (w - 1)^2 = -4 sin^2(angle / 2) w it is -(w^-t - 1 + t (w - 1)) / w over
- * 2 - 2 cos(angle). */
+/* Finds B(t) as a complex number, q24. With (w - 1)^2 = -4 sin^2(angle / 2) w it is -(w^-t - 1 + t (w - 1)) / w over 2 - 2 cos(angle). */
 static void bend(int64_t b[2], const struct smear_turn *turn, int32_t time)
 {
     int32_t cosine_t, sine_t;

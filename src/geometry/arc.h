@@ -86,8 +86,7 @@ struct smear_curve {
 bool smear_curve_find(struct smear_curve *curve, const smear_transform *now, const smear_transform *last,
                       const smear_transform *older, uint8_t path);
 
-/* Finds the pose at a time in frames from now, q24, -64 to 64. At 0 and -1 it is `now` and `last`. `out` may be one of
- * the poses. */
+/* Finds the pose at a time in frames from now, q24, -64 to 64. At 0 and -1 it is `now` and `last`. `out` may be one of the poses. */
 void smear_curve_at(smear_transform *out, const struct smear_curve *curve, int32_t time);
 
 #endif

@@ -12,9 +12,8 @@ void smear_assembler_reset(struct smear_assembler *a);
  * stays, and a->resume tells what comes next. An empty store has room for something of any triangle. */
 bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *draw);
 
-/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the near or far
- * plane or the guard band cuts at some instant, or whose vertices no parabola follows, are listed whole, to be cut at each
- * instant (space.h). */
+/* Adds the triangles of a draw with draw->path, like smear_assemble. Those that the near or far plane or the guard band cuts at some
+ * instant, or whose vertices no parabola follows, are listed whole, to be cut at each instant (space.h). */
 bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *draw);
 
 #endif

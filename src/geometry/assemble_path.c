@@ -107,8 +107,7 @@ static int32_t curvature_of(const struct smear_screen p[KEYS])
     return max_i32(abs_i32(p[OPEN].x + p[CLOSE].x - 2 * p[MIDDLE].x), abs_i32(p[OPEN].y + p[CLOSE].y - 2 * p[MIDDLE].y));
 }
 
-/* Finds a triangle's bounds. Returns false when it can't cover a pixel of the part of the frame that is being
- * filled. */
+/* Finds a triangle's bounds. Returns false when it can't cover a pixel of the part of the frame that is being filled. */
 static bool find_bounds(struct smear_path_bounds *b, const struct smear_assembler *a,
                         const struct smear_assembly *d, const struct smear_screen *const corner[3])
 {
@@ -559,10 +558,6 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     struct path_vertex *cache = open_cache(a, &mask), spare[3];
     uint32_t tag = ++a->serial << 16;
     uint32_t first = max_u32(d->first, a->resume.triangle);
-    /* One after the other they cost less. */
-    if (!SMEAR_SMALL_FILE && d->mesh->vertex_count <= mask + 1u && first == 0 && d->end == d->mesh->triangle_count)
-        for (uint32_t i = 0; i < d->mesh->vertex_count; i++)
-            make_vertex(&cache[i], a, d, tag + i);
     const struct smear_tile_box filled = ranges_filled(a, !is_blend(d));
     for (uint32_t end = first; end < d->end; first = end) {
         end = ranges_next(a, filled, &first, d->end);

@@ -140,8 +140,7 @@ static SMEAR_NOINLINE bool add_clipped(struct batch *b, const struct smear_cache
     const bool back = (c.area > 0) != b->d->mirrored;
     if (c.area == 0 || (back && !b->double_sided))
         return true;
-    /* Which side is seen decides the light of vertices, and only the clipped polygon tells: the back is shaded and
-     * clipped again. */
+    /* Which side is seen decides the light of vertices, and only the clipped polygon tells: the back is shaded and clipped again. */
     if (!colored || back)
         c.face = smear_face_of(b->d, triangle, back);
     if (colored && back)

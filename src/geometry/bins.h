@@ -130,8 +130,7 @@ struct smear_bins {
     uint8_t more_lists;
     uint32_t vertex_words;          /* in use, from the bottom */
     uint32_t triangle_count;        /* in use, from the top: below them the store is free */
-    /* Where cores filled parts of the pool: the triangles of all, and the end of their numbers. Else 0, and both are
-     * triangle_count. */
+    /* Where cores filled parts of the pool: the triangles of all, and the end of their numbers. Else 0, and both are triangle_count. */
     uint32_t parts_listed, parts_end;
     struct smear_segment *segment;
     uint32_t segment_count, segment_limit;
@@ -255,9 +254,8 @@ static inline const struct smear_path_bounds *bins_bounds(const struct smear_bin
     return (const struct smear_path_bounds *)(void *)bins_triangle(g, triangle - 1);
 }
 
-/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission
- * order. `last` are the rings (opaque_last ...), `head` is the list of the row before (or none); returns the
- * new head; lists end with SMEAR_NO_TRIANGLE. */
+/* Moves a list on to tile row `row`: drops what ended above it, merges in what starts there, keeps submission order. `last` are the
+ * rings (opaque_last ...), `head` is the list of the row before (or none); returns the new head; lists end with SMEAR_NO_TRIANGLE. */
 uint32_t smear_bins_advance(const struct smear_bins *g, const uint32_t *last, uint32_t head, int row);
 
 /* Moves a list on like smear_bins_advance, for who looks further up: drops only what ends above pixel row y. */

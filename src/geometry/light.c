@@ -105,8 +105,7 @@ static bool keeps_lengths(int32_t column[3][3], int64_t length)
     return true;
 }
 
-/* Makes the matrix that takes normals of the object to the world: cofactors of the basis, without the sign of its
- * determinant. */
+/* Makes the matrix that takes normals of the object to the world: cofactors of the basis, without the sign of its determinant. */
 static void make_normal_matrix(int32_t m[3][3], const int32_t basis[9])
 {
     int32_t b[9];

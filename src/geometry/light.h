@@ -51,8 +51,7 @@ struct smear_shading {
 static inline bool shading_has_lights(const struct smear_shading *s) { return SMEAR_WITH_LIGHTS && s->lit > 1; }
 static inline bool shading_is_linear(const struct smear_shading *s) { return transfer_is_linear(s->transfer); }
 
-/* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256),
- * alpha 65535 is one. */
+/* A colour ready for interpolation: r g b in working values (linear: 65535 is one; encoded: code x 256), alpha 65535 is one. */
 struct smear_color {
     uint16_t channel[4];
 };

@@ -122,8 +122,7 @@ static void renumber(const struct smear_bins *g, uint32_t *last)
     }
 }
 
-/* Appends all that another store has, with segments, rings and numbers of its own; its rings are used up. False where
- * there is no room. */
+/* Appends all that another store has, with segments, rings and numbers of its own; its rings are used up. False where there is no room. */
 static bool append_store(struct smear_bins *g, const struct smear_bins *more)
 {
     if (!bins_has_room(g, more->vertex_words, more->triangle_count)

@@ -41,8 +41,7 @@ uint32_t smear_parts_segments(const struct smear_part *part, uint32_t n);
 /* Makes a part that adds to the store itself. */
 void smear_part_within(struct smear_part *p, const struct smear_assembler *a);
 
-/* Makes a part whose store, with its rings, segments and vertex cache, lies in memory of its own. False where that is too
- * small. */
+/* Makes a part whose store, with its rings, segments and vertex cache, lies in memory of its own. False where that is too small. */
 bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, void *memory, size_t bytes);
 
 /* Makes part k of n, those before it have been made: its share of the pool behind `head` words, of segments from number
@@ -50,8 +49,7 @@ bool smear_part_apart(struct smear_part *p, const struct smear_assembler *a, voi
 void smear_part_in_pool(struct smear_part *part, const struct smear_assembler *a, uint32_t k, uint32_t n, uint32_t head,
                         uint32_t segment);
 
-/* Joins such parts; returns the words of the pool that are used. What is free of it becomes what is free in the part that has
- * the most. */
+/* Joins such parts; returns the words of the pool that are used. What is free of it becomes what is free in the part that has the most. */
 uint32_t smear_parts_join_pool(struct smear_assembler *a, const struct smear_part *part, uint32_t n);
 
 /* Gives back what smear_part_within() took, and adds what the others have. False where there is no room. */

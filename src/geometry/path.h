@@ -20,9 +20,8 @@ struct smear_shutter_times {
     int32_t time[(SMEAR_WITH_SUBFRAMES ? SHUTTER_SAMPLES : 0) + 1];
 };
 
-/* The record of a vertex with a path (struct smear_segment.path) has the place in the middle of the exposure at
- * VERTEX_X .. VERTEX_DEPTH, and at segment->motion those at open and at close, in the same units: q8 px, q8 px, q11
- * depth units. */
+/* The record of a vertex with a path (struct smear_segment.path) has the place in the middle of the exposure at VERTEX_X ..
+ * VERTEX_DEPTH, and at segment->motion those at open and at close, in the same units: q8 px, q8 px, q11 depth units. */
 enum { PATH_X, PATH_Y, PATH_DEPTH, PATH_POSE_WORDS, PATH_WORDS = 2 * PATH_POSE_WORDS };
 
 /* Returns the phase of a time: -1 at open, 1 at close, q30. */
@@ -41,9 +40,8 @@ static inline int32_t phase_times(int32_t a, int32_t u)
     return ((a >> 16) * part + ((int32_t)((uint32_t)a & 0xffffu) * part >> 16)) >> 1;
 }
 
-/* Returns a coordinate on its path, middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a
- * floor would move all edges up and left by half a step. Places lie within the guard band, so differences have 21 bits;
- * sums are in q6. */
+/* Returns a coordinate on its path, middle + (close - open) u / 2 + (open + close - 2 middle) u^2 / 2, to nearest: a floor would move
+ * all edges up and left by half a step. Places lie within the guard band, so differences have 21 bits; sums are in q6. */
 static inline int32_t path_coordinate(int32_t open, int32_t middle, int32_t close, int32_t u)
 {
     int32_t slope = close - open, curvature = open + close - 2 * middle;

@@ -40,8 +40,7 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
     __builtin_memset(r->stored + r->first, 0, (r->end - r->first) * sizeof *r->stored);
 }
 
-/* Returns the words that places of vertices take, and what most triangles of a mesh add to the pool: backs are not
- * seen. */
+/* Returns the words that places of vertices take, and what most triangles of a mesh add to the pool: backs are not seen. */
 static inline uint32_t words_of(uint32_t vertices, uint32_t triangles, uint32_t stride)
 {
     return vertices * PLACE_WORDS + (min_u32(vertices, 3 * triangles) * stride + triangles * 4) / 4 * 3 + 2 * PLACES_MARGIN;

@@ -42,8 +42,7 @@ static inline struct triangles_setup places_setup(const struct batch *b)
                                      b->d->mirrored ? 1 : 2, b->d->mirrored ? 2 : 1 };
 }
 
-/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none, for those of
- * `triangle`. */
+/* Whether offsets of twelve more vertices fit the segment; else begins a new one. False where there is none, for those of `triangle`. */
 static inline bool segment_has_room(struct batch *b, uint32_t triangle)
 {
     if (b->a->bins->vertex_words + 12u * b->segment->stride - b->segment->base <= 65536u)

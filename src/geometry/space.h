@@ -16,9 +16,8 @@
 #include "geometry/clip.h"
 #include "geometry/path.h"
 
-/* What the paths in space of a segment share. A place is X, Y, W in the segment's scale; before an orthographic camera, where
- * the screen is as exact, x and y from the frame's centre, a W that is one pixel, and a distance that grows as the depth
- * shrinks. */
+/* What the paths in space of a segment share. A place is X, Y, W in the segment's scale; before an orthographic camera, where the
+ * screen is as exact, x and y from the frame's centre, a W that is one pixel, and a distance that grows as the depth shrinks. */
 struct smear_space {
     const struct smear_segment *segment;
     struct smear_depths depths;

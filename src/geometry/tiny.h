@@ -22,8 +22,7 @@ static inline int32_t tiny_bias(int32_t dx, int32_t dy)
     return ~(dy * 65536 - dx) >> 31;
 }
 
-/* Starts at pixel (x, y), for v[0]'s place and the edges (x1, y1) and (x2, y2) to v[1] and v[2], all q8, and twice the
- * area. */
+/* Starts at pixel (x, y), for v[0]'s place and the edges (x1, y1) and (x2, y2) to v[1] and v[2], all q8, and twice the area. */
 static inline void tiny_start(struct tiny_edges *e, int32_t vx, int32_t vy, int32_t x1, int32_t y1,
                               int32_t x2, int32_t y2, int32_t area, int32_t x, int32_t y)
 {

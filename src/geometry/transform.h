@@ -69,8 +69,7 @@ static inline void transform_inline(struct smear_homogeneous *out, const struct 
 /* Does what transform_inline does, as a call. */
 void smear_transform_vertex(struct smear_homogeneous *out, const struct smear_projection *p, const int16_t v[3]);
 
-/* Returns a r 2^shift with r = 2^61 / m in [2^29, 2^30]. The high product comes first, so only the last bits are
- * lost. */
+/* Returns a r 2^shift with r = 2^61 / m in [2^29, 2^30]. The high product comes first, so only the last bits are lost. */
 static inline int32_t times_recip(int32_t a, uint32_t r, int shift)
 {
     int32_t high = mulh_i32(a, (int32_t)r);

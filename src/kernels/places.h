@@ -42,8 +42,7 @@ struct place_setup {
 enum { PLACES_UP_MOST = 16 };       /* bits by which depths are shifted up, at most */
 
 #if SMEAR_VECTORS
-/* The two halves of a row's factors beside the coordinates they go with: x and y, then y and z, of which y has been
- * taken. */
+/* The two halves of a row's factors beside the coordinates they go with: x and y, then y and z, of which y has been taken. */
 struct place_row {
     smear_v8i high_xy, high_z, low_xy, low_z;
     smear_v4u offset;
