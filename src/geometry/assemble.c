@@ -526,7 +526,7 @@ bool smear_assemble(struct smear_assembler *a, const struct smear_assembly *d)
     batch_start(&b);
     const struct smear_tile_box filled = ranges_filled(a, false);
     for (uint32_t first = max_u32(d->first, a->resume.triangle), end = first; end < d->end; first = end) {
-        end = ranges_next(a, filled, &first, d->end);
+        end = smear_ranges_seen(a, d, filled, &first);
         if (!assemble_run(&b, first, end))
             return false;
     }

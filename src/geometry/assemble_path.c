@@ -560,7 +560,7 @@ bool smear_assemble_path(struct smear_assembler *a, struct smear_assembly *d)
     uint32_t first = max_u32(d->first, a->resume.triangle);
     const struct smear_tile_box filled = ranges_filled(a, !is_blend(d));
     for (uint32_t end = first; end < d->end; first = end) {
-        end = ranges_next(a, filled, &first, d->end);
+        end = smear_ranges_seen(a, d, filled, &first);
         const uint16_t *index = d->mesh->index + 3 * first;
         for (uint32_t i = first; i < end; i++, index += 3) {
             struct path_vertex *v[3];

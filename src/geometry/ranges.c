@@ -5,6 +5,23 @@
 #include "geometry/assemble.h"
 #include "geometry/places.h"
 
+enum { BESIDE_LEAST = 256 };        /* triangles of a draw in which those beside the view are looked for */
+
+uint32_t smear_ranges_seen(const struct smear_assembler *a, const struct smear_assembly *d, struct smear_tile_box filled, uint32_t *first)
+{
+    const uint32_t end = ranges_next(a, filled, first, d->end);
+    if (SMEAR_SMALL_CODE || d->end < BESIDE_LEAST)
+        return end;
+    for (uint32_t i = *first, next; i < end; i = next) {
+        next = min_u32(i + PLACES_BLOCK, end);
+        if (!smear_vertex_run_is_beside(d, &a->viewport, i, next))
+            continue;
+        if (i != *first)
+            return i;
+        *first = next;
+    }
+    return end;
+}
 
 /* Adds pixels to a box, which is as large as the frame at most. */
 static void add_pixels(struct smear_tile_box *box, const struct smear_assembler *a, int32_t x0, int32_t x1, int32_t y0, int32_t y1)

@@ -24,8 +24,7 @@ static inline struct smear_tile_box *ranges_all(const struct smear_bins *g)
     return bins_kept(g) != 0 ? (struct smear_tile_box *)(void *)g->pool : NULL;
 }
 
-/* Returns the box of what is being filled, where ranges are known; with `columns`, without what lies beside those of the
- * assembler. */
+/* Returns the box of what is being filled, where ranges are known; with `columns`, without what lies beside those of the assembler. */
 static inline struct smear_tile_box ranges_filled(const struct smear_assembler *a, bool columns)
 {
     const struct smear_damaged_tiles tiles = { .shift = RANGE_BOX_SHIFT };
@@ -58,7 +57,9 @@ static inline uint32_t ranges_next(const struct smear_assembler *a, struct smear
     return min_u32(past << shift, end);
 }
 
-/* Makes ranges as short as it pays, and as the pool has room for their boxes. `draws` have mesh[0 .. draws). */
+/* Moves *first on, and returns an end, as ranges_next does, for a draw that is assembled: beyond what lies beside the view, too. */
+uint32_t smear_ranges_seen(const struct smear_assembler *a, const struct smear_assembly *d, struct smear_tile_box filled, uint32_t *first);
+
 /* Finds the boxes of a draw, from `box` on. What is in the store is lost. */
 void smear_ranges_find(struct smear_assembler *a, struct smear_assembly *d, struct smear_tile_box *box);
 

@@ -5,6 +5,7 @@
 #include "base/pixel.h"
 #include "geometry/clip.h"
 #include "geometry/path.h"
+#include "kernels/triangles.h"
 
 /* Compares without a loop or branch. */
 static inline bool even_normal(const uint8_t *a, const uint8_t *b)
@@ -31,20 +32,38 @@ void smear_placement_add(struct smear_homogeneous *h, const struct smear_placeme
     }
 }
 
-/* Returns those of `sides` that all corners of the mesh's bounds lie beyond. All that is between corners does, too:
- * before they are divided by w, its places are sums of theirs. */
-static int sides_beside(const struct smear_placement *p, const smear_mesh *m, const struct smear_viewport *viewport, int sides)
+static inline void transform_corner(struct smear_homogeneous *h, const struct smear_placement *p, const int16_t b[6], int i)
 {
-    if (p->extra_count != 0 || p->position != m->position)
-        return 0;
+    const int16_t corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
+    smear_transform_vertex(h, &p->now, corner);
+}
+
+/* Returns those of `sides` that all corners of a box in the mesh lie beyond. All that is between corners does, too: before they are
+ * divided by w, its places are sums of theirs. Corners are taken inwards by more than places are rounded by. */
+static inline int sides_beside(const struct smear_placement *p, const int16_t b[6], const struct smear_viewport *viewport, int sides)
+{
     for (int i = 0; i < 8 && sides != 0; i++) {
-        const int16_t *b = m->bounds, corner[3] = { b[i & 1 ? 3 : 0], b[i & 2 ? 4 : 1], b[i & 4 ? 5 : 2] };
         struct smear_homogeneous h;
-        smear_transform_vertex(&h, &p->now, corner);
+        transform_corner(&h, p, b, i);
+        h.x -= h.x > 0 ? 1 : -1;
+        h.y -= h.y > 0 ? 1 : -1;
+        h.w += 1 + (max_i32(h.w, 0) >> 7);
         sides &= smear_outcode_behind(h, viewport) | (h.distance < p->now.depths.near_distance ? OUT_NEAR : 0)
                | (h.distance > p->now.depths.far_distance ? OUT_FAR : 0);
     }
     return sides;
+}
+
+/* Whether a box of the positions lies beyond one side of the view at every instant of the assembly. */
+static bool box_is_beside(const struct smear_assembly *d, const int16_t *position, const int16_t box[6],
+                          const struct smear_viewport *viewport)
+{
+    int sides = OUT_REJECT;
+    for (int i = SMEAR_WITH_SUBFRAMES && d->path ? 2 : 0; i >= 0 && sides != 0; i--) {
+        const struct smear_placement *const p = i == 0 ? &d->at : &d->motion.key[i - 1];
+        sides = p->extra_count == 0 && p->position == position ? sides_beside(p, box, viewport, sides) : 0;
+    }
+    return sides != 0;
 }
 
 int smear_placement_project(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index,
@@ -56,48 +75,33 @@ int smear_placement_project(struct smear_screen *screen, struct smear_homogeneou
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
 {
     const int16_t *b = d->mesh->bounds;
-    if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0)
+    return (b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) != 0 && box_is_beside(d, d->mesh->position, b, viewport);
+}
+
+bool smear_vertex_run_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport, uint32_t first, uint32_t end)
+{
+    const struct index_range r = indices_range(d->mesh->index + 3 * first, (int32_t)(3 * (end - first)));
+    int16_t box[6];
+    if (r.most >= d->mesh->vertex_count || r.most - r.least >= 3 * (end - first))
         return false;
-    int sides = sides_beside(&d->at, d->mesh, viewport, OUT_REJECT);
-    for (int i = 0; SMEAR_WITH_SUBFRAMES && d->path && i < 2; i++)
-        sides = sides_beside(&d->motion.key[i], d->mesh, viewport, sides);
-    return sides != 0;
+    positions_box(box, d->at.position + 3 * r.least, (int32_t)(r.most - r.least + 1));
+    return box_is_beside(d, d->at.position, box, viewport);
 }
 
 #if SMEAR_WITH_DAMAGE
-/* What the corners of the mesh's bounds have of a row of the projection: the least one's, and how much more others have along x, y
- * and z. What is lost by rounding these apart is far below a pixel. */
-static SMEAR_NOINLINE void row_of_bounds(int32_t part[4], const int32_t m[4], const int16_t b[6], int up)
-{
-    part[0] = transform_row(m, b, up);
-    for (int i = 0; i < 3; i++) {
-        const int16_t other[3] = { b[i == 0 ? 3 : 0], b[i == 1 ? 4 : 1], b[i == 2 ? 5 : 2] };
-        part[1 + i] = transform_row(m, other, up) - part[0];
-    }
-}
-
-static inline int32_t corner_of(const int32_t part[4], int i)
-{
-    return part[0] + (i & 1 ? part[1] : 0) + (i & 2 ? part[2] : 0) + (i & 4 ? part[3] : 0);
-}
-
 /* Finds the box of the corners of the bounds, in q8 px. False where one lies before the near plane. */
-static bool find_box(struct smear_screen *least, struct smear_screen *most, const struct smear_projection *p, const int16_t b[6],
+static bool find_box(struct smear_screen *least, struct smear_screen *most, const struct smear_placement *p, const int16_t b[6],
                      const struct smear_viewport *viewport)
 {
-    const bool even = is_orthographic(p);
-    int32_t row[4][4];
-    for (int k = 0; k < (even ? 4 : 3); k++)
-        row_of_bounds(row[k], p->m[k], b, p->depths.up);
     *least = (struct smear_screen){ .x = INT32_MAX, .y = INT32_MAX };
     *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
     for (int i = 0; i < 8; i++) {
-        const int32_t w = corner_of(row[2], i);
-        const struct smear_homogeneous h = { corner_of(row[0], i), corner_of(row[1], i), w, even ? corner_of(row[3], i) : w };
+        struct smear_homogeneous h;
         struct smear_screen s;
-        if (w <= 0 || h.distance < p->depths.near_distance)
+        transform_corner(&h, p, b, i);
+        if (h.w <= 0 || h.distance < p->now.depths.near_distance)
             return false;
-        smear_project(&s, &p->depths, &h, viewport);
+        smear_project(&s, &p->now.depths, &h, viewport);
         least->x = min_i32(least->x, s.x);
         least->y = min_i32(least->y, s.y);
         most->x = max_i32(most->x, s.x);
@@ -113,7 +117,7 @@ struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const 
     const int16_t *b = mesh->bounds;
     struct smear_screen least, most;
     if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0 || p->extra_count != 0 || p->position != mesh->position
-        || !find_box(&least, &most, &p->now, b, viewport))
+        || !find_box(&least, &most, p, b, viewport))
         return tile_box_of(tiles, 0, viewport->width, 0, viewport->height);
     const int32_t x0 = max_i32((least.x - MARGIN) >> 8, 0), x1 = min_i32((most.x + MARGIN) >> 8, viewport->width);
     const int32_t y0 = max_i32((least.y - MARGIN) >> 8, 0), y1 = min_i32((most.y + MARGIN) >> 8, viewport->height);
@@ -328,15 +332,6 @@ struct smear_face smear_face_of(const struct smear_assembly *d, uint32_t triangl
 
 void smear_mesh_find_bounds(smear_mesh *mesh)
 {
-    int16_t *b = mesh->bounds;
-    if (!SMEAR_WITH_BOUNDS)
-        return;
-    for (int k = 0; k < 3; k++)
-        b[k] = b[k + 3] = mesh->vertex_count != 0 ? mesh->position[k] : 0;
-    for (uint32_t i = 3; i < mesh->vertex_count * 3u; i += 3)
-        for (uint32_t k = 0; k < 3; k++) {
-            const int16_t p = mesh->position[i + k];
-            b[k] = p < b[k] ? p : b[k];
-            b[k + 3] = p > b[k + 3] ? p : b[k + 3];
-        }
+    if (SMEAR_WITH_BOUNDS)
+        positions_box_reference(mesh->bounds, mesh->position, (int32_t)mesh->vertex_count);
 }

@@ -28,8 +28,7 @@ struct smear_face {
     uint32_t triangle;
 };
 
-/* Tiles of the frame that something reaches into: columns x0 .. x1 and rows y0 .. y1, both ends included; none where
- * x0 > x1. */
+/* Tiles of the frame that something reaches into: columns x0 .. x1 and rows y0 .. y1, both ends included; none where x0 > x1. */
 struct smear_tile_box {
     uint8_t x0, x1, y0, y1;
 };
@@ -235,6 +234,9 @@ int smear_placement_project(struct smear_screen *screen, struct smear_homogeneou
 
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);
+
+/* Whether triangles [first, end) do, as far as the box of their vertices tells. */
+bool smear_vertex_run_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport, uint32_t first, uint32_t end);
 
 #if SMEAR_WITH_DAMAGE
 /* Finds the tiles in which something of the mesh may be seen, by its bounds: all where those are not given, or reach behind the

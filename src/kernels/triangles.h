@@ -83,8 +83,7 @@ static inline smear_v4u centre_bit(smear_v4u e0, smear_v4u e1, smear_v4u e2, uin
     return (smear_v4u)((smear_v4i)(e0 | e1 | e2) >= 0) & bit;
 }
 
-/* Finds which centres of tiny boxes are covered, as triangle_cover does. Pairs fit halves there; what others give is
- * not used. */
+/* Finds which centres of tiny boxes are covered, as triangle_cover does. Pairs fit halves there; what others give is not used. */
 static inline smear_v4u triangles_cover(struct smear_triangles *out, const struct triangles_corner *corner,
                                         smear_v8i edge1, smear_v8i edge2, smear_v4i area, smear_v8i low, smear_v8i high)
 {
@@ -203,6 +202,45 @@ static inline struct index_range indices_range_vector(const uint16_t *index, int
 #define indices_range indices_range_vector
 #else
 #define indices_range indices_range_reference
+#endif
+
+/* ------------------------------------------------------------------ positions */
+
+/* Finds the least and the greatest x, y and z of n positions; 0 of none. */
+static inline void positions_box_reference(int16_t box[6], const int16_t *p, int32_t n)
+{
+    for (int k = 0; k < 3; k++)
+        box[k] = box[k + 3] = n != 0 ? p[k] : 0;
+    for (const int16_t *const end = p + 3 * n; p < end; p += 3)
+        for (int k = 0; k < 3; k++) {
+            box[k] = p[k] < box[k] ? p[k] : box[k];
+            box[k + 3] = p[k] > box[k + 3] ? p[k] : box[k + 3];
+        }
+}
+
+#if SMEAR_VECTORS
+/* Two positions at once, and what a vector has of the third one, but for the last. */
+static inline void positions_box_vector(int16_t box[6], const int16_t *p, int32_t n)
+{
+    if (n < 3) {
+        positions_box_reference(box, p, n);
+        return;
+    }
+    smear_v8i least = v8i_load((const uint16_t *)p), most = least;
+    for (int32_t i = 2; i < n - 1; i += 2) {
+        const smear_v8i a = v8i_load((const uint16_t *)p + 3 * min_i32(i, n - 3));
+        least = v8i_min(least, a);
+        most = v8i_max(most, a);
+    }
+    const int16_t *const last = p + 3 * (n - 1);
+    for (int k = 0; k < 3; k++) {
+        box[k] = (int16_t)min_i32(min_i32(least[k], least[k + 3]), last[k]);
+        box[k + 3] = (int16_t)max_i32(max_i32(most[k], most[k + 3]), last[k]);
+    }
+}
+#define positions_box positions_box_vector
+#else
+#define positions_box positions_box_reference
 #endif
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* triangles.c - how check_kernels calls kernels/triangles.h: fours of triangles among
- * sixteen vertices, near one another or far apart, of which each call makes many from one number; and ranges of indices. */
+ * sixteen vertices, near one another or far apart, of which each call makes many from one number; ranges of indices, boxes of positions. */
 #include "kernels/triangles.h"
 
 #include "tests/kernels/kernels.h"
@@ -176,6 +176,11 @@ static void range_reference(struct kernel_call *c)
     c->word[1] = r.most;
 }
 
+static void box_reference(struct kernel_call *c)
+{
+    positions_box_reference((int16_t *)(void *)c->word, c->plane[0], c->n);
+}
+
 #if SMEAR_VECTORS
 static void look_by_vectors(struct smear_triangles *out, const struct smear_place *place, const uint16_t index[12],
                             const struct triangles_setup *s)
@@ -194,6 +199,11 @@ static void range_vector(struct kernel_call *c)
     c->word[0] = r.least;
     c->word[1] = r.most;
 }
+
+static void box_vector(struct kernel_call *c)
+{
+    positions_box_vector((int16_t *)(void *)c->word, c->plane[0], c->n);
+}
 #endif
 
 KERNELS(triangles) = {
@@ -201,5 +211,7 @@ KERNELS(triangles) = {
       .form = { { "reference", reference } VECTOR_FORM("vector", vector) } },
     { .name = "indices_range", .most = 35, .size = { 2 }, .timed = 192,
       .form = { { "reference", range_reference } VECTOR_FORM("vector", range_vector) } },
+    { .name = "positions_box", .most = 35, .size = { 6 }, .timed = 64,
+      .form = { { "reference", box_reference } VECTOR_FORM("vector", box_vector) } },
     { .name = NULL }
 };
