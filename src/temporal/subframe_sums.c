@@ -76,6 +76,18 @@ void smear_subframe_take_background(const struct subframes *f, bool nothing)
             __builtin_memcpy(color, s->color + target_row(&s->color_rows, s, y) + s->x0, bytes);
 }
 
+void smear_subframe_lay_over(const struct subframes *f)
+{
+    const struct smear_raster_target *s = &f->t->background;
+    uint32_t *color = f->work.color;
+    for (int32_t y = s->y0; y < s->y1; y++, color += f->t->pitch) {
+        const uint32_t *behind = s->color + target_row(&s->color_rows, s, y) + s->x0;
+        for (int32_t x = 0; x < s->x1 - s->x0; x++)
+            if (color[x] == PACKED_NOTHING)
+                color[x] = behind[x];
+    }
+}
+
 struct depth_range smear_subframe_depths(const struct subframes *f, const struct subframe_box *b, int32_t margin)
 {
     const struct smear_raster_target *s = &f->t->background;

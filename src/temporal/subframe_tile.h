@@ -105,6 +105,9 @@ void smear_subframe_sums_add(const struct subframes *f, const struct subframe_bo
 /* Copies its colours, or puts PACKED_NOTHING in their place. */
 void smear_subframe_take_background(const struct subframes *f, bool nothing);
 
+/* Puts them in place of PACKED_NOTHING. */
+void smear_subframe_lay_over(const struct subframes *f);
+
 /* Copies its depths in a box and, where tiles begin with whole words, perhaps one pixel more to either side. */
 void smear_subframe_restore_depth(const struct subframes *f, const struct subframe_box *b);
 

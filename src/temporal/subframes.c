@@ -10,7 +10,7 @@
  *     for each instant:
  *         draw    moving triangles, and what is blended over them (subframe_pose.c)
  *         add     their pixels to the sums (subframe_sums.c)
- *     average     sums over the gap between instants, and means over the background (subframe_gap.c) */
+ *     average     sums over the gap between instants, and means over the background (subframe_gap.c); one alone is laid over it */
 #include "temporal/subframes.h"
 
 #include "display/row.h"
@@ -62,24 +62,6 @@ static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
         smear_note_passing(f, triangle, true);
 }
 
-static void begin_list(struct subframes *f, const struct subframe_box *whole)
-{
-    const struct depth_range depths = f->closes && !f->t->is_bare ? smear_subframe_depths(f, whole, 0) : (struct depth_range){ 0, 0 };
-    f->lowest = depths.least;
-    f->highest = depths.most;
-    f->nearest = f->moving_seen = 0;
-    f->area = no_box;
-    f->passing = (struct subframe_passing){ 0 };
-}
-
-static void end_list(struct subframes *f, const struct subframe_box *whole)
-{
-    if (f->blends) {
-        f->nearest = UINT16_MAX;
-        f->area = *whole;
-    }
-}
-
 /* ------------------------------------------------------------------ several fills */
 
 /* Begins to go through triangles of the tiles that come in several fills, or goes on. */
@@ -93,17 +75,12 @@ static bool fill(struct subframes *f, int kinds, bool next)
 
 /* ------------------------------------------------------------------ instants */
 
-static inline void draw(const struct posed *p, struct smear_raster_pass *pass)
-{
-    smear_raster_triangle(pass, p->segment, p->color, p->v, &p->bounds);
-}
-
 static void draw_moving_triangle(const struct subframes *f, struct smear_raster_pass *pass, uint32_t triangle, int32_t time,
                                  struct subframe_box *all)
 {
     struct posed p;
     for (bool seen = smear_subframe_pose(&p, f, triangle, time); seen; seen = smear_subframe_pose_next(&p, f)) {
-        draw(&p, pass);
+        smear_raster_triangle(pass, p.segment, p.color, p.v, &p.bounds);
         box_add(all, &p.box);
     }
 }
@@ -144,7 +121,7 @@ static void blend_one(const struct subframes *f, struct smear_raster_pass *pass,
         if (step == BLEND_BOX)
             box_add(all, &p.box);
         else
-            draw(&p, pass);
+            smear_raster_triangle(pass, p.segment, p.color, p.v, &p.bounds);
 }
 
 static SMEAR_RARE void blend_filled(const struct subframes *f, int32_t time, enum blend_step step,
@@ -205,8 +182,10 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
     const struct smear_tile_run *t = f->t;
     const struct smear_bins *g = t->frame->bins;
     const struct subframe_box whole = { t->background.x0, t->background.y0, t->background.x1, t->background.y1 };
+    const struct depth_range depths = f->closes && !t->is_bare ? smear_subframe_depths(f, &whole, 0) : (struct depth_range){ 0, 0 };
     bool moves = false;
-    begin_list(f, &whole);
+    f->lowest = depths.least;
+    f->highest = depths.most;
     do {
         for (uint32_t i = 0; i < t->moving_count; i++)
             if (subframes_see(f, &t->moving[i]))
@@ -216,7 +195,10 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
                 note_blended(f, i, &moves);
         f->fills++;
     } while (f->refilled != NULL && fill(f, FILL_MOVING | FILL_BLENDED, true));
-    end_list(f, &whole);
+    if (f->blends) {
+        f->nearest = UINT16_MAX;
+        f->area = whole;
+    }
     return moves || f->moving_seen != 0;
 }
 
@@ -334,6 +316,10 @@ static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *
     const int32_t first = f->passing.in_space ? max_i32(planned, LOOKS) : planned;
     f->instants = (uint32_t)first;
     f->changes = f->passing.in_space ? &changes : NULL;
+    if (first == 1 && contrast.last == 0 && !f->blends) {
+        f->instants = 0;                            /* there is nothing to be averaged */
+        return (uint32_t)pixels_in(&middle);
+    }
     const uint32_t passing = f->space->seen;        /* draws that are somewhen in the tiles */
     f->space->seen = 0;
     const uint32_t samples = draw_rest(f, first, add_instant(f, &middle, first / 2, 0, all), all);
@@ -356,7 +342,7 @@ static inline void make(struct subframes *f, struct smear_space *space, const st
     const struct smear_raster_target *s = &t->background;
     const int32_t pixels = t->pitch * (s->y1 - s->y0);
     *f = (struct subframes){
-        .t = t, .instants = (uint32_t)instants, .space = space
+        .t = t, .instants = (uint32_t)instants, .space = space, .area = no_box
     };
     space->segment = NULL;
     space->seen = 0;
@@ -375,26 +361,25 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
 {
     struct subframes f;
     struct smear_space space;
-    struct subframe_box all;
+    struct subframe_box all = no_box;
     make(&f, &space, t, instants);
     f.closes = plan != NULL;
     f.plans = f.closes && plan->chooser != NULL;
     if (t->fill != NULL)
         f.refilled = t;
-    all = (struct subframe_box){ f.work.x0, f.work.y0, f.work.x1, f.work.y1 };
-    smear_subframe_restore_depth(&f, &all);
+    smear_subframe_restore_depth(&f, &(struct subframe_box){ f.work.x0, f.work.y0, f.work.x1, f.work.y1 });
     uint32_t samples = 0;
     const bool moves = list(&f);
     smear_subframe_take_background(&f, !f.blends);
-    if (moves) {
-        all = no_box;
+    if (moves)
         samples = f.plans ? draw_planned(&f, plan, &all) : draw_rest(&f, 0, 0, &all);
-    }
     if (f.blends)
         blend(&f, 0, BLEND_BACKGROUND, &f.work, NULL);
+    else if (f.instants == 0)
+        smear_subframe_lay_over(&f);
     else
         smear_subframe_take_background(&f, false);
-    if (samples != 0)
+    if (samples != 0 && f.instants != 0)
         smear_subframe_average(&f, &all, plan);
     return samples;
 }

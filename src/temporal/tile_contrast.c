@@ -201,6 +201,7 @@ static void look_at_block(struct smear_contrast *c, const struct subframes *f, c
     c->moving += d.moving;
     if (d.moving != 0)
         b->last = (uint8_t)add_block(c, l, &d, &closing);
+    c->last = max_i32(c->last, b->last);
 }
 
 /* Returns the first row of a block that is looked at: of the rows that end the tiles, above or below, none is left out, as an edge

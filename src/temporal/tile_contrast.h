@@ -22,6 +22,7 @@ struct smear_contrast {
     uint32_t moving; /* pixels that move, of four */
     uint32_t plain[CLOSING_CLASSES], closed[CLOSING_CLASSES], rounded[CLOSING_CLASSES], floor[CLOSING_CLASSES];
     uint32_t unseen; /* the same of what passes at other times, about */
+    int32_t last; /* the most instants for which gaps are closed in one */
     uint32_t changed; /* and by more than that, as instants show */
 };
 
