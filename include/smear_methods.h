@@ -10,8 +10,7 @@
  *     SMEAR_ACCUMULATE   mean of `samples` sharp instants of the whole frame
  *     SMEAR_RECONSTRUCT  tile-maximum reconstruction filter
  *     SMEAR_TIMEMASK     the time each moving triangle covers each pixel, in `samples` time samples (8, 16 or 32); more
- *                        triangles in a tile than there is room for end the frame with SMEAR_ERR_ROOM; of mip levels
- *                        what moves shows the largest
+ *                        triangles in a tile than there is room for end the frame with SMEAR_ERR_ROOM
  *     SMEAR_CAMERA       `filter.kind` along the camera's motion alone, told from depth: nothing is done per vertex
  *     SMEAR_PINGPONG     few taps, two or three times over: see smear_pingpong
  *     SMEAR_HALF         `filter.kind` at half the size, over the whole frame by amount of motion

@@ -75,7 +75,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
                                             sizeof *t->moving.blocks.block);
     t->work_bytes = (uint32_t)smear_subframes_work(smear_strip_columns(d->strip, d->width), d->tile);
     if (SMEAR_WITH_TIMEMASK && wants(d, SMEAR_SET(SMEAR_TIMEMASK)))
-        t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work(d->tile));
+        t->work_bytes = max_u32(t->work_bytes, (uint32_t)smear_timemask_work());
     t->work_bytes = (t->work_bytes + 7u) & ~7u;
     t->work = SMEAR_PLACE(d, SMEAR_PART_SUMS, arena_take(a, d->workers, t->work_bytes), d->workers * t->work_bytes);
     /* Other methods work in both where one lies behind the other: SMEAR_PLACE may have moved either. */

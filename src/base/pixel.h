@@ -122,12 +122,6 @@ SMEAR_INLINE uint32_t shaded_pixel(uint32_t t, uint32_t r, uint32_t g, uint32_t 
                       code_times_channel(pixel_blue(t), b, transfer));
 }
 
-/* Multiplies a value by what is interpolated. */
-static inline uint32_t value_times_channel(uint32_t value, uint32_t channel, smear_transfer t)
-{
-    return transfer_is_linear(t) ? (value * ((channel >> 8) + (channel >> 23)) + 0x8000u) >> 16 : code_times(value, channel >> 16);
-}
-
 /* Returns smear_srgb_encode[light] without the table: how many borders between codes lie below. A border is the mean
  * of two codes' light; at three values that is off by one. */
 static inline uint32_t srgb_encode_searched(uint32_t light)

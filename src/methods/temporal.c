@@ -209,7 +209,7 @@ static SMEAR_RARE void finish_tile(const struct smear_finish *f, int column, con
             rows->refill->failed = true;
             return;
         }
-        rows->samples[worker] += smear_timemask_tile(&t, &choice->timemask);
+        rows->samples[worker] += smear_timemask_tile(&t, f->self->chooser.samples);
         travel_set_method(&f->self->moving.travel[column], TILE_TIMEMASK);
     } else {
         blend_static(&t, rows);

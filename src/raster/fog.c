@@ -106,7 +106,9 @@ static uint32_t codes_between(const struct smear_raster_frame *frame, const uint
 /* Codes by which one part of fog may be off at a triangle's nearest and farthest vertex together. */
 enum { FOG_STEP = 4 * CODE };
 
-int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color)
+/* Returns the part of fog that is near enough for all depths from low to high, units q11, of a colour or, where that is null, of
+ * any; -1: none is. */
+static int32_t fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color)
 {
     const struct smear_fog_levels *fog = frame_fog(frame);
     if (low >= fog->near_units)
@@ -137,7 +139,7 @@ static inline int32_t highest(const struct setup *s)
 void smear_fog_triangle(struct setup *s)
 {
     const uint32_t *color = one_color(s);
-    const int32_t part = smear_fog_between(s->frame, lowest(s), highest(s), color);
+    const int32_t part = fog_between(s->frame, lowest(s), highest(s), color);
     s->fog = FOG_NONE;
     if (part < 0)
         s->fog = FOG_VARIES;

@@ -21,10 +21,6 @@ static inline uint32_t fog_pixel(const struct smear_raster_frame *frame, uint32_
     return frame_mix(frame, pixel, frame_fog(frame)->color, part);
 }
 
-/* The part of fog that is near enough for all depths from low to high, units q11, of a colour or, where that is null, of
- * any; -1: none is. */
-int32_t smear_fog_between(const struct smear_raster_frame *frame, int32_t low, int32_t high, const uint32_t *color);
-
 /* Finds out what fog does to a triangle whose vertices and colour are known; a single colour becomes that in fog. */
 void smear_fog_triangle(struct setup *s);
 

@@ -173,7 +173,6 @@ void smear_tile_method_choose(struct smear_tile_choice *choice, const struct sme
         choice->method = TILE_COPY;
     } else if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (tile->flags & PATH_WITHOUT_MASK) == 0) {
         choice->method = TILE_TIMEMASK;
-        choice->timemask = (struct smear_timemask_settings){ chooser->samples, 16, 6, 256 };
     } else {
         choice->method = TILE_SUBFRAMES;
         choice->instants = chooser->method == SMEAR_AUTO ? INSTANTS_MAX : instants_for(tile, chooser->samples);

@@ -44,7 +44,6 @@ static inline void travel_set_method(struct smear_tile_travel *tile, enum smear_
 struct smear_tile_choice {
     enum smear_tile_method method;
     int32_t instants;                           /* TILE_SUBFRAMES */
-    struct smear_timemask_settings timemask;    /* TILE_TIMEMASK */
 };
 
 struct smear_chooser {

@@ -1,303 +1,176 @@
 /* SPDX-License-Identifier: MIT */
-/* timemask.c - a tile in blocks of pixels: its moving triangles one after the other, segment by segment of
- * the exposure, into time samples over the background; then their mean. */
-#include "temporal/subframes.h"
+/* timemask.c - a tile in blocks of pixels: each of its moving triangles is drawn in the middle of every time sample of the exposure, which
+ * tells in which samples it is seen in a pixel, and in which colour in the mean; then the mean of all that is seen. */
+#include "temporal/subframe_tile.h"
 
-#include "geometry/path.h"
-#include "timemask/timemask_cover.h"
-#include "geometry/transform.h"
+#include "raster/raster.h"
+#include "timemask/timemask_samples.h"
 
-/* Paths are cut into chords: all of a block alike, so that neighbours agree at their edges. */
-enum { SEGMENTS_MAX = 8, SEGMENTS_LOG2_MAX = 3 };
+enum { BLOCK_WIDTH = 16, BLOCK_HEIGHT = 8, BLOCK_PIXELS = BLOCK_WIDTH * BLOCK_HEIGHT };
 
-enum { PIXELS_LOG2 = 7 };       /* entries of a block, at most */
+/* What is seen of the triangle in work. */
+struct course {
+    uint64_t sum;               /* of its colours: three channels, 21 bits each */
+    uint32_t mask;              /* samples */
+    uint16_t first, last;       /* depth codes in the first of these samples and in the last */
+};
 
-enum { LISTED = 100 };          /* moving triangles that are drawn in order of depth */
+/* A block of pixels; its planes have rows of BLOCK_WIDTH. */
+struct timemask_block {
+    struct course course[BLOCK_PIXELS];
+    struct timemask_pixel pixel[BLOCK_PIXELS];
+    uint32_t color[BLOCK_PIXELS];
+    uint16_t depth[BLOCK_PIXELS];       /* of the background, but while a triangle is drawn */
+};
 
-/* What the blocks of a tile share. */
 struct job {
-    const struct smear_tile_run *tile;
-    const struct smear_timemask_settings *settings;
-    struct timemask_samples samples;
-    uint32_t *list;                             /* depth code, then place in the
-                                                 * tile's list from `first` on */
-    uint32_t listed, first, next;
-    int32_t segments_log2;
-    int32_t samples_log2;                       /* of a segment */
-    int32_t time[SEGMENTS_MAX + 1];             /* where segments meet */
-    int32_t x, y, width, height;                /* the block's pixels */
-    int32_t stride;                             /* from a row of entries to the next */
-    bool even;                                  /* samples are evenly spaced */
+    struct subframes f;         /* what poses triangles: its work planes are those of the block */
+    struct timemask_block *block;
+    int32_t samples;
+    smear_transfer transfer;
     uint32_t fragments;
 };
 
-/* A moving triangle, looked up. */
-struct moving {
-    const struct smear_path_bounds *bounds;
-    const struct smear_triangle *triangle;
-    const struct smear_segment *segment;
-    const int32_t *record[3];
-};
-
-static void moving_take(struct moving *m, const struct job *j, uint32_t i)
+size_t smear_timemask_work(void)
 {
-    const struct smear_bins *g = j->tile->frame->bins;
-    uint32_t triangle = j->tile->moving[i].triangle;
-    m->bounds = bins_bounds(g, triangle);
-    m->triangle = bins_triangle(g, triangle);
-    m->segment = &g->segment[m->triangle->segment];
-    for (int k = 0; k < 3; k++)
-        m->record[k] = bins_vertex(g, m->segment, m->triangle->vertex[k]);
-}
-
-/* ------------------------------------------------------------------ order */
-
-/* Sorts, the greatest first. */
-static void sort_down(uint32_t *a, uint32_t n)
-{
-    for (uint32_t i = 1; i < n; i++) {
-        const uint32_t key = a[i];
-        uint32_t at = i;
-        for (; at > 0 && a[at - 1] < key; at--)
-            a[at] = a[at - 1];
-        a[at] = key;
-    }
-}
-
-/* Lists the tile's moving triangles from `next` on, as many as there is room for, the nearest first. What is merged in
- * a pixel is hardly ever hidden by what comes later then. */
-static void list_moving(struct job *j)
-{
-    const struct smear_tile_run *t = j->tile;
-    j->first = j->next;
-    j->listed = 0;
-    for (; j->next < t->moving_count && j->next - j->first < 65536u && j->listed < LISTED; j->next++)
-        if (moving_is_in(&t->moving[j->next], t))
-            j->list[j->listed++] = (uint32_t)t->moving[j->next].nearest << 16
-                                 | (65535u - (j->next - j->first));
-    sort_down(j->list, j->listed);
-}
-
-static inline uint32_t listed_moving(const struct job *j, uint32_t i)
-{
-    return j->first + 65535u - (j->list[i] & 0xffffu);
-}
-
-/* ------------------------------------------------------------------ segments */
-
-/* Returns how far the shutter's times lie off an even course within one of 2^log2 segments, q16 of the exposure. */
-static int32_t shutter_curvature(const struct smear_shutter_times *s, int log2)
-{
-    int step = SHUTTER_SAMPLES >> log2;
-    int32_t worst = 0;
-    for (int first = 0; first < SHUTTER_SAMPLES; first += step) {
-        int32_t from = s->time[first], length = s->time[first + step] - from;
-        for (int i = 1; i < step; i++)
-            worst = max_i32(worst, abs_i32(s->time[first + i] - from - (length * i >> (5 - log2))));
-    }
-    return worst;
-}
-
-/* The fewest segments that do for all triangles of the tile, of the whole exposure. */
-static void choose_segments(struct job *j)
-{
-    const struct smear_tile_run *t = j->tile;
-    int32_t curvature = 0, travel = 0;               /* q8 px */
-    for (uint32_t i = 0; i < t->moving_count; i++) {
-        const struct smear_path_bounds *b = bins_bounds(t->frame->bins, t->moving[i].triangle);
-        if (!moving_is_in(&t->moving[i], t))
-            continue;
-        travel = max_i32(travel, b->travel << 4);
-        curvature = max_i32(curvature, b->curvature << 3);
-    }
-    curvature >>= 4;                                 /* what edges that follow parabolas leave of it, about */
-    int log2 = 0;
-    while (log2 < SEGMENTS_LOG2_MAX
-           && (curvature >> (2 * log2) > j->settings->curvature
-               || (!j->even && mul_wide(travel, shutter_curvature(t->shutter, log2)) >> 16 > j->settings->curvature)))
-        log2++;
-    j->segments_log2 = log2;
-    j->samples_log2 = j->samples.samples_log2 - log2;
-    for (int i = 0; i <= 1 << log2; i++)
-        j->time[i] = t->shutter->time[i * (SHUTTER_SAMPLES >> log2)];
+    return sizeof(struct timemask_block);
 }
 
 /* ------------------------------------------------------------------ triangles */
 
-/* The triangle at a time, 0 .. SHUTTER_CLOSE, as the block sees it. Most often it is asked for one of the places that
- * are kept. */
-static void pose_at(struct timemask_pose *p, const struct job *j, const struct moving *m, int32_t time)
+/* Returns the background's depths in row y of the frame, from the block's first column on. */
+static const uint16_t *depths_behind(const struct job *j, int32_t y)
 {
-    const int32_t x = j->x * 256 + 128, y = j->y * 256 + 128;
-    const bool is_kept = (time & (SHUTTER_CLOSE / 2 - 1)) == 0;
-    const int at = time == SHUTTER_CLOSE / 2 ? 0 : m->segment->motion + (time != 0 ? PATH_POSE_WORDS : 0);
-    for (int i = 0; i < 3; i++) {
-        int32_t between[3];
-        const int32_t *place = m->record[i] + at;
-        if (!is_kept) {
-            path_at(between, m->record[i], m->segment, time);
-            between[2] = clamp_i32(between[2], SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX);     /* a parabola overshoots */
-            place = between;
+    const struct smear_raster_target *s = &j->f.t->background;
+    return s->depth + target_row(&s->window_rows, s, y) + j->f.work.x0;
+}
+
+/* Returns a pixel's channels, as many bits of a sum apart as samples of light take. */
+static inline uint64_t spread_channels(uint32_t pixel, smear_transfer transfer)
+{
+    return (uint64_t)value_of_code(pixel_red(pixel), transfer) << 42 | (uint64_t)value_of_code(pixel_green(pixel), transfer) << 21
+         | value_of_code(pixel_blue(pixel), transfer);
+}
+
+/* Takes what was drawn in a box in sample k, and puts the background's depths back. */
+static void take_sample(const struct job *j, const struct subframe_box *box, int32_t k)
+{
+    const struct smear_raster_target *w = &j->f.work;
+    const smear_transfer transfer = j->transfer;
+    for (int32_t y = box->y0; y < box->y1; y++) {
+        const uint16_t *behind = depths_behind(j, y) - w->x0;
+        struct timemask_block *row = j->block;
+        for (int32_t x = box->x0, at = (y - w->y0) * BLOCK_WIDTH + x - w->x0; x < box->x1; x++, at++) {
+            const uint16_t depth = row->depth[at];
+            if (depth == behind[x])
+                continue;
+            struct course *c = &row->course[at];
+            c->sum += spread_channels(row->color[at], transfer);
+            c->first = c->mask == 0 ? depth : c->first;
+            c->last = depth;
+            c->mask |= 1u << k;
+            row->depth[at] = behind[x];
         }
-        p->x[i] = place[PATH_X] - x;
-        p->y[i] = place[PATH_Y] - y;
-        p->depth[i] = place[PATH_DEPTH];
     }
 }
 
-/* How depth codes follow from units q4, below and from code 32768. */
-struct code_slope {
-    int32_t add, shift;
-    int32_t slope, size;        /* per sample, 1/16, as it is kept; its magnitude */
-    uint32_t kept;
-};
-
-/* What fragments of a triangle in a segment share. */
-struct painter {
-    const struct timemask_shade *shade;
-    struct code_slope code[2];
-    int32_t first;              /* sample */
-    int32_t last_sample;        /* of the exposure, less 2 `first` */
-};
-
-/* Adds the fragments of a block to its samples. */
-static void paint(struct job *j, const struct timemask_cover *c, const struct painter *p)
+/* Makes an entry of a course: the mean of its colours, and its depths on a line through the first and the last. A line that would leave
+ * their range becomes one depth. */
+static struct timemask_entry entry_of(const struct job *j, const struct course *c)
 {
-    const struct timemask_shade *s = p->shade;
-    const struct smear_raster_target *target = &j->tile->background;
-    uint32_t run[TIMEMASK_RUNS];
-    for (int32_t y = c->y0; y < c->y1; y++) {
-        const uint16_t *background = target->depth + target_row(&target->window_rows, target, j->y + y) + j->x;
-        const int32_t n = smear_timemask_row(c, y, run);
-        for (int32_t i = 0; i < n; i++) {
-            const int32_t x = timemask_run_x(run[i]), from = timemask_run_from(run[i]), to = timemask_run_to(run[i]);
-            const int32_t units = clamp_i32(timemask_value(&s->depth, x, y, timemask_middle(s, run[i])), s->depth_low, s->depth_high);
-            const struct code_slope *k = &p->code[units >= 32768 << 4];
-            const int32_t code = (units + k->add) >> k->shift, slope = k->slope, reach = k->size * (to - from - 1) >> 5;
-            const int32_t behind = background[x];
-            if (code + reach <= behind)
+    const int32_t from = 31 - count_leading_zeros(c->mask & (0u - c->mask)), to = 31 - count_leading_zeros(c->mask);
+    const int32_t change = c->last - c->first, between = max_i32(to - from, 1);
+    const int32_t start = c->first - change * from / between, end = c->last + change * (j->samples - 1 - to) / between;
+    const bool within = (start | end) >= 0 && max_i32(start, end) <= 65535;
+    struct timemask_entry e = { c->mask, 0, (uint16_t)(within ? start : c->first), (uint16_t)(within ? end : c->first) };
+    const uint32_t n = timemask_count(c->mask);
+    for (int i = 0; i < 3; i++)
+        e.color |= code_of_value(((uint32_t)(c->sum >> 21 * i & 0x1fffffu) + n / 2) / n, j->transfer) << 8 * i;
+    return e;
+}
+
+/* Adds what was seen of a triangle to the pixels of a box, and forgets it. */
+static void add_courses(struct job *j, const struct subframe_box *box)
+{
+    for (int32_t y = box->y0 - j->f.work.y0; y < box->y1 - j->f.work.y0; y++)
+        for (int32_t x = box->x0 - j->f.work.x0; x < box->x1 - j->f.work.x0; x++) {
+            struct course *c = &j->block->course[y * BLOCK_WIDTH + x];
+            if (c->mask == 0)
                 continue;
-            struct timemask_fragment f;
-            f.mask = timemask_below(p->first + to) ^ timemask_below(p->first + from);
-            if (code - reach <= behind) {
-                f.mask = smear_timemask_nearer((code - behind) * 32, slope, f.mask, 2 * p->first + from + to - 1);
-                if (f.mask == 0)
-                    continue;
-            }
-            /* From the run's middle to that of the exposure. A depth that would leave its range there stays as it is. */
-            f.depth = code + (slope * (p->last_sample + 1 - (from + to)) >> 5);
-            f.slope = slope;
-            f.color = k->kept;
-            if ((uint32_t)f.depth > 65535u) {
-                f.depth = code;
-                f.slope = 0;
-                f.color = 0;
-            }
-            f.color |= smear_timemask_color(s, y, run[i]);
-            smear_timemask_samples_add(&j->samples, (uint32_t)(y * j->stride + x), f);
+            smear_timemask_add(&j->block->pixel[y * BLOCK_WIDTH + x], entry_of(j, c), j->samples - 1, j->transfer);
+            *c = (struct course){ 0, 0, 0, 0 };
             j->fragments++;
         }
-    }
 }
 
-/* Draws a triangle in a segment with poses at its start, middle and end; `first` is its first sample. */
-static void draw_segment(struct job *j, const struct moving *m, const struct timemask_pose *const pose[3], int32_t first)
+static void draw_in_samples(struct job *j, struct smear_raster_pass *pass, uint32_t triangle)
 {
-    struct timemask_cover c;
-    struct timemask_shade s;
-    if (!smear_timemask_cover(&c, pose, j->width, j->height, j->samples_log2, j->settings->edge))
+    const struct smear_path_bounds *b = bins_bounds(j->f.t->frame->bins, triangle);
+    const struct smear_raster_target *w = &j->f.work;
+    struct subframe_box all = no_box;
+    if (b->x0 >= w->x1 || b->x1 <= w->x0 || b->y0 >= w->y1 || b->y1 <= w->y0)
         return;
-    smear_timemask_shade(&s, j->tile->frame, m->segment, m->triangle->color,
-                         (m->bounds->flags & PATH_FLAT) != 0, m->record, pose, &c, j->settings->tap);
-    struct painter p = { .shade = &s, .first = first, .last_sample = (1 << j->samples.samples_log2) - 1 - 2 * first };
-    for (int i = 0; i < 2; i++) {
-        struct code_slope *k = &p.code[i];
-        k->add = i == 0 ? 8 : ((15 * 32768) << 4) + 128;
-        k->shift = i == 0 ? 4 : 8;
-        k->kept = smear_timemask_slope(i == 0 ? s.slope : s.slope >> 4) << 24;
-        k->slope = timemask_slope_of(k->kept);
-        k->size = abs_i32(k->slope);
+    for (int32_t k = 0; k < j->samples; k++) {
+        struct posed p;
+        const int32_t time = smear_shutter_instant(j->f.t->shutter, k, j->samples);
+        for (bool seen = smear_subframe_pose(&p, &j->f, triangle, time); seen; seen = smear_subframe_pose_next(&p, &j->f)) {
+            smear_raster_triangle(pass, p.segment, p.color, p.v, &p.bounds);
+            take_sample(j, &p.box, k);
+            box_add(&all, &p.box);
+        }
     }
-    paint(j, &c, &p);
-}
-
-static void draw_moving(struct job *j, uint32_t i)
-{
-    struct moving m;
-    moving_take(&m, j, i);
-    const struct smear_path_bounds *b = m.bounds;
-    if (b->x0 >= j->x + j->width || b->x1 <= j->x || b->y0 >= j->y + j->height || b->y1 <= j->y)
-        return;
-    struct timemask_pose pose[3];
-    pose_at(&pose[0], j, &m, j->time[0]);
-    for (int k = 0; k < 1 << j->segments_log2; k++) {
-        const struct timemask_pose *poses[3] = { &pose[k & 1 ? 2 : 0], &pose[1], &pose[k & 1 ? 0 : 2] };
-        pose_at(&pose[1], j, &m, (j->time[k] + j->time[k + 1]) >> 1);
-        pose_at(&pose[k & 1 ? 0 : 2], j, &m, j->time[k + 1]);
-        draw_segment(j, &m, poses, k << j->samples_log2);
-    }
+    if (!subframe_box_is_empty(&all))
+        add_courses(j, &all);
 }
 
 /* ------------------------------------------------------------------ blocks */
 
+static void begin_block(struct job *j)
+{
+    const struct smear_raster_target *w = &j->f.work;
+    __builtin_memset(j->block, 0, sizeof *j->block);
+    for (int32_t y = w->y0; y < w->y1; y++)
+        __builtin_memcpy(w->depth + (y - w->y0) * BLOCK_WIDTH, depths_behind(j, y), (size_t)(w->x1 - w->x0) * sizeof *w->depth);
+}
+
 static void finish_block(const struct job *j)
 {
-    const struct smear_tile_run *t = j->tile;
-    const struct smear_raster_target *background = &t->background;
-    for (int32_t y = 0; y < j->height; y++) {
-        const uint32_t *color = background->color + target_row(&background->color_rows, background, j->y + y) + j->x;
-        uint32_t *out = t->out + (j->y + y - background->y0) * t->pitch + (j->x - background->x0);
-        for (int32_t x = 0; x < j->width; x++) {
-            uint32_t at = (uint32_t)(y * j->stride + x);
-            out[x] = j->samples.count[at] == 0 ? color[x] : smear_timemask_samples_mean(&j->samples, at, color[x]);
-        }
+    const struct smear_tile_run *t = j->f.t;
+    const struct smear_raster_target *s = &t->background, *w = &j->f.work;
+    const int log2 = 31 - count_leading_zeros((uint32_t)j->samples);
+    for (int32_t y = w->y0; y < w->y1; y++) {
+        const uint32_t *color = s->color + target_row(&s->color_rows, s, y);
+        uint32_t *out = t->out + (y - s->y0) * t->pitch - s->x0;
+        const struct timemask_pixel *p = j->block->pixel + (y - w->y0) * BLOCK_WIDTH;
+        for (int32_t x = w->x0; x < w->x1; x++, p++)
+            out[x] = p->count == 0 ? color[x] : smear_timemask_mean(p, color[x], log2, j->transfer);
     }
 }
 
-/* Draws the block's moving triangles, as many at a time as the list has room for. */
 static void draw_block(struct job *j)
 {
-    smear_timemask_samples_clear(&j->samples);
-    if (j->first != 0) {        /* they did not fit at once: from the start */
-        j->next = 0;
-        list_moving(j);
-    }
-    for (;;) {
-        for (uint32_t i = 0; i < j->listed; i++)
-            draw_moving(j, listed_moving(j, i));
-        if (j->next == j->tile->moving_count)
-            break;
-        list_moving(j);
-    }
+    const struct smear_tile_run *t = j->f.t;
+    struct smear_raster_pass pass;
+    begin_block(j);
+    smear_raster_begin(&pass, t->frame, &j->f.work);
+    for (uint32_t i = 0; i < t->moving_count; i++)
+        if (moving_is_in(&t->moving[i], t))
+            draw_in_samples(j, &pass, t->moving[i].triangle);
     finish_block(j);
 }
 
-size_t smear_timemask_work(int32_t tile)
+uint32_t smear_timemask_tile(const struct smear_tile_run *t, int32_t samples)
 {
-    (void)tile;
-    return timemask_samples_bytes(1u << PIXELS_LOG2) + LISTED * sizeof(uint32_t);
-}
-
-uint32_t smear_timemask_tile(const struct smear_tile_run *t, const struct smear_timemask_settings *settings)
-{
-    const struct smear_raster_target *background = &t->background;
-    struct job j = { .tile = t, .settings = settings, .list = (uint32_t *)t->work };
-    smear_timemask_samples_place(&j.samples, j.list + LISTED, PIXELS_LOG2,
-                               31 - count_leading_zeros((uint32_t)settings->samples),
-                                 frame_transfer(t->frame));
-    j.even = smear_shutter_is_box(t->shutter);
-    choose_segments(&j);
-    list_moving(&j);
-    /* The largest blocks whose entries fit: halves of the tile. */
-    int32_t height = t->tile;
-    for (j.stride = t->tile; j.stride > TIMEMASK_WIDTH;)
-        j.stride >>= 1;
-    while (height > TIMEMASK_HEIGHT || height * j.stride > 1 << PIXELS_LOG2)
-        height >>= 1;
-    for (j.y = background->y0; j.y < background->y1; j.y += height)
-        for (j.x = background->x0; j.x < background->x1; j.x += j.stride) {
-            j.width = min_i32(background->x1 - j.x, j.stride);
-            j.height = min_i32(background->y1 - j.y, height);
+    const struct smear_raster_target *s = &t->background;
+    struct smear_space space = { .segment = NULL };
+    struct job j = { .f = { .t = t, .space = &space }, .block = (struct timemask_block *)t->work, .samples = samples,
+                     .transfer = frame_transfer(t->frame) };
+    struct smear_raster_target *w = &j.f.work;
+    *w = (struct smear_raster_target){ .color = j.block->color, .depth = j.block->depth, .tile_shift = s->tile_shift };
+    for (w->y0 = s->y0; w->y0 < s->y1; w->y0 = w->y1)
+        for (w->x0 = s->x0, w->y1 = min_i32(w->y0 + BLOCK_HEIGHT, s->y1); w->x0 < s->x1; w->x0 = w->x1) {
+            w->x1 = min_i32(w->x0 + BLOCK_WIDTH, s->x1);
+            w->color_rows = w->window_rows = (struct smear_plane_rows){ BLOCK_WIDTH, 0, BLOCK_HEIGHT, w->x0 };
             draw_block(&j);
         }
     return j.fragments;

@@ -14,7 +14,7 @@ int main(void)
         { "SMEAR_SET_SKETCH", "in `desc.methods` beside it: room for sketches, the fastest blur before a camera that moves",
           SMEAR_SET(SMEAR_AUTO) | SMEAR_SET_SKETCH },
         { "SMEAR_SUBFRAMES", "a moment for each half pixel of travel; slower, closer to the truth", SMEAR_SET(SMEAR_SUBFRAMES) },
-        { "SMEAR_TIMEMASK", "works out when each triangle covers each pixel; the cleanest streaks", SMEAR_SET(SMEAR_TIMEMASK) },
+        { "SMEAR_TIMEMASK", "works out when each triangle covers each pixel; many times slower, no closer", SMEAR_SET(SMEAR_TIMEMASK) },
         { "SMEAR_OBJECT", "smears each object along one line; a long one costs no more", SMEAR_SET(SMEAR_OBJECT) },
         { "SMEAR_RECONSTRUCT", "filters a sharp picture, as large game engines do", SMEAR_SET(SMEAR_RECONSTRUCT) },
         { "SMEAR_ACCUMULATE", "the mean of sharp pictures; memory of `SMEAR_SET_ACCUMULATE_BANDS`; slowest",

@@ -533,7 +533,7 @@ claim "in parts" is_true "$parts > 0"
 
 render $moving --method timemask -o mask.ppm
 for tile in 8 16 32 64; do
-    claim "--tile $tile does not change what blurs in closed form" drawn same mask.ppm tile.ppm $moving --tile $tile --method timemask
+    claim "--tile $tile does not change what blurs by time samples" drawn same mask.ppm tile.ppm $moving --tile $tile --method timemask
     render $moving --tile $tile -o tile.ppm
     works compare tile.ppm out.ppm
     claim "and auto's instants by little" is_true "$(value_of rmse) < 1.5"

@@ -23,7 +23,7 @@ const struct method method_list[] = {
     { .name = "timemask", .method = SMEAR_TIMEMASK,
       .help = "the time each triangle covers each pixel; cutouts,\nblended draws and what passes the eye as in subframes",
       .tile_color = 0xc040ff, .label = "timemask",
-      .hint = "For each pixel, the time each triangle covers it, in closed form.", .samples = { 8, 16, 32 },
+      .hint = "For each pixel, the time samples in which each triangle covers it.", .samples = { 8, 16, 32 },
       .curve = "timemask: N samples", .color = "#5aa9f5" },
     { .name = "camera", .method = SMEAR_CAMERA, .help = "velocity from depth and two cameras, then a filter",
       .tile_color = 0xff9020, .label = "camera",

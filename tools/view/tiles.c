@@ -41,7 +41,7 @@ static struct tile_note temporal_tile(const struct smear_probe *c, const struct 
     smear_tile_method_choose(&choice, &c->temporal->chooser, tile);
     if (travel_method(tile) == TILE_SUBFRAMES)
         return (struct tile_note){ SMEAR_SUBFRAMES, TILES_COMPLEX, (uint16_t)(tile->instants != 0 ? tile->instants : choice.instants) };
-    return (struct tile_note){ SMEAR_TIMEMASK, TILES_COMPLEX, (uint16_t)choice.timemask.samples };
+    return (struct tile_note){ SMEAR_TIMEMASK, TILES_COMPLEX, (uint16_t)c->temporal->chooser.samples };
 }
 
 /* The window that the method filters knows which tiles motion reaches. */

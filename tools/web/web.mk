@@ -16,7 +16,7 @@ WEB_SRC := tools/web/web.c tools/web/catalog.c tools/web/files.c $(wildcard tool
     $(addprefix tools/view/,board.c cost.c lane.c orbit.c panel.c surface.c tiles.c)
 
 # The page lays nothing over its frames; each of its workers draws alone. Inner loops; everything else is to be small. Headers of src/ must not see that: they leave things out where size counts.
-WEB_FAST := $(filter-out src/raster/texture.c src/filter/filtered.c src/filter/pingpong.c,$(filter src/kernels/% src/filter/% src/raster/% src/temporal/subframes.c src/timemask/timemask_cover.c src/timemask/timemask_samples.c \
+WEB_FAST := $(filter-out src/raster/texture.c src/filter/filtered.c src/filter/pingpong.c,$(filter src/kernels/% src/filter/% src/raster/% src/temporal/subframes.c src/timemask/timemask.c src/timemask/timemask_samples.c \
     src/display/pixel_format.c src/display/band.c src/geometry/light.c,$(LIB_SRC)))
 
 # Loops over pixels that the compiler makes vectors of; nothing else gains.
