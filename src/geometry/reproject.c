@@ -346,7 +346,7 @@ void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, i
     f->units_most = f->aside_down >= 31 - MOST ? units : min_u32((1u << (MOST + f->aside_down)) / length, units);
 }
 
-int32_t smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2])
+void smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2])
 {
     enum { TURN_MOST = 1 << 17 };
     const int32_t from_x = x - (f->width >> 1), from_y = y - (f->height >> 1), u = (int32_t)min_u32(units, f->units_most);
@@ -354,5 +354,4 @@ int32_t smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t
                                    -TURN_MOST, TURN_MOST);
     out[0] = (from_x * (f->along[0] + turn) + from_y * f->across[0] + f->one[0] + (u * f->aside[0] >> f->aside_down)) >> 8;
     out[1] = (from_y * (f->along[1] + turn) + from_x * f->across[1] + f->one[1] + (u * f->aside[1] >> f->aside_down)) >> 8;
-    return turn;
 }

@@ -60,8 +60,7 @@ struct smear_flow {
 /* Makes the flow of a reprojection; `exposure`: the displacement between its poses to the whole exposure's, q16. */
 void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, int32_t exposure);
 
-/* Finds the displacement over the exposure, q8 px, of what has depth `units` at the middle of pixel (x, y). Returns the part by which
- * its distance changes, q16, within 2. */
-int32_t smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2]);
+/* Finds the displacement over the exposure, q8 px, of what has depth `units` at the middle of pixel (x, y). */
+void smear_flow_at(const struct smear_flow *f, int32_t x, int32_t y, uint32_t units, int32_t out[2]);
 
 #endif

@@ -44,19 +44,20 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
     smear_flow_make(flow, &r, spans ? 65536 : shot->half_exposure >> 7);
 }
 
-/* The part of the contrast that pictures leave of the squared error, q16. In encoded light these are about the medians of scenes of the
- * suite, of rooms and of models that a camera goes round; in linear light the error is 1.1 to 1.25 times what they tell, and 80 % lie
- * within 0.8 and 1.9 of it. */
-static const uint16_t left_of_contrast[LINE_PICTURES] = { 4200, 1430, 1000, 780 };
+/* The part of the contrast that pictures leave of the squared error, q16: medians of some 300 frames of the suite, of models, rooms and
+ * streets, of which nine of ten have at most 1.2 times the error that is told so with one picture, and 1.4 times with more. */
+static const uint16_t left_of_contrast[LINE_PICTURES] = { 6600, 2930, 2000, 1600 };
 
-/* Returns the squared error that so many pictures may have as foretold, in quarters of what is asked for: a sketch's second picture costs
- * as much as its first. */
-static uint64_t allowed(const struct smear_lines *lines, int pictures, int32_t target)
+/* Returns the squared error that pictures may have as foretold, in sixteenths of what is asked for: a sketch's second picture costs as
+ * much as its first, and in encoded light, which the smallest machines draw in, one does where it errs by half as much again. A draft
+ * that asks for the `last` of its pictures may have a bit more: instants cost twice as much. */
+static uint64_t allowed(const struct smear_lines *lines, int32_t target, bool last)
 {
-    return pictures == 1 && target_is_sketch(target) ? 11 : transfer_is_linear(lines->transfer) ? 5 : 6;
+    const bool is_linear = transfer_is_linear(lines->transfer);
+    return target_is_sketch(target) ? (is_linear ? 23 : 36) : (is_linear ? 21u : 25u) + (last ? 2u : 0u);
 }
 
-enum { VALUES = 6 };                    /* per block: two pixels' three channels are compared with two others' */
+enum { VALUES = 12 };                   /* per block: two pixels' three channels are compared with two others', and / 16 of both */
 
 /* Returns how many pictures there are at least, or more than `most` where no number will do. There are two but of a sketch: what blocks
  * show is told by few of their pixels. Lines are straight, and err by the square of the angle that a camera turns by from picture to
@@ -81,7 +82,7 @@ static int pictures_for(const struct smear_lines *lines, int32_t target, int k)
     /* One less than the last had must do well, as pictures would flicker between both. */
     while (k <= lines->most
            && (uint64_t)lines->contrast * left_of_contrast[k - 1]
-                  > most * lines->blocks / 32 * (allowed(lines, k, target) * (k < lines->pictures ? 7 : 8)))
+                  > most * lines->blocks / 128 * (allowed(lines, target, false) * (k < lines->pictures ? 7 : 8)))
         k++;
     return k;
 }
@@ -127,14 +128,27 @@ static struct smear_line_seen *seen_at(const struct smear_lines *lines, const st
     return &lines->seen[((y & (LINE_ROWS_SEEN * w->tile - 1)) >> LINE_BLOCK_LOG2) * line_blocks(w->width) + (x >> LINE_BLOCK_LOG2)];
 }
 
-/* Returns the contrast of the blocks of a tile row that move. */
+/* Returns what two blocks beside each other show that go unlike ways: the one hides and bares what is behind, and that has the contrast of
+ * both, and more, as edges of what is nearer are told by few pixels. Bare ones go along. */
+static uint32_t hidden(const struct smear_lines *lines, const struct smear_line_seen *a, const struct smear_line_seen *b)
+{
+    enum { ALIKE = 1, FAR = 64, EDGE = 512, PART_LOG2 = 3 };    /* px; an eighth of the contrast per pixel of the whole way */
+    const int32_t apart = max_i32(abs_i32(a->x - b->x), abs_i32(a->y - b->y));
+    if (apart <= ALIKE || a->depth == 0 || b->depth == 0)
+        return 0;
+    return ((uint32_t)a->contrast + b->contrast + EDGE) * (uint32_t)(min_i32(apart, FAR) * lines->pictures) >> PART_LOG2;
+}
+
+/* Returns the contrast of the blocks of a tile row, with what they hide from each other. */
 static uint32_t contrast_of(const struct smear_lines *lines, const struct smear_window *w, int32_t y0, int32_t y1)
 {
     uint32_t sum = 0;
     for (int32_t y = y0; y < y1; y += BLOCK) {
-        const struct smear_line_seen *seen = seen_at(lines, w, 0, y);
-        for (int32_t x = 0; x < w->width; x += BLOCK, seen++)
-            sum += (seen->x | seen->y) != 0 ? seen->contrast : 0u;
+        const struct smear_line_seen *seen = seen_at(lines, w, 0, y), *left = seen;
+        /* Of rows that are blurred no more is known. */
+        const struct smear_line_seen *up = y > lines->finished * w->tile ? seen_at(lines, w, 0, y - BLOCK) : seen;
+        for (int32_t x = 0; x < w->width; x += BLOCK, left = seen++, up++)
+            sum += min_u32(seen->contrast + hidden(lines, seen, left) + hidden(lines, seen, up), UINT16_MAX);
     }
     return sum;
 }
@@ -149,7 +163,8 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     int k = lines->pictures;
     for (; k <= lines->most; k++) {
         /* The rest may have what is left of the frame's error, or its own share if that is more. */
-        const uint64_t each = (uint64_t)target * (uint64_t)target * VALUES * allowed(lines, k, target) / 4, own = each * (all - blocks);
+        const uint64_t each = (uint64_t)target * (uint64_t)target * VALUES * allowed(lines, target, k == lines->most) / 16;
+        const uint64_t own = each * (all - blocks);
         if (rest * left_of_contrast[k - 1] <= (each * all > error + own ? each * all - error : own))
             break;
     }
@@ -234,23 +249,21 @@ int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smea
                                  int32_t y, uint32_t depth)
 {
     enum { STEP = 256 };
-    const int32_t most_y = 2 * 256 * w->reach, most_x = 256 * w->width;
-    const int32_t part = part_of(smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out), pictures) / 2 >> 4;   /* q12 */
-    int32_t times = 1;
+    const int32_t longest[2] = { 256 * w->width, 2 * 256 * w->reach };
+    smear_flow_at(flow, x, y, smear_depth_units((uint16_t)depth), out);
     for (int i = 0; i < 2; i++)
         out[i] = part_of(out[i], pictures);
+    const int32_t way = max_i32(abs_i32(out[0]), abs_i32(out[1]));
     for (int i = 0; i < 2; i++) {
-        const int32_t most = i == 0 ? most_x : most_y, length = abs_i32(out[i]);
-        times = max_i32(times, (min_i32(length, most_x) >> 8) * (part * part >> 12) >> 12);
+        const int32_t most = longest[i], length = abs_i32(out[i]);
         if (length <= most)
             continue;
-        times = max_i32(times, (int32_t)((uint32_t)(length + (most >> 1)) / (uint32_t)most));
         out[1 - i] = (out[1 - i] >> 4) * (int32_t)(((uint32_t)most << 11) / (uint32_t)length) >> 7;
         out[i] = out[i] < 0 ? -most : most;
     }
-    out[0] = (out[0] + STEP / 2) & -STEP;
-    out[1] = (out[1] + STEP / 2) & -STEP;
-    return times;
+    for (int i = 0; i < 2; i++)
+        out[i] = (out[i] + STEP / 2) & -STEP;
+    return way;
 }
 
 /* Places taps evenly on the way: no more than three quarters of a pixel apart, where there may be so many. */
@@ -343,16 +356,21 @@ void smear_lines_blur_blocks(const struct smear_lines *lines, const struct smear
     }
 }
 
-/* Finds how a block goes if it shows something at a depth. Returns how many times as long its way is, about. */
-static int32_t displace_block(const struct smear_lines *lines, const struct smear_window *w, struct smear_line_seen *seen, int32_t x,
-                              int32_t y, uint32_t depth)
+/* Finds how a block goes, and notes what of its contrast counts: what is left of a way that is cut off stays sharp, and a way that is
+ * rounded to none leaves the more the longer it is. */
+static void displace_block(const struct smear_lines *lines, const struct smear_window *w, struct smear_line_seen *seen, int32_t x,
+                           int32_t y)
 {
+    enum { HALF = 128, CUT = 256 };     /* q8 px: more than what is rounded is cut off */
     int32_t d[2];
-    const int32_t times = smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, w->width - 1),
-                                                   min_i32(y + BLOCK / 2, w->height - 1), depth);
+    const int32_t way = smear_lines_displacement(d, lines->pictures, &lines->flow, w, min_i32(x + BLOCK / 2, w->width - 1),
+                                                 min_i32(y + BLOCK / 2, w->height - 1), seen->depth);
+    const int32_t gone = max_i32(abs_i32(d[0]), abs_i32(d[1]));
     seen->x = (int16_t)(d[0] >> 8);
     seen->y = (int16_t)(d[1] >> 8);
-    return times;
+    if (seen->contrast != 0 && (gone == 0 || way > gone + CUT))
+        seen->contrast = (uint16_t)min_u32(seen->contrast * min_u32((uint32_t)way >> 4, UINT16_MAX) / ((uint32_t)max_i32(gone, HALF) >> 4),
+                                           UINT16_MAX);
 }
 
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
@@ -360,21 +378,12 @@ void smear_lines_displace(const struct smear_lines *lines, const struct smear_wi
     for (int32_t y = y0; y < y1; y += BLOCK) {
         struct smear_line_seen *seen = seen_at(lines, w, x0, y);
         for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
-            if (seen->depth == 0)                           /* bare: it has no way of its own */
-                continue;
-            const uint32_t times = (uint32_t)displace_block(lines, w, seen, x, y, seen->depth);
-            if (times > 1)      /* what is left of a way that is cut off stays sharp */
-                seen->contrast = (uint16_t)min_u32(seen->contrast * (2 * times - 1), UINT16_MAX);
+            if (seen->depth == 0)       /* bare: it has no way of its own, and keeps the depth of what passes it instead */
+                seen->contrast = 0;
+            else
+                displace_block(lines, w, seen, x, y);
         }
     }
-}
-
-/* Gives a bare block the way of what passes it, whose depth is kept in place of a contrast: of that no use is made any more. */
-static void give_way(struct smear_line_seen *bare, uint16_t depth, int16_t x, int16_t y)
-{
-    bare->contrast = depth;
-    bare->x = x;
-    bare->y = y;
 }
 
 /* Gives its way to the bare blocks of columns [x0, x1) of rows [y0, y1) that a block passes, half the way before and after. Of several the
@@ -389,7 +398,7 @@ static void pass_bare(const struct smear_lines *lines, const struct smear_window
         const int32_t u = x + BLOCK / 2 + (seen->x * k >> (log + 1)), v = y + BLOCK / 2 + (seen->y * k >> (log + 1));
         struct smear_line_seen *const bare = u < x0 || u >= x1 || v < y0 || v >= y1 ? NULL : seen_at(lines, w, u, v);
         if (bare != NULL && bare->depth == 0 && bare->contrast < seen->depth)
-            give_way(bare, seen->depth, seen->x, seen->y);
+            *bare = (struct smear_line_seen){ 0, seen->depth, seen->x, seen->y };
     }
 }
 
@@ -400,10 +409,7 @@ static void settle_bare(const struct smear_lines *lines, const struct smear_wind
     for (int32_t y = y0; y < y1; y += BLOCK) {
         struct smear_line_seen *seen = seen_at(lines, w, x0, y);
         for (int32_t x = x0; x < x1; x += BLOCK, seen++)
-            if (seen->depth == 0) {
-                any = true;
-                give_way(seen, 0, 0, 0);
-            }
+            any = any || seen->depth == 0;
     }
     for (int32_t y = any ? max_i32((y0 & -w->tile) - w->tile, 0) : lines->drawn; y < lines->drawn; y += BLOCK) {
         const struct smear_line_seen *seen = seen_at(lines, w, 0, y);

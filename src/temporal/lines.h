@@ -5,9 +5,9 @@
  * The plain form of [GPUGems3] chapter 27: what a block's depth and two cameras say holds for the whole block, and its taps
  * weigh alike. Nothing is done per vertex. The window keeps the rows that lines reach.
  *
- * A line errs by a share of what pixels beside each other differ by: the more pictures, the less. A frame begins with as many as
- * the last would have been good with; where what is seen so far says that they are too few, what is left of it takes more: as if it
- * had three quarters of that contrast. */
+ * A line errs by a share of what pixels beside each other differ by, more where blocks beside each other go unlike ways: the more
+ * pictures, the less. A frame begins with as many as the last would have been good with; where what is seen so far says that they
+ * are too few, what is left of it takes more: as if it had three quarters of that contrast. */
 #ifndef SMEAR_LINES_H
 #define SMEAR_LINES_H
 
@@ -118,7 +118,7 @@ void smear_lines_make_flow(struct smear_flow *flow, const struct smear_shot *sho
                            const smear_camera *camera);
 
 /* Finds the displacement from one of so many pictures to the next of what is seen at a pixel, in whole pixels (q8), so that blocks
- * beside each other often have the same, and no longer along y than lines reach. Returns how many times as long it is, about. */
+ * beside each other often have the same, and no longer along y than lines reach. Returns how long it is before that, q8 px. */
 int32_t smear_lines_displacement(int32_t out[2], int pictures, const struct smear_flow *flow, const struct smear_window *w, int32_t x,
                                  int32_t y, uint32_t depth);
 

@@ -302,7 +302,7 @@ static void test_drafts_are_nearer_to_the_finest_target_than_sketches(void)
                 *draft = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_DRAFT, NULL),
                 *sketch = third(&desc, (enum kind)kind, SMEAR_AUTO, SMEAR_SKETCH, NULL);
         const double coarse = rms_of(sketch, fine, WIDTH * HEIGHT), after = rms_of(draft, fine, WIDTH * HEIGHT);
-        if (!CHECK(after < (coarse > 3 ? coarse : 3)))      /* where a sketch is that near, both are */
+        if (!CHECK(after < (coarse > 5.2 ? coarse : 5.2)))      /* a draft aims at 4; where a sketch is that near, both are */
             say("    kind %d: sketch %.2f, draft %.2f\n", kind, coarse, after);
         free(fine);
         free(draft);
