@@ -26,11 +26,11 @@ static SMEAR_NOINLINE void find_places(const struct batch *b, const struct place
     const bool by_fours = !is_orthographic(p) && depths->up == 0 && !(SMEAR_WITH_DEFORM && at->extra_count != 0);
     struct place_rows rows;
     uint32_t i = r->first;
-    if (by_fours)
+    if (SMEAR_PLACES && by_fours)
         place_rows_make(&rows, &setup);
     while (i < r->end) {
         const uint32_t end = min_u32(i + 4, r->end);
-        if (by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * i, &rows)) {
+        if (SMEAR_PLACES && by_fours && end - i == 4 && places_find(r->place + i, at->position + 3 * i, &rows)) {
             i = end;
             continue;
         }
