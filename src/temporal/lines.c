@@ -397,8 +397,11 @@ static void pass_bare(const struct smear_lines *lines, const struct smear_window
     for (int32_t k = -(1 << log); k <= 1 << log; k++) {
         const int32_t u = x + BLOCK / 2 + (seen->x * k >> (log + 1)), v = y + BLOCK / 2 + (seen->y * k >> (log + 1));
         struct smear_line_seen *const bare = u < x0 || u >= x1 || v < y0 || v >= y1 ? NULL : seen_at(lines, w, u, v);
-        if (bare != NULL && bare->depth == 0 && bare->contrast < seen->depth)
-            *bare = (struct smear_line_seen){ 0, seen->depth, seen->x, seen->y };
+        if (bare != NULL && bare->depth == 0 && bare->contrast < seen->depth) {       /* others read its depth meanwhile */
+            bare->contrast = seen->depth;
+            bare->x = seen->x;
+            bare->y = seen->y;
+        }
     }
 }
 
