@@ -156,6 +156,22 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
     }
 }
 
+/* Finds room for a triangle and three vertices. Returns false where there is none. */
+static SMEAR_RARE bool find_room(struct batch *b)
+{
+    struct smear_segment *s = make_room(b->a, b->d, b->segment, POINTS_MAX, 0);
+    if (s == NULL)
+        return false;
+    b->segment = s;
+    if (SMEAR_SMALL_CODE)
+        return true;
+    const struct smear_bins *g = b->a->bins;
+    const uint32_t words = (ROOM_AHEAD + 1u) * 3u * s->stride;
+    if (g->vertex_words + words - s->base <= 65536u && bins_has_room(g, words, (ROOM_AHEAD + 1u) * POINTS_MAX))
+        b->room = ROOM_AHEAD;
+    return true;
+}
+
 /* Adds a triangle, for which there is room, with its vertices. */
 SMEAR_INLINE void add_stored(struct batch *b, struct smear_segment *s, struct smear_cached_vertex *v0,
                              struct smear_cached_vertex *v1, struct smear_cached_vertex *v2, uint32_t triangle, bool back,
@@ -191,10 +207,11 @@ SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, s
         if (t.count == 0)
             return true;
     }
-    struct smear_segment *const s = make_room(b->a, b->d, b->segment, POINTS_MAX, 0);
-    if (s == NULL)
+    if (!SMEAR_SMALL_CODE && b->room != 0)
+        b->room--;
+    else if (!find_room(b))
         return false;
-    b->segment = s;
+    struct smear_segment *s = b->segment;
     b->a->triangles_drawn++;
     if (t.count <= POINTS_MAX && b->points && (!segment_by_vertices(s) || segment_flat_depth(s)
             || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
@@ -257,6 +274,7 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
     if ((any & OUT_CLIP) != 0) {
         const bool mirrored = b->d->mirrored;       /* clipping takes the mesh's own order */
         const struct smear_cached_vertex *corner[3] = { v0, mirrored ? v1 : v2, mirrored ? v2 : v1 };
+        b->room = 0;
         return smear_batch_add_clipped(b, corner, triangle);
     }
     const int32_t side = side_of(&v0->screen, &v1->screen, &v2->screen);

@@ -19,6 +19,8 @@ static inline bool is_damaged(const struct smear_assembler *a, const struct box 
     return !assembler_has_damage(a) || smear_batch_is_damaged(a->damaged, box);
 }
 
+enum { ROOM_AHEAD = 32 };               /* triangles for which room is found at once */
+
 /* What the loop over a draw's triangles needs for each of them. */
 struct batch {
     struct smear_assembler *a;
@@ -32,6 +34,7 @@ struct batch {
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */
+    uint16_t room;                      /* for so many more triangles there is room, if nothing else is added */
     struct smear_placement fine;        /* by which triangles are cut; without positions until there is one */
 };
 

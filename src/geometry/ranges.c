@@ -5,20 +5,24 @@
 #include "geometry/assemble.h"
 #include "geometry/places.h"
 
-enum { BESIDE_LEAST = 256 };        /* triangles of a draw in which those beside the view are looked for */
+enum { BESIDE_LEAST = 256,          /* triangles of a draw in which those beside the view are looked for */
+       BESIDE_STEP = 4 };           /* runs, at most, of which one is looked at */
 
 uint32_t smear_ranges_seen(const struct smear_assembler *a, const struct smear_assembly *d, struct smear_tile_box filled, uint32_t *first)
 {
     const uint32_t end = ranges_next(a, filled, first, d->end);
     if (SMEAR_SMALL_CODE || d->end < BESIDE_LEAST)
         return end;
-    for (uint32_t i = *first, next; i < end; i = next) {
-        next = min_u32(i + PLACES_BLOCK, end);
-        if (!smear_vertex_run_is_beside(d, &a->viewport, i, next))
+    for (uint32_t i = *first, runs = 1; i < end;) {
+        const uint32_t next = min_u32(i + PLACES_BLOCK, end);
+        if (!smear_vertex_run_is_beside(d, &a->viewport, i, next)) {
+            i += runs * PLACES_BLOCK;
+            runs = min_u32(2 * runs, BESIDE_STEP);          /* where runs are in the view, fewer are looked at */
             continue;
+        }
         if (i != *first)
             return i;
-        *first = next;
+        *first = i = next;
     }
     return end;
 }

@@ -80,8 +80,14 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
 
 bool smear_vertex_run_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport, uint32_t first, uint32_t end)
 {
-    const struct index_range r = indices_range(d->mesh->index + 3 * first, (int32_t)(3 * (end - first)));
+    const uint16_t *index = d->mesh->index + 3 * first;
     int16_t box[6];
+    if (*index >= d->mesh->vertex_count)
+        return false;
+    positions_box(box, d->at.position + 3 * *index, 1);
+    if (!box_is_beside(d, d->at.position, box, viewport))       /* nor is a box around it: most runs in the view cost no more */
+        return false;
+    const struct index_range r = indices_range(index, (int32_t)(3 * (end - first)));
     if (r.most >= d->mesh->vertex_count || r.most - r.least >= 3 * (end - first))
         return false;
     positions_box(box, d->at.position + 3 * r.least, (int32_t)(r.most - r.least + 1));

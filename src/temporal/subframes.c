@@ -363,11 +363,12 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     struct smear_space space;
     struct subframe_box all = no_box;
     make(&f, &space, t, instants);
+    const struct subframe_box whole = { f.work.x0, f.work.y0, f.work.x1, f.work.y1 };
     f.closes = plan != NULL;
     f.plans = f.closes && plan->chooser != NULL;
     if (t->fill != NULL)
         f.refilled = t;
-    smear_subframe_restore_depth(&f, &(struct subframe_box){ f.work.x0, f.work.y0, f.work.x1, f.work.y1 });
+    smear_subframe_restore_depth(&f, &whole);
     uint32_t samples = 0;
     const bool moves = list(&f);
     smear_subframe_take_background(&f, !f.blends);
