@@ -495,7 +495,7 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
 {
     const uint16_t *index = b->d->mesh->index + 3 * first;
     struct smear_triangles four;
-    for (uint32_t i = first; SMEAR_PLACES && i < end; i += 4, index += 12) {
+    for (uint32_t i = first; i < end; i += 4, index += 12) {
         uint16_t rest[12];
         const uint16_t *these = index;
         if (end - i < 4) {          /* corners of one vertex make the others */
@@ -503,7 +503,10 @@ static SMEAR_NOINLINE uint32_t add_by_fours(struct batch *b, const struct places
                 rest[k] = index[k < 3 * (end - i) ? k : 0];
             these = rest;
         }
-        triangles_look(&four, r->place, these, &r->setup);
+        if (SMEAR_PLACES)
+            triangles_look(&four, r->place, these, &r->setup);
+        else
+            break;
         if ((four.seen | four.far) == 0)
             continue;
         if (!places_have_room(r, b->a->bins))

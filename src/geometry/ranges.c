@@ -86,12 +86,15 @@ static bool box_is_unknown(struct smear_tile_box b) { return b.x0 == unknown.x0 
 static void add_looked(struct smear_tile_box *all, const struct smear_assembler *a, const uint16_t *index, const struct places *r,
                        uint32_t first, uint32_t end)
 {
-    for (uint32_t i = first; SMEAR_PLACES && i < end; i += 4) {
+    for (uint32_t i = first; i < end; i += 4) {
         struct smear_triangles four;
         uint16_t these[12];
         for (uint32_t k = 0; k < 12; k++)       /* behind the last one, the first one again */
             these[k] = index[3 * i + (k < 3 * (end - i) ? k : k % 3)];
-        triangles_look(&four, r->place, these, &r->setup);
+        if (SMEAR_PLACES)
+            triangles_look(&four, r->place, these, &r->setup);
+        else
+            break;
         if (four.far != 0) {
             *all = unknown;
             return;
