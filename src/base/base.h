@@ -48,8 +48,10 @@ static inline void smear_plain_trap(void)
  * off. */
 #if SMEAR_CHECK
 #define SMEAR_ASSERT(condition) ((condition) ? (void)0 : __builtin_trap())
+#define SMEAR_CHECKED 1
 #else
 #define SMEAR_ASSERT(condition) ((void)0)
+#define SMEAR_CHECKED 0
 #endif
 
 /* Hints to the optimizer without an instruction of their own. What stands behind SMEAR_KEEP_BRANCH stays there: it is

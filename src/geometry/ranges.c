@@ -5,7 +5,7 @@
 #include "geometry/assemble.h"
 #include "geometry/places.h"
 
-enum { BESIDE_LEAST = 256,          /* triangles of a draw in which those beside the view are looked for */
+enum { BESIDE_LEAST = SMEAR_CHECKED ? 1 : 256,      /* triangles of a draw in which those beside the view are looked for */
        BESIDE_STEP = 4 };           /* runs, at most, of which one is looked at */
 
 uint32_t smear_ranges_seen(const struct smear_assembler *a, const struct smear_assembly *d, struct smear_tile_box filled, uint32_t *first)
