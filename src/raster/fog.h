@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* fog.h - how much of the fog's colour a surface takes at its depth, and the colours of triangles in fog.
+/* fog.h - what is asked of fog/: how much of the fog's colour a surface takes at its depth, and the colours of triangles in fog.
  *
  * Fog grows evenly with the distance along the view. A depth tells the distance, so no vertex keeps anything for it: where
  * fog hardly changes within a triangle, the triangle has one part of it, which for one colour costs nothing per pixel; in

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* fog.c - see fog.h. */
+/* fog.c - see raster/fog.h. */
 #include "raster/fog.h"
 
 #include "raster/texcoord.h"
