@@ -10,7 +10,7 @@
 #
 # With -v root=reset_handler: of a whole program that was optimized when it was linked, down from that function, its flush included.
 BEGIN {
-    reach["src/base/jobs.c"] = "_job(\\.|$)"                 # what smear_jobs_work is given, by any file
+    reach["src/base/jobs.c"] = reach["src/workers/crew.c"] = "_job(\\.|$)"    # what smear_jobs_work is given, by any file
     reach["src/display/row.c"] = "(draws\\.c|sky\\.c|libsmear\\.a@0x[0-9a-f]+):fill(\\.|$)"  # draws.c: a row whose triangles find no room at once; skies
     reach["src/methods/sharp.c"] = reach["src/smooth/smooth.c"] = "sky\\.c:fill(\\.|$)"
     reach["src/frame.c"] = reach["src/accumulate/accumulate.c"] = "sky\\.c:aim(\\.|$)"
@@ -22,10 +22,10 @@ BEGIN {
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general|level|shadow)(\\.|$)"
-    reach["src/raster/raster.h"] = "(^|:)flush_ready(\\.|$)"   # sharp.c: between triangles of a row
+    reach["src/raster/raster.h"] = "(^|:)flush_ready(\\.|$)"   # rows_apart.c: between triangles of a row
     if (root != "")
         reach["src/display/band.c"] = "(^|:)flush(\\.|$)"
-    is_callback["src/display/row.h"] = is_callback["src/display/band.c"] = is_callback["src/methods/sharp.c"] = 1
+    is_callback["src/display/row.h"] = is_callback["src/display/band.c"] = is_callback["src/methods/sharp.c"] = is_callback["src/workers/rows_apart.c"] = 1
 }
 function field(name,    text) {
     if (!match($0, name ": \"[^\"]*\""))
@@ -51,7 +51,7 @@ function field(name,    text) {
     to = field("targetname")
     if (to == "__indirect_call") {
         split(field("label"), place, ":")
-        if ((place[1] in is_callback && !(place[1] in reach)) || (place[1] == "src/base/jobs.c" && from != "smear_jobs_work" && root == ""))
+        if ((place[1] in is_callback && !(place[1] in reach)) || (place[1] ~ /^src\/(base\/jobs|workers\/crew)\.c$/ && from != "smear_jobs_work" && root == ""))
             next
         if (!(place[1] in reach)) {
             print "stack.awk: calls through a pointer, to where? " from " (" field("label") ")"

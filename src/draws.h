@@ -46,9 +46,33 @@ static inline void draws_begin_exposure(struct smear_context *c, int32_t from, i
         smear_draws_place_points(c, from, to);
 }
 
+/* A draw is static in a frame of a temporal method. */
+static inline bool draw_is_static(const struct smear_context *c, uint32_t i)
+{
+    return !c->raster_draw[i].moves && c->raster_draw[i].alpha < SMEAR_BLEND;
+}
+
+/* Which draws are assembled; in order: all of them, and static ones only where they must be drawn. */
+enum draws { DRAWS_ALL, DRAWS_IN_ORDER, DRAWS_MOVING, DRAWS_STATIC };
+
+static inline bool draw_is_of_kind(const struct smear_context *c, uint32_t i, enum draws kind)
+{
+    return (kind <= DRAWS_IN_ORDER || draw_is_static(c, i) == (kind == DRAWS_STATIC))
+        && !(static_is_cached(c->damage) && draw_is_static(c, i));
+}
+
+static inline void note_fill(smear_fill *fill, uint32_t used, uint32_t room)
+{
+    fill->used = max_u32(fill->used, used);
+    fill->room = room;
+}
+
 /* Makes everything the assembler needs of draw `i` at an instant. False where nothing of it is in view. */
 bool smear_draws_make_assembly(const struct smear_context *c, uint32_t i, const struct smear_instant *instant,
                                struct smear_assembly *a);
+
+/* Assembles a draw; that which is drawn over what lines have blurred into a list of its own. */
+bool smear_draws_assemble_one(const struct smear_context *c, struct smear_assembler *as, struct smear_assembly *a);
 
 /* Finds where triangles of all draws are seen at an instant, unless that is known or there is no room for it: the store turned out
  * to be too small. */

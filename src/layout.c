@@ -153,7 +153,7 @@ static void lay_out_scratch(struct smear_rows *rows, struct smear_arena *a, cons
 /* Where sharp frames are all that a context draws. */
 static void lay_out_apart(struct smear_rows *rows, struct smear_arena *a, const smear_desc *d)
 {
-    const size_t bytes = smear_sharp_apart_bytes(d->workers, (size_t)d->width * (size_t)row_px(d));
+    const size_t bytes = smear_workers_rows_bytes(d->workers, (size_t)d->width * (size_t)row_px(d));
     rows->scratch = arena_take(a, bytes, 1);
     rows->scratch_end = rows->scratch != NULL ? (uint8_t *)rows->scratch + bytes : NULL;
 }
@@ -167,7 +167,7 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     c->temporal.strip = d->strip;
     if (has_window(d) || is_temporal(d))
         lay_out_scratch(rows, a, d);
-    else if (d->workers > 1 && !smear_sharp_may_be_direct(d, false))
+    else if (SMEAR_POOL_PARTS && d->workers > 1 && !smear_sharp_may_be_direct(d, false))
         lay_out_apart(rows, a, d);
     lay_out_temporal(c, a, d);
     lay_out_damage(c, a, d);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* others.h - what the core asks of the methods of other systems. Their rooms lie above it, and it knows nothing else of them: each
  * call stands behind its room's switch, and a context keeps their state in structs that the core has no look into, null where the
- * desc has no such method. `timemask/` is asked by temporal/subframes.h, `smooth/` by methods/temporal.h, `fog/` by raster/fog.h,
- * `overlay/` by display/points.h and damage.h, and rows of triangles for velocities by raster/span.h. */
+ * desc has no such method. What rooms below are asked for stands there: `timemask/` by temporal/subframes.h, `smooth/` by
+ * methods/temporal.h, `fog/` by raster/fog.h, `workers/` by base/jobs.h and methods/sharp.h, `overlay/` by display/points.h and damage.h,
+ * and rows of triangles for velocities by raster/span.h. */
 #ifndef SMEAR_OTHERS_H
 #define SMEAR_OTHERS_H
 
@@ -23,6 +24,12 @@ void smear_layers_lay_out(struct smear_context *c, struct smear_arena *a, const 
 int smear_accumulate_render(struct smear_context *c);
 int smear_filtered_render(struct smear_context *c);
 int smear_layers_render(struct smear_context *c);
+
+/* ------------------------------------------------------------------ workers/ */
+
+/* Assembles all draws for the tile rows [first, end) in as many parts as there are workers, more than one. False where that does not pay,
+ * or a part finds no room. */
+bool smear_workers_assemble(struct smear_context *c, int first, int end, const struct smear_instant *instant);
 
 /* ------------------------------------------------------------------ scene/ */
 

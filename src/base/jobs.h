@@ -76,6 +76,9 @@ struct smear_jobs {
     unsigned done[SMEAR_WORKERS_MAX];        /* last stage that worker w finished; written by it */
 };
 
+/* Does so on several cores, in workers/; a null job lets them go. */
+void smear_jobs_announce(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count);
+
 /* Runs jobs 0 .. count - 1 and waits for all of them. */
 void smear_jobs_run(struct smear_jobs *jobs, smear_job_fn *job, void *argument, int count);
 

@@ -19,8 +19,10 @@ void smear_sharp_inspect_row(const struct smear_rows *rows, int row);
  * window. Returns as smear_band_flush. */
 int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool direct, int first, int end);
 
-/* Returns bytes by which so many cores draw rows of so many pixels apart from each other. */
-size_t smear_sharp_apart_bytes(size_t workers, size_t pixels);
+/* Are asked of workers/: return the bytes by which so many cores draw rows of so many pixels apart from each other; and draw, convert and
+ * hand out the tile rows [first, end) so. False, and nothing is done, where that does not pay or finds no room. */
+size_t smear_workers_rows_bytes(size_t workers, size_t pixels);
+bool smear_workers_rows(struct smear_rows *rows, int first, int end, int *result);
 
 /* Whether frames of the context can be drawn directly; draws may still forbid it. */
 bool smear_sharp_may_be_direct(const smear_desc *desc, bool has_window);

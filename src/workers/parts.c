@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* parts.c - see parts.h. */
-#include "geometry/parts.h"
+#include "workers/parts.h"
 
 #include "base/base.h"
 #include "geometry/assemble.h"
 
-#if SMEAR_WITH_WORKERS
+#if SMEAR_POOL_PARTS
 
 enum {
     APART_WORDS_LEAST = 1024,
