@@ -131,18 +131,6 @@ SMEAR_NOINLINE bool smear_draws_make_assembly(const struct smear_context *c, uin
     return true;
 }
 
-/* ------------------------------------------------------------------ static draws */
-
-/* Whether a static draw must be drawn: the tiles in which it was seen say so where the display keeps them, if all that are
- * damaged are known. *seen is the box of the static draw before, or null. */
-static bool is_damaged(struct smear_damage *d, struct smear_tile_box **seen, bool known)
-{
-    *seen = *seen == NULL ? d->seen : *seen + 1;
-    d->tiles.only = d->is_same && known;
-    d->tiles.seen = d->is_same ? NULL : *seen;
-    return !d->tiles.only || tile_box_is_damaged(&d->tiles, **seen);
-}
-
 /* What moves by less than a step of its vertices is drawn among what is static, and in order with it. */
 static bool static_is_disturbed(const struct smear_context *c)
 {
@@ -183,26 +171,10 @@ static bool assemble_draw(struct smear_context *c, struct smear_assembler *as, u
     return smear_draws_assemble_one(c, as, &a);
 }
 
-/* Whether a sharp frame of which the display shows a part lacks a draw. */
-static bool is_lacking(struct smear_damage *d, uint32_t i)
-{
-    struct smear_damaged_draw *const r = &damage_draws(d)[i];
-    d->tiles.seen = r->changed ? &r->box : NULL;
-    return r->changed || tile_box_is_damaged(&d->tiles, r->box);
-}
-
 /* Whether a draw of the kind must be drawn. */
-static bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool known, struct smear_tile_box **seen)
+static inline bool is_wanted(struct smear_context *c, uint32_t i, enum draws kind, bool known, struct smear_tile_box **seen)
 {
-    if (kind == DRAWS_ALL || frame_has_lines(c))
-        return true;
-    if (damage_compares(c->damage))
-        return is_lacking(c->damage, i);
-    if (draw_is_static(c, i))
-        return is_damaged(c->damage, seen, known);
-    c->damage->tiles.only = false;
-    c->damage->tiles.seen = NULL;
-    return true;
+    return !SMEAR_WITH_DAMAGE || kind == DRAWS_ALL || frame_has_lines(c) || smear_draws_is_damaged(c, i, known, seen);
 }
 
 /* Whether a draw may be seen in what is filled. */

@@ -78,6 +78,10 @@ bool smear_draws_assemble_one(const struct smear_context *c, struct smear_assemb
  * to be too small. */
 void smear_draws_find_ranges(struct smear_context *c, const struct smear_instant *instant);
 
+/* Whether a draw must be drawn, of a frame of which the display shows a part: the tiles in which it was seen say so, where all that are
+ * damaged are known. *seen is the box of the static draw before, or null. */
+bool smear_draws_is_damaged(struct smear_context *c, uint32_t i, bool known, struct smear_tile_box **seen);
+
 /* Find out which of what is kept is not what the frame wants: of a temporal method, and of sharp frames alone. */
 #if SMEAR_WITH_DAMAGE
 void smear_draws_find_damage(struct smear_context *c);

@@ -87,31 +87,6 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
         lay_out_lines(t, a, d);
 }
 
-static void lay_out_damage(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
-{
-    const struct smear_window *w = &c->rows.window;
-    const bool tiles = has_buffer_age(d);
-    if (!caches_static(d) && !tiles)
-        return;
-    const bool compares = compares_sharp(d);
-    struct smear_tile_box *seen = tiles && is_temporal(d) ? arena_take(a, d->max_draws, sizeof *seen) : NULL;
-    uint32_t *over = SMEAR_OVERLAY_MOST && tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, sizeof *over) : NULL;
-    const struct smear_damaged_tiles damaged = {
-        tiles ? arena_take(a, (size_t)w->columns * (size_t)w->rows, 1) : NULL,
-        (uint8_t)(w->columns - 1), (uint8_t)w->tile_shift, false, NULL
-    };
-    const size_t draws = compares ? d->max_draws * sizeof(struct smear_damaged_draw) : 0;
-    c->damage = c->temporal.damage = arena_take(a, 1, sizeof *c->damage + draws);
-    if (c->damage == NULL)          /* only measured */
-        return;
-    *c->damage = (struct smear_damage){ .caches = caches_static(d), .compares = (uint8_t)(compares ? COMPARES_OTHERS : COMPARES_NEVER),
-                                        .tiles = damaged, .seen = seen, .over = over };
-    if (over != NULL)
-        __builtin_memset(over, 0, (size_t)w->columns * (size_t)w->rows * sizeof *over);
-    if (tiles)                      /* counted on where a frame finds out nothing, too */
-        __builtin_memset(damaged.tile, 0, (size_t)w->columns * (size_t)w->rows);
-}
-
 static void lay_out_draws(struct smear_context *c, struct smear_arena *a, const smear_desc *d)
 {
     c->submitted = SMEAR_PLACE(d, SMEAR_PART_DRAWS, arena_take(a, d->max_draws, sizeof *c->submitted), d->max_draws * sizeof *c->submitted);
@@ -170,7 +145,8 @@ void smear_layout(struct smear_context *c, struct smear_arena *a, const smear_de
     else if (SMEAR_POOL_PARTS && d->workers > 1 && !smear_sharp_may_be_direct(d, false))
         lay_out_apart(rows, a, d);
     lay_out_temporal(c, a, d);
-    lay_out_damage(c, a, d);
+    if (caches_static(d) || has_buffer_age(d))
+        smear_damage_lay_out(c, a, d);
     if (SMEAR_WITH_LAYERS && has_layers(d))
         smear_layers_lay_out(c, a, d);
     if (SMEAR_WITH_ACCUMULATE && wants(d, SMEAR_SET_SUMS))

@@ -2,7 +2,8 @@
 /* others.h - what the core asks of the methods of other systems. Their rooms lie above it, and it knows nothing else of them: each
  * call stands behind its room's switch, and a context keeps their state in structs that the core has no look into, null where the
  * desc has no such method. What rooms below are asked for stands there: `timemask/` by temporal/subframes.h, `smooth/` by
- * methods/temporal.h, `fog/` by raster/fog.h, `workers/` by base/jobs.h and methods/sharp.h, `overlay/` by display/points.h and damage.h,
+ * methods/temporal.h, `fog/` by raster/fog.h, `workers/` by base/jobs.h and methods/sharp.h, `damage/` by
+ * draws.h, too, `overlay/` by display/points.h and damage.h,
  * and rows of triangles for velocities by raster/span.h. */
 #ifndef SMEAR_OTHERS_H
 #define SMEAR_OTHERS_H
@@ -18,6 +19,7 @@ struct smear_instant;
 /* Lay out what the method needs of a context's memory: layout.c. */
 void smear_accumulate_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 void smear_filtered_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
+void smear_damage_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 void smear_layers_lay_out(struct smear_context *c, struct smear_arena *a, const smear_desc *d);
 
 /* Draw what was prepared and hand it to flush: frame.c. */

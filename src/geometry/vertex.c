@@ -94,43 +94,6 @@ bool smear_vertex_run_is_beside(const struct smear_assembly *d, const struct sme
     return box_is_beside(d, d->at.position, box, viewport);
 }
 
-#if SMEAR_WITH_DAMAGE
-/* Finds the box of the corners of the bounds, in q8 px. False where one lies before the near plane. */
-static bool find_box(struct smear_screen *least, struct smear_screen *most, const struct smear_placement *p, const int16_t b[6],
-                     const struct smear_viewport *viewport)
-{
-    *least = (struct smear_screen){ .x = INT32_MAX, .y = INT32_MAX };
-    *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
-    for (int i = 0; i < 8; i++) {
-        struct smear_homogeneous h;
-        struct smear_screen s;
-        transform_corner(&h, p, b, i);
-        if (h.w <= 0 || h.distance < p->now.depths.near_distance)
-            return false;
-        smear_project(&s, &p->now.depths, &h, viewport);
-        least->x = min_i32(least->x, s.x);
-        least->y = min_i32(least->y, s.y);
-        most->x = max_i32(most->x, s.x);
-        most->y = max_i32(most->y, s.y);
-    }
-    return true;
-}
-
-struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const smear_mesh *mesh, const struct smear_viewport *viewport,
-                                         const struct smear_damaged_tiles *tiles)
-{
-    enum { MARGIN = 2 << 8 };       /* q8 px: more than places of vertices are rounded by */
-    const int16_t *b = mesh->bounds;
-    struct smear_screen least, most;
-    if ((b[0] | b[1] | b[2] | b[3] | b[4] | b[5]) == 0 || p->extra_count != 0 || p->position != mesh->position
-        || !find_box(&least, &most, p, b, viewport))
-        return tile_box_of(tiles, 0, viewport->width, 0, viewport->height);
-    const int32_t x0 = max_i32((least.x - MARGIN) >> 8, 0), x1 = min_i32((most.x + MARGIN) >> 8, viewport->width);
-    const int32_t y0 = max_i32((least.y - MARGIN) >> 8, 0), y1 = min_i32((most.y + MARGIN) >> 8, viewport->height);
-    return x0 < x1 && y0 < y1 ? tile_box_of(tiles, x0, x1, y0, y1) : tile_box_none();
-}
-#endif
-
 struct smear_segment *smear_vertex_segment(struct smear_assembler *a, const struct smear_assembly *d)
 {
     struct smear_segment *s = smear_bins_open(a->bins);

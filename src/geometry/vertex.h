@@ -238,13 +238,6 @@ bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_v
 /* Whether triangles [first, end) do, as far as the box of their vertices tells. */
 bool smear_vertex_run_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport, uint32_t first, uint32_t end);
 
-#if SMEAR_WITH_DAMAGE
-/* Finds the tiles in which something of the mesh may be seen, by its bounds: all where those are not given, or reach behind the
- * near plane. */
-struct smear_tile_box smear_vertex_tiles(const struct smear_placement *p, const smear_mesh *mesh, const struct smear_viewport *viewport,
-                                         const struct smear_damaged_tiles *tiles);
-#endif
-
 static inline bool assembly_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)
 {
     return SMEAR_WITH_BOUNDS && smear_vertex_is_beside(d, viewport);

@@ -10,7 +10,7 @@
 
 /* ------------------------------------------------------------------ into the window */
 
-static void draw_job(void *argument, int job, int worker)
+void smear_sharp_draw_job(void *argument, int job, int worker)
 {
     const struct row_job *r = (const struct row_job *)argument;
     struct smear_raster_target t;
@@ -43,7 +43,7 @@ void smear_sharp_draw_row(struct smear_rows *rows, int row)
     struct row_job job = { .rows = rows, .row = row };
     const uint32_t start = stage_start(rows);
     smear_sharp_advance_lists(rows, row);
-    smear_row_run(rows, draw_job, &job, FILL_STATIC | FILL_MOVING);
+    smear_row_run(rows, smear_sharp_draw_job, &job, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
         smear_sharp_inspect_row(rows, row);
     stage_end(rows, &rows->stats->time.raster, start);
@@ -112,48 +112,11 @@ static inline int draw_window_row(struct smear_rows *rows, int row)
     return smear_band_finish(&job);
 }
 
-/* ------------------------------------------------------------------ what the display lacks */
-
-#if SMEAR_WITH_DAMAGE
-/* Draws a run of tiles of a row whose lists have been moved on. */
-static int draw_damaged_run(struct smear_rows *rows, int row, const struct smear_damage_run *run)
-{
-    struct row_job job = { .rows = rows, .row = row };
-    const uint32_t start = stage_start(rows);
-    job.x0 = tile_left(rows, run->first);
-    job.x1 = tile_right(rows, run->end - 1);
-    smear_row_run(rows, draw_job, &job, FILL_STATIC | FILL_MOVING);
-    smear_row_blend_columns(&job);
-    stage_end(rows, &rows->stats->time.raster, start);
-    return smear_band_finish(&job);
-}
-
-static int draw_damaged_row(struct smear_rows *rows, struct smear_damage *damage, int row)
-{
-    struct smear_damage_run run = { 0, 0 };
-    int result = SMEAR_OK;
-    const uint32_t start = stage_start(rows);
-    smear_sharp_advance_lists(rows, row);
-    row_advance_blended(rows, row);
-    stage_end(rows, &rows->stats->time.raster, start);
-    while (result == SMEAR_OK && smear_damage_next_run(damage, rows, row, &run))
-        result = draw_damaged_run(rows, row, &run);
-    smear_damage_row_sent(damage, rows, row);
-    return result;
-}
-
-#else
-#define draw_damaged_row(rows, damage, row) ((void)(damage), SMEAR_OK)
-#endif
-
 int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool direct, int first, int end)
 {
     int result = SMEAR_OK;
-    if (damage_compares(damage)) {
-        for (int row = first; row < end && result == SMEAR_OK; row++)
-            result = draw_damaged_row(rows, damage, row);
-        return result;
-    }
+    if (damage_compares(damage))
+        return smear_damage_rows(rows, damage, first, end);
     if (SMEAR_POOL_PARTS && rows->jobs.workers > 1 && !direct && smear_workers_rows(rows, first, end, &result))
         return result;
     for (int row = first; row < end && result == SMEAR_OK; row++) {

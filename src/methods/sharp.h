@@ -6,6 +6,9 @@
 #include "display/damage.h"
 #include "display/row.h"
 
+/* A job that draws opaque triangles of a row, or of columns of it, into the window: colour and depth. */
+void smear_sharp_draw_job(void *argument, int job, int worker);
+
 /* Draws opaque triangles of tile row `row` into the window: colour and depth. */
 void smear_sharp_draw_row(struct smear_rows *rows, int row);
 
@@ -18,6 +21,9 @@ void smear_sharp_inspect_row(const struct smear_rows *rows, int row);
  * the display's own pixels, straight into the band. Of frames that `damage` compares, tiles that the display lacks, by way of the
  * window. Returns as smear_band_flush. */
 int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool direct, int first, int end);
+
+/* Is asked of damage/: draws of tile rows [first, end) what the display lacks. */
+int smear_damage_rows(struct smear_rows *rows, struct smear_damage *damage, int first, int end);
 
 /* Are asked of workers/: return the bytes by which so many cores draw rows of so many pixels apart from each other; and draw, convert and
  * hand out the tile rows [first, end) so. False, and nothing is done, where that does not pay or finds no room. */

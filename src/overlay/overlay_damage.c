@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* overlay_damage.c - what lies over tiles, as sums of hashes: where they are others, tiles are drawn again (display/damage.h). */
+#include "damage/damage.h"
 #include "overlay/overlay.h"
 
 #if SMEAR_WITH_DAMAGE && SMEAR_WITH_OVERLAY

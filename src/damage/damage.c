@@ -4,7 +4,7 @@
  * Scenes are told apart by 64 bits of hash, in which two that differ in one word always differ, and others by
  * chance but for one in 2^64. What draws point to counts as far as it is a few words: vertices, indices and
  * texels only by their place (smear_frame.refresh). */
-#include "display/damage.h"
+#include "damage/damage.h"
 
 #if SMEAR_WITH_DAMAGE
 
