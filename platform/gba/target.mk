@@ -18,7 +18,7 @@ LDLIBS  += -lgcc
 $(BUILD)/src/%.o $(BUILD)/platform/common/%.o $(BUILD)/platform/demo_scene.o $(BUILD)/platform/game/course.o $(BUILD)/platform/game/view.o $(BUILD)/platform/game/race.o: CFLAGS += -marm
 
 # What runs from ROM most of the time is Thumb code: half as many bytes to fetch for an instruction.
-$(addprefix $(BUILD)/src/,$(addsuffix .o,draws draws_prepare validate display/band overlay/overlay display/pixel_format methods/temporal \
+$(addprefix $(BUILD)/src/,$(addsuffix .o,draws draws_prepare validate display/band screen/screen overlay/overlay display/pixel_format methods/temporal \
     raster/few_draw raster/raster temporal/lines temporal/subframe_gap temporal/subframes temporal/tile_method methods/along_lines)): \
     CFLAGS += -mthumb
 

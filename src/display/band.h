@@ -47,6 +47,9 @@ static inline uint32_t band_state_bytes(const smear_desc *d)
     return format_diffuses(d) ? smear_diffuse_bytes(d->width) : 0;
 }
 
+/* Is asked of screen/: makes of rows from y on, as tiles were converted, what the display takes, in place. */
+void smear_screen_finish(const struct smear_rows *rows, uint8_t *pixels, int32_t width, int32_t y, int32_t height);
+
 /* Returns a buffer for the next rows; waits until what it held has been sent. */
 uint8_t *smear_band_begin(struct smear_rows *rows);
 

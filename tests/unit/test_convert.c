@@ -2,6 +2,7 @@
 /* test_convert.c - display formats: levels, white and black, sizes, diffused error, the CRC. Golden frames hold the rest. Needs neither
  * libc nor floating point. */
 #include "display/pixel_format.h"
+#include "screen/screen.h"
 
 #include "base/crc32.h"
 #include "base/tables.h"
