@@ -66,7 +66,7 @@ include platform/$(TARGET)/target.mk
 # Above the library's rooms lie frame.c and smear.c in src/ itself; what a room of tools/, platform/ or tests/ shares
 # with others lies in its root, below them.
 # What plays converted models, and the methods of other systems, lie above it, in rooms that it does not know.
-OTHER_ROOMS := $(addprefix src/,fog workers damage screen overlay smooth scene model filter layers accumulate timemask)
+OTHER_ROOMS := $(addprefix src/,curves fog workers damage screen overlay smooth scene model filter layers accumulate timemask)
 SRC_ROOMS  := $(addprefix src/,base kernels geometry raster display temporal methods) src $(OTHER_ROOMS)
 TOOL_ROOMS := tools $(addprefix tools/,image model scenes ref convert player options view cli demo bench dist web/libc/sys web/libc web)
 PORT_ROOMS := platform platform/common platform/cortexm

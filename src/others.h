@@ -2,8 +2,9 @@
 /* others.h - what the core asks of the methods of other systems. Their rooms lie above it, and it knows nothing else of them: each
  * call stands behind its room's switch, and a context keeps their state in structs that the core has no look into, null where the
  * desc has no such method. What rooms below are asked for stands there: `timemask/` by temporal/subframes.h, `smooth/` by
- * methods/temporal.h, `fog/` by raster/fog.h, `workers/` by base/jobs.h and methods/sharp.h, `damage/` by draws.h, too, `screen/` by
- * display/band.h, `overlay/` by display/points.h and damage.h, and rows of triangles for velocities by raster/span.h. */
+ * methods/temporal.h, `curves/` by geometry/shot.h and pose.h, `fog/` by raster/fog.h, `workers/` by base/jobs.h and methods/sharp.h,
+ * `damage/` by draws.h, too, `screen/` by display/band.h, `overlay/` by display/points.h and damage.h, and rows of triangles for
+ * velocities by raster/span.h. */
 #ifndef SMEAR_OTHERS_H
 #define SMEAR_OTHERS_H
 

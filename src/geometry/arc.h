@@ -36,6 +36,14 @@ static inline uint32_t turn_angle(const struct smear_turn *turn, int32_t time)
     return (uint32_t)((int64_t)turn->angle * time >> 24);
 }
 
+/* Finds the basis of a pose after the whole turn, and the turn's cosine and sine: what it and that of `now` differ by changes linearly. */
+void smear_turn_whole(int32_t basis[9], struct smear_turn *turn, const smear_transform *before);
+
+/* Finds the basis of the pose at a time, as smear_arc_between does, from that after the whole turn. `angle` is what it has
+ * turned since now. */
+void smear_turn_part(int32_t basis[9], const struct smear_turn *turn, const int32_t turned[9], const smear_transform *now, int32_t time,
+                     uint32_t angle);
+
 /* Returns now + (now - before) time, time in q24; saturates. */
 int32_t smear_arc_number(int32_t before, int32_t now, int32_t time);
 
@@ -58,35 +66,5 @@ int32_t smear_arc_scaled(int32_t now, int32_t other, uint32_t scale);
  * beyond the poses. `out` may be one of the poses. */
 void smear_arc_between(smear_transform *out, const smear_transform *before, const smear_transform *now,
                        int32_t time);
-
-/* The curve along which something moves, found from where it is, was a frame ago, and was two frames ago.
- *
- * Two poses tell the turn between them, and so its fraction at any moment, but not what it turns about: a wheel turns
- * about its own origin, which goes straight, a blade that hangs beside its pivot moves along a screw. Of all curves on
- * which a thing turns evenly about some point that goes straight, one leads through three poses:
- *
- *     origin(t) = now + (now - last) t + B(t) (now - 2 last + older)
- *
- * Across the axis, where vectors are complex numbers and w = exp(-i angle) is the turn of a frame back,
- * B(t) = (w^-t - 1 + t (w - 1)) / (w - 1)^2; along the axis, and where nothing turns, it is t (t + 1) / 2, which is
- * what it goes to for small angles: the parabola. So one formula has the wheel (whose second difference is zero), the
- * blade (whose is (w - 1) (last - now)), what turns about a point in motion, and what falls. */
-
-struct smear_curve {
-    const smear_transform *now, *last;
-    struct smear_turn turn;     /* from last to now */
-    int32_t turned[9];          /* basis of `last` after that turn */
-    int32_t second[3];          /* difference of the origin's places, q16 world units */
-    bool is_steady;             /* it turned alike in the two frames */
-    int32_t faster;             /* what it turned in the last frame, less what in that before it, q32 turns */
-};
-
-/* Finds the curve through `now`, `last` (a frame ago) and, if it is not null, `older` (two frames ago), as smear_path
- * says. All must stay. Returns false where it is a straight line of vertices. */
-bool smear_curve_find(struct smear_curve *curve, const smear_transform *now, const smear_transform *last,
-                      const smear_transform *older, uint8_t path);
-
-/* Finds the pose at a time in frames from now, q24, -64 to 64. At 0 and -1 it is `now` and `last`. `out` may be one of the poses. */
-void smear_curve_at(smear_transform *out, const struct smear_curve *curve, int32_t time);
 
 #endif

@@ -129,26 +129,6 @@ static void turn_billboard(struct smear_draw_poses *p, bool upright)
     }
 }
 
-#if SMEAR_WITH_CURVES && SMEAR_WITH_DEFORM
-bool smear_draw_bends(const smear_draw *d, const struct smear_shot *shot)
-{
-    enum { SAMPLES = 64 };
-    const uint32_t count = d->mesh->vertex_count, step = 1u + count / SAMPLES;
-    const uint8_t path = d->path != SMEAR_PATH_DEFAULT ? d->path : shot->path;
-    uint32_t straight = 0, bent = 0;
-    if (path != SMEAR_PATH_CURVE || d->open_position == NULL || d->close_position == NULL || d->cut
-        || d->motion != SMEAR_MOTION_FULL || (d->open_count != 0 && d->open_count != count)
-        || (d->close_count != 0 && d->close_count != count) || shot->half_exposure > 1 << 24)
-        return false;
-    for (uint32_t i = 0; i < 3 * count; i += i % 3 == 2 ? 3 * step - 2 : 1) {
-        const int32_t first = d->open_position[i] - d->mesh->position[i];
-        straight += (uint32_t)abs_i32(first);
-        bent += (uint32_t)abs_i32(d->close_position[i] - d->open_position[i] - first);
-    }
-    return bent != 0 && bent * 5 <= 2 * straight;
-}
-#endif
-
 /* Poses of the object alone. */
 static void object_poses(struct smear_draw_poses *p, const struct smear_shot *shot, const smear_draw *d)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_curve.c - curves through two and three poses, against motion in double precision; and what is kept for them. */
-#include "geometry/arc.h"
+#include "curves/curve.h"
 #include "geometry/pose.h"
 #include "geometry/shot.h"
 
