@@ -96,12 +96,6 @@ static inline void path_triangle(int32_t box[4], struct path_record out[3], cons
     }
 }
 
-/* Finds x, y and depth of a vertex at a time of the exposure. */
-static inline void path_at(int32_t out[3], const int32_t *record, const struct smear_segment *s, int32_t time)
-{
-    path_place(out, record, record + s->motion, path_phase(time));
-}
-
 /* Makes the samples of a shutter whose openness is given at SMEAR_SHUTTER_POINTS even steps over the exposure, with
  * straight lines between; null is a box. Returns false where it is closed throughout. */
 bool smear_shutter_make(struct smear_shutter_times *shutter, const uint8_t *openness);

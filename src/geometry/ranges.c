@@ -77,68 +77,15 @@ static bool assemble(struct smear_assembler *a, struct smear_assembly *d)
     return assembly_has_path(d) ? smear_assemble_path(a, d) : smear_assemble(a, d);
 }
 
-/* Stands for the box of a range of which a triangle has to be clipped, or is too large to be looked at. */
-static const struct smear_tile_box unknown = { 1, 0, 1, 0 };
-
-static bool box_is_unknown(struct smear_tile_box b) { return b.x0 == unknown.x0 && b.x1 == unknown.x1; }
-
-/* Adds what is seen of triangles [first, end), whose vertices are in `r`. */
-static void add_looked(struct smear_tile_box *all, const struct smear_assembler *a, const uint16_t *index, const struct places *r,
-                       uint32_t first, uint32_t end)
-{
-    for (uint32_t i = first; i < end; i += 4) {
-        struct smear_triangles four;
-        uint16_t these[12];
-        for (uint32_t k = 0; k < 12; k++)       /* behind the last one, the first one again */
-            these[k] = index[3 * i + (k < 3 * (end - i) ? k : k % 3)];
-        if (SMEAR_PLACES)
-            triangles_look(&four, r->place, these, &r->setup);
-        else
-            break;
-        if (four.far != 0) {
-            *all = unknown;
-            return;
-        }
-        for (uint32_t seen = four.seen; seen != 0; seen &= seen - 1) {
-            const uint32_t k = (uint32_t)__builtin_ctz(seen);
-            add_pixels(all, a, pair_x(four.low[k]), pair_x(four.high[k]), pair_y(four.low[k]), pair_y(four.high[k]));
-        }
-    }
-}
-
-/* Finds the boxes of a draw without a path by fours, whose vertices lie in the empty store, and which of them are unknown. */
-static void look_at_ranges(struct smear_assembler *a, const struct smear_assembly *d, struct smear_tile_box *box)
-{
-    const uint32_t most = 1u << a->bins->range_shift;
-    struct smear_segment none = { 0 };
-    const struct batch b = { .a = a, .d = d, .segment = &none, .double_sided = d->backs };
-    struct places r;
-    smear_bins_reset(a->bins, 0, a->bins->row_count);
-    r.setup = places_setup(&b);
-    for (uint32_t i = 0, known = 0, end; i < d->end; i = end, box++) {
-        end = min_u32(i + most, d->end);
-        if (known < end)
-            known = smear_places_open(&r, &b, i, d->end);
-        *box = known < end ? unknown : tile_box_none();
-        if (known >= end)
-            add_looked(box, a, d->mesh->index, &r, i, end);
-    }
-}
-
 void smear_ranges_find(struct smear_assembler *a, struct smear_assembly *d, struct smear_tile_box *box)
 {
     const uint32_t end = d->end;
     d->shading.lit = false;
     d->shading.white = true;
     const struct smear_resume begin = { 0, 0 };
-    const bool looks = SMEAR_PLACES && !assembly_has_path(d);
-    if (looks)
-        look_at_ranges(a, d, box);
     for (uint32_t first = 0; first < end; first = d->end, box++) {
         d->first = first;
         d->end = min_u32(first + (1u << a->bins->range_shift), end);
-        if (looks && !box_is_unknown(*box))
-            continue;
         *box = tile_box_none();
         a->resume = begin;
         bool done = false;

@@ -101,7 +101,7 @@ static void test_records_are_read_at_their_offsets(void)
     const int32_t record[WORDS] = { 100, 200, 3000, -1, -1, 90, 180, 1000, 110, 220, 5000 };
     int32_t at[3];
     for (int k = 0; k < 3; k++) {
-        path_at(at, record, &s, k * SHUTTER_CLOSE / 2);
+        path_place(at, record, record + s.motion, path_phase(k * SHUTTER_CLOSE / 2));
         CHECK_EQ(at[PATH_X], 90 + 10 * k);
         CHECK_EQ(at[PATH_Y], 180 + 20 * k);
         CHECK_EQ(at[PATH_DEPTH], 1000 + 2000 * k);
