@@ -78,10 +78,10 @@ static bool find_corners(struct smear_screen *least, struct smear_screen *most, 
     *most = (struct smear_screen){ .x = INT32_MIN, .y = INT32_MIN };
     for (int i = 0; i < 8; i++) {
         const int16_t corner[3] = { b[(i & 1) * 3], b[(i >> 1 & 1) * 3 + 1], b[(i >> 2) * 3 + 2] };
-        const struct smear_placement at = { .now = p->now, .position = corner };
         struct smear_homogeneous h;
         struct smear_screen s;
-        if (((unsigned)smear_placement_project(&s, &h, &at, 0, viewport) & OUT_NEAR) != 0 || h.w <= 0)
+        transform_vertex(&h, &p->now, corner);
+        if (((unsigned)placement_see(&s, &h, p, viewport) & OUT_NEAR) != 0 || h.w <= 0)
             return false;
         least->x = min_i32(least->x, s.x);
         least->y = min_i32(least->y, s.y);

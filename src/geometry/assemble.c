@@ -233,10 +233,9 @@ static SMEAR_NOINLINE bool add_whole(struct batch *b, struct smear_cached_vertex
 static SMEAR_NOINLINE void miss(const struct batch *b, struct smear_cached_vertex *v, uint32_t tag)
 {
     const uint32_t index = tag & 0xffffu;
-    struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
-    v->outcode = index < b->d->mesh->vertex_count ? placement_project(&v->screen, &h, &b->d->at, index, &b->a->viewport) : OUT_UNKNOWN;
+    v->outcode = index < b->d->mesh->vertex_count ? placement_project(&v->screen, &b->d->at, index, &b->a->viewport) : OUT_UNKNOWN;
 }
 
 static void batch_start(struct batch *b)

@@ -72,12 +72,11 @@ static inline void find_kind(struct path_vertex *v, bool orthographic, uint32_t 
 
 static void find_vertex(struct path_vertex *v, const struct smear_assembler *a, const struct smear_assembly *d, uint32_t tag)
 {
-    struct smear_homogeneous h;
     v->tag = tag;
     v->stored = 0;
     v->outcodes = 0;
     for (int key = 0; key < KEYS; key++)
-        v->outcodes |= (uint32_t)placement_project(&v->screen[key], &h, placement_of(d, key), tag & 0xffffu, &a->viewport) << 8 * key;
+        v->outcodes |= (uint32_t)placement_project(&v->screen[key], placement_of(d, key), tag & 0xffffu, &a->viewport) << 8 * key;
 }
 
 /* ------------------------------------------------------------------ bounds */

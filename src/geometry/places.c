@@ -7,8 +7,7 @@
 static void find_place(struct smear_place *p, const struct batch *b, uint32_t index)
 {
     const struct smear_assembly *d = b->d;
-    struct smear_homogeneous h;
-    const int code = placement_project(&p->screen, &h, &d->at, index, &b->a->viewport);
+    const int code = placement_project(&p->screen, &d->at, index, &b->a->viewport);
     if ((code & (OUT_NEAR | OUT_FAR)) != 0)
         p->screen.x = p->screen.y = (code & OUT_NEAR) != 0 ? PLACE_NEAR : PLACE_FAR;
     p->first = place_first(p->screen.x, p->screen.y);

@@ -66,10 +66,12 @@ static bool box_is_beside(const struct smear_assembly *d, const int16_t *positio
     return sides != 0;
 }
 
-int smear_placement_project(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index,
+int smear_placement_project(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
                             const struct smear_viewport *viewport)
 {
-    return placement_project_inline(screen, h, p, index, viewport);
+    struct smear_homogeneous h;
+    placement_transform(&h, p, index);
+    return placement_see(screen, &h, p, viewport);
 }
 
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)

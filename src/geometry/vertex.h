@@ -217,10 +217,13 @@ static inline void pose_transform(struct smear_homogeneous *h, const struct smea
 }
 
 /* Transforms and projects a vertex; returns its outcode. A vertex behind the near plane is not projected. */
-static inline int placement_project_inline(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p,
-                                           uint32_t index, const struct smear_viewport *viewport)
+int smear_placement_project(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
+                            const struct smear_viewport *viewport);
+
+/* Finds where a transformed vertex is on the screen; returns its outcode. */
+static inline int placement_see(struct smear_screen *screen, const struct smear_homogeneous *h, const struct smear_placement *p,
+                                const struct smear_viewport *viewport)
 {
-    placement_transform(h, p, index);
     if (h->distance < p->now.depths.near_distance)
         return OUT_NEAR | smear_outcode_behind(*h, viewport);
     project(screen, &p->now.depths, h, viewport);
@@ -228,9 +231,16 @@ static inline int placement_project_inline(struct smear_screen *screen, struct s
     return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
 }
 
-/* Does so as a call. */
-int smear_placement_project(struct smear_screen *screen, struct smear_homogeneous *h, const struct smear_placement *p, uint32_t index,
-                            const struct smear_viewport *viewport);
+/* Does what smear_placement_project does, without a call for most that a camera with a perspective sees. */
+static inline int placement_project_inline(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
+                                           const struct smear_viewport *viewport)
+{
+    struct smear_homogeneous h;         /* in registers, as no call knows it */
+    if ((SMEAR_WITH_DEFORM && p->extra_count != 0) || is_orthographic(&p->now))
+        return smear_placement_project(screen, p, index, viewport);
+    transform_vertex(&h, &p->now, p->position + 3 * index);
+    return placement_see(screen, &h, p, viewport);
+}
 
 /* Whether the mesh's bounds lie beyond one side of the view at every instant of the assembly. */
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport);

@@ -42,11 +42,10 @@ static void measure(struct motion *m, const struct smear_viewport *viewport, con
     uint32_t step = max_u32(mesh->vertex_count / SAMPLES, 1);
     *m = (struct motion){ .x0 = INT32_MAX, .x1 = INT32_MIN, .y0 = INT32_MAX, .y1 = INT32_MIN };
     for (uint32_t i = step >> 1; i < mesh->vertex_count && n < SAMPLES; i += step) {
-        struct smear_homogeneous h;
         struct smear_screen open, close, now;
-        if (((placement_project(&open, &h, &key[0], i, viewport)
-              | placement_project(&close, &h, &key[1], i, viewport)
-              | placement_project(&now, &h, middle, i, viewport))
+        if (((placement_project(&open, &key[0], i, viewport)
+              | placement_project(&close, &key[1], i, viewport)
+              | placement_project(&now, middle, i, viewport))
              & OUT_NEAR)
             != 0) {
             m->cut = true;

@@ -52,10 +52,9 @@ static enum smear_line_kind kind_of(bool *twice, const struct smear_flow *own, c
     int32_t apart = 0, way = 0, x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
     bool seen = false, behind = true;
     for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
-        struct smear_homogeneous h;
         struct smear_screen s;
         int32_t a[2], b[2], c[2];
-        if ((placement_project(&s, &h, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
+        if ((placement_project(&s, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
             continue;           /* what goes round the camera is seen in part */
         seen = true;
         x0 = min_i32(x0, s.x >> 8);
