@@ -76,7 +76,7 @@ static void find_vertex(struct path_vertex *v, const struct smear_assembler *a, 
     v->stored = 0;
     v->outcodes = 0;
     for (int key = 0; key < KEYS; key++)
-        v->outcodes |= (uint32_t)placement_project(&v->screen[key], placement_of(d, key), tag & 0xffffu, &a->viewport) << 8 * key;
+        v->outcodes |= (uint32_t)placement_project_any(&v->screen[key], placement_of(d, key), tag & 0xffffu, &a->viewport) << 8 * key;
 }
 
 /* ------------------------------------------------------------------ bounds */

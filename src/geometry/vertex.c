@@ -69,9 +69,7 @@ static bool box_is_beside(const struct smear_assembly *d, const int16_t *positio
 int smear_placement_project(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
                             const struct smear_viewport *viewport)
 {
-    struct smear_homogeneous h;
-    placement_transform(&h, p, index);
-    return placement_see(screen, &h, p, viewport);
+    return placement_project_any_inline(screen, p, index, viewport);
 }
 
 bool smear_vertex_is_beside(const struct smear_assembly *d, const struct smear_viewport *viewport)

@@ -231,7 +231,16 @@ static inline int placement_see(struct smear_screen *screen, const struct smear_
     return h->distance > p->now.depths.far_distance ? code | OUT_FAR : code;
 }
 
-/* Does what smear_placement_project does, without a call for most that a camera with a perspective sees. */
+/* Does what smear_placement_project does, without a call. */
+static inline int placement_project_any_inline(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
+                                               const struct smear_viewport *viewport)
+{
+    struct smear_homogeneous h;
+    placement_transform(&h, p, index);
+    return placement_see(screen, &h, p, viewport);
+}
+
+/* Does so without a call for most that a camera with a perspective sees, now. */
 static inline int placement_project_inline(struct smear_screen *screen, const struct smear_placement *p, uint32_t index,
                                            const struct smear_viewport *viewport)
 {

@@ -203,6 +203,7 @@
 #define project smear_project
 #define outcode_sides smear_outcode_sides
 #define placement_project smear_placement_project
+#define placement_project_any smear_placement_project
 #else
 #define SMEAR_ONE_COPY 0
 #define SMEAR_SHARED static inline
@@ -210,6 +211,7 @@
 #define project project_inline
 #define outcode_sides outcode_sides_inline
 #define placement_project placement_project_inline
+#define placement_project_any placement_project_any_inline
 #endif
 #define SMEAR_COPY_ELSEWHERE (SMEAR_ONE_COPY && !SMEAR_COPY_IS_HERE)
 
