@@ -30,8 +30,8 @@ static inline uint32_t color_of_face(const struct batch *b, uint32_t triangle, b
 }
 
 /* Stores a vertex; returns the first word of its record. */
-static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle,
-                                        bool back)
+static inline uint32_t store_vertex(const struct batch *b, uint32_t index, const struct smear_screen *screen, uint32_t triangle,
+                                    bool back)
 {
     const struct smear_assembly *d = b->d;
     const struct smear_segment *s = b->segment;
@@ -54,17 +54,26 @@ static SMEAR_RARE uint32_t store_vertex(const struct batch *b, uint32_t index, c
     return word;
 }
 
-/* Returns the first word of the vertex's record, which it stores where that has not been done. */
-static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle, bool back)
+/* Returns the vertex's record, as struct smear_cached_vertex has it, which it stores where that has not been done since `base`. */
+static SMEAR_RARE uint32_t store_cached(const struct batch *b, struct smear_cached_vertex *v, uint32_t triangle, bool back)
 {
     const bool shares = batch_shares(b, back);
-    if (shares && v->stored > b->segment->base)
-        return v->stored - 1;
-    uint32_t word = store_vertex(b, index_of(v), &v->screen, triangle, back);
+    if (SMEAR_SMALL_CODE && shares && v->stored > b->segment->base)
+        return v->stored;
+    const uint32_t stored = store_vertex(b, index_of(v), &v->screen, triangle, back) + 1;
     if (shares)
-        v->stored = word + 1;
-    return word;
+        v->stored = stored;
+    return stored;
 }
+
+/* Does so without a call for those that are stored. */
+static inline uint32_t stored_vertex(const struct batch *b, struct smear_cached_vertex *v, uint32_t base, uint32_t triangle, bool back)
+{
+    return !SMEAR_SMALL_CODE && v->stored > base ? v->stored : store_cached(b, v, triangle, back);
+}
+
+/* Returns where records begin that faces share; UINT32_MAX where they do not. */
+static inline uint32_t shared_base(const struct batch *b, bool back) { return batch_shares(b, back) ? b->segment->base : UINT32_MAX; }
 
 /* ------------------------------------------------------------------ what tiny triangles cover */
 
@@ -142,7 +151,7 @@ static SMEAR_RARE void add_points(struct batch *b, struct smear_cached_vertex *c
         color = color_of_face(b, triangle, back);
     if (segment_by_vertices(s))
         for (int i = 0; i < 3; i++)
-            corner[i] = g->pool + stored_vertex(b, v[i], triangle, back) + s->color;
+            corner[i] = g->pool + stored_vertex(b, v[i], shared_base(b, back), triangle, back) - 1 + s->color;
     if (colored)
         tiny_channels(channel, corner[0], corner[1], corner[2], b->d->shading.transfer);
     const struct tiny_scale scale = tiny_scale_make(t->area);
@@ -175,14 +184,14 @@ static SMEAR_RARE bool find_room(struct batch *b)
 /* Adds a triangle, for which there is room, with its vertices. */
 SMEAR_INLINE void add_stored(struct batch *b, struct smear_segment *s, struct smear_cached_vertex *v0,
                              struct smear_cached_vertex *v1, struct smear_cached_vertex *v2, uint32_t triangle, bool back,
-                             const struct box *box)
+                             int32_t top)
 {
     struct smear_bins *g = b->a->bins;
-    uint32_t base = s->base;
-    const uint32_t offset0 = stored_vertex(b, v0, triangle, back) - base;
-    const uint32_t offset1 = stored_vertex(b, v1, triangle, back) - base;
-    const uint32_t offset2 = stored_vertex(b, v2, triangle, back) - base;
-    bins_add(g, row_list(g, b->d, bins_row(g, box->y0)), offset0, offset1, offset2, (uint32_t)(s - g->segment),
+    const uint32_t base = shared_base(b, back), before = s->base + 1;
+    const uint32_t offset0 = stored_vertex(b, v0, base, triangle, back) - before;
+    const uint32_t offset1 = stored_vertex(b, v1, base, triangle, back) - before;
+    const uint32_t offset2 = stored_vertex(b, v2, base, triangle, back) - before;
+    bins_add(g, b->last + bins_row(g, top), offset0, offset1, offset2, (uint32_t)(s - g->segment),
              color_of_face(b, triangle, back));
 }
 
@@ -200,12 +209,14 @@ SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, s
     if (box_is_empty(&box) || !is_damaged(b->a, &box))
         return true;
     struct tiny_cover t;
-    t.count = POINTS_MAX + 1;
-    t.area = 0;
+    bool points = tiny;
     if (tiny) {
-        cover(&t, &box, &v0->screen, &v1->screen, &v2->screen);
+        const struct box small = box;       /* box is in registers */
+        cover(&t, &small, &v0->screen, &v1->screen, &v2->screen);
         if (t.count == 0)
             return true;
+        points = t.count <= POINTS_MAX && b->points && (!segment_by_vertices(b->segment) || segment_flat_depth(b->segment)
+            || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth));
     }
     if (!SMEAR_SMALL_CODE && b->room != 0)
         b->room--;
@@ -213,13 +224,12 @@ SMEAR_INLINE bool add_visible(struct batch *b, struct smear_cached_vertex *v0, s
         return false;
     struct smear_segment *s = b->segment;
     b->a->triangles_drawn++;
-    if (t.count <= POINTS_MAX && b->points && (!segment_by_vertices(s) || segment_flat_depth(s)
-            || tiny_is_even(v0->screen.depth, v1->screen.depth, v2->screen.depth))) {
+    if (points) {
         struct smear_cached_vertex *const v[3] = { v0, v1, v2 };
         add_points(b, v, triangle, back, &t);
         return true;
     }
-    add_stored(b, s, v0, v1, v2, triangle, back, &box);
+    add_stored(b, s, v0, v1, v2, triangle, back, box.y0);
     return true;
 }
 
@@ -249,6 +259,7 @@ static void batch_start(struct batch *b)
     b->partial = g->row_first != 0 || g->row_end * g->row_px < a->viewport.height || bins_margin(g) != 0;
     b->points = d->material->alpha == SMEAR_OPAQUE && !segment_textured(s) && segment_moves(s) == 0 && !d->fixed && bins_margin(g) == 0;
     b->double_sided = d->backs;
+    b->last = is_blend(d) ? a->bins->blend_last : a->bins->opaque_last;
     if (d->shading.lit || !d->shading.white)
         return;
     if (s->shade == SHADE_FLAT && mesh->color == NULL)
@@ -277,11 +288,16 @@ SMEAR_INLINE bool add_triangle(struct batch *b, struct smear_cached_vertex *v0, 
         return smear_batch_add_clipped(b, corner, triangle);
     }
     const int32_t side = side_of(&v0->screen, &v1->screen, &v2->screen);
-    if (side > 0 && !SMEAR_SMALL_CODE && any == 0 && !b->partial)
-        return add_visible(b, v0, v1, v2, triangle, false, false);
-    if (side > 0)
-        return add_whole(b, v0, v1, v2, triangle, false, any != 0 || b->partial);
-    return side == 0 || !b->double_sided || add_whole(b, v0, v2, v1, triangle, true, any != 0 || b->partial);
+    if (side < 0 ? !b->double_sided : side == 0)
+        return true;
+    const bool cut = any != 0 || b->partial;
+    if (side < 0)
+        return add_whole(b, v0, v2, v1, triangle, true, cut);
+    if (SMEAR_SMALL_CODE || cut)
+        return add_whole(b, v0, v1, v2, triangle, false, cut);
+    SMEAR_KEEP_VALUE(v1);       /* read again: most are turned away, and have no registers for what few need */
+    SMEAR_KEEP_VALUE(v2);
+    return add_visible(b, v0, v1, v2, triangle, false, false);
 }
 
 /* Adds triangles [first, end). Their vertices go through the cache. Returns false where there is no room. */
@@ -357,7 +373,7 @@ static inline void add_listed(const struct batch *b, const struct seen *t)
     const uint32_t offset0 = stored_place(b, t, 0, shares) - base;
     const uint32_t offset1 = stored_place(b, t, 1, shares) - base;
     const uint32_t offset2 = stored_place(b, t, 2, shares) - base;
-    bins_add(g, row_list(g, b->d, bins_row(g, pair_y(t->four->low[t->k]))), offset0, offset1, offset2,
+    bins_add(g, b->last + bins_row(g, pair_y(t->four->low[t->k])), offset0, offset1, offset2,
              (uint32_t)(b->segment - g->segment), color_of_face(b, t->triangle, t->back));
 }
 

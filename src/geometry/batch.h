@@ -16,7 +16,10 @@ bool smear_batch_is_damaged(const struct smear_damaged_tiles *d, const struct bo
 
 static inline bool is_damaged(const struct smear_assembler *a, const struct box *box)
 {
-    return !assembler_has_damage(a) || smear_batch_is_damaged(a->damaged, box);
+    if (!assembler_has_damage(a))
+        return true;
+    const struct box copy = *box;           /* elsewhere it is in registers */
+    return smear_batch_is_damaged(a->damaged, &copy);
 }
 
 enum { ROOM_AHEAD = 32 };               /* triangles for which room is found at once */
@@ -31,6 +34,7 @@ struct batch {
     bool partial;                       /* only a part of the frame is being filled, or triangles have a margin */
     bool points;                        /* triangles have only a colour and a depth: tiny ones become points */
     bool double_sided;
+    uint32_t *last;                     /* of the lists of tile rows that it goes to, the last triangles */
     const uint8_t *face_color;          /* flat colours that need no shading; null: they are shaded */
     const uint8_t *vertex_color;        /* codes of vertices that need no shading; null: they are shaded, or none */
     uint16_t parts;                     /* of the triangle that is clipped: those that have been added, now or before */

@@ -125,7 +125,7 @@ static bool add_fan(struct batch *b, struct clipped *c, int i, uint32_t triangle
     const uint16_t first = store_corner(b, c, 0), second = store_corner(b, c, i - 1), third = store_corner(b, c, i);
     struct smear_bins *g = b->a->bins;
     b->a->triangles_drawn++;
-    bins_add(g, row_list(g, b->d, bins_row(g, box.y0)), first, c->area > 0 ? second : third, c->area > 0 ? third : second,
+    bins_add(g, b->last + bins_row(g, box.y0), first, c->area > 0 ? second : third, c->area > 0 ? third : second,
              (uint32_t)(s - g->segment), smear_face_color(b->d, s, &c->face));
     return true;
 }

@@ -346,7 +346,7 @@ static inline int32_t side_of(const struct smear_screen *a, const struct smear_s
         && (((uint32_t)x1 + small) | ((uint32_t)y1 + small) | ((uint32_t)x2 + small) | ((uint32_t)y2 + small)) < 2 * small)
         return x1 * y2 - x2 * y1;
     const int64_t area = edges_area(x1, y1, x2, y2);
-    return area > 0 ? 1 : area < 0 ? -1 : 0;
+    return area < 0 ? -1 : area > 0;
 }
 
 /* Pixels whose centres may be covered. */
@@ -410,11 +410,6 @@ static inline struct smear_segment *make_room(struct smear_assembler *a, const s
             return NULL;
     }
     return bins_has_room(g, 3u * s->stride + words, entries) ? s : NULL;
-}
-
-static inline uint32_t *row_list(struct smear_bins *g, const struct smear_assembly *d, int row)
-{
-    return is_blend(d) ? &g->blend_last[row] : &g->opaque_last[row];
 }
 
 #endif
