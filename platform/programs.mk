@@ -23,7 +23,7 @@
 TARGET_TESTS ?= unit golden
 
 TAPES     := build/tapes
-TAPES_SRC := tests/target/target_tapes.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
+TAPES_SRC := tests/target/target_tapes.c tools/player/picture.c $(LIB_SRC) $(wildcard tools/scenes/*.c) \
              $(wildcard tools/model/*.c) $(wildcard tools/image/*.c)
 
 PROGRAM_OBJ := $(PLATFORM_SRC:%.c=$(BUILD)/%.o) $(PLATFORM_OBJ) $(BUILD)/platform/print.o

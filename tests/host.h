@@ -39,6 +39,20 @@ static inline double unit3(double v[3])
     return length;
 }
 
+/* A rotation about an axis of length 1, by Rodrigues' formula; and the product of two matrices. */
+static inline void turn3(double m[9], const double n[3], double angle)
+{
+    const double c = cos(angle), s = sin(angle), across[9] = { 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0 };
+    for (int i = 0; i < 9; i++)
+        m[i] = (i % 4 == 0 ? c : 0) + s * across[i] + (1 - c) * n[i / 3] * n[i % 3];
+}
+
+static inline void product3(double out[9], const double a[9], const double b[9])
+{
+    for (int i = 0; i < 9; i++)
+        out[i] = a[i / 3 * 3] * b[i % 3] + a[i / 3 * 3 + 1] * b[3 + i % 3] + a[i / 3 * 3 + 2] * b[6 + i % 3];
+}
+
 /* Prints what differs, so that a failed comparison can be understood. */
 static inline bool same_text(const char *got, const char *want)
 {

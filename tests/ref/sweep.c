@@ -56,17 +56,14 @@ void sweep_check(double *error, uint32_t count, const char *what, double most_of
 
 smear_transform mover_pose(const struct mover *m, double part)
 {
-    const double s = sin(m->angle * part), c = cos(m->angle * part), *a = m->axis;
-    const double turned[9] = { c + a[0] * a[0] * (1 - c), a[0] * a[1] * (1 - c) - a[2] * s, a[0] * a[2] * (1 - c) + a[1] * s,
-                               a[0] * a[1] * (1 - c) + a[2] * s, c + a[1] * a[1] * (1 - c), a[1] * a[2] * (1 - c) - a[0] * s,
-                               a[0] * a[2] * (1 - c) - a[1] * s, a[1] * a[2] * (1 - c) + a[0] * s, c + a[2] * a[2] * (1 - c) };
+    double turned[9], basis[9], out[9];
     smear_transform pose;
-    for (int i = 0; i < 9; i++) {
-        double sum = 0;
-        for (int k = 0; k < 3; k++)
-            sum += turned[i / 3 * 3 + k] * (m->basis[3 * k + i % 3] / 16777216.0);
-        pose.basis[i] = q24(sum * m->size[i % 3]);
-    }
+    for (int i = 0; i < 9; i++)
+        basis[i] = m->basis[i] / 16777216.0;
+    turn3(turned, m->axis, m->angle * part);
+    product3(out, turned, basis);
+    for (int i = 0; i < 9; i++)
+        pose.basis[i] = q24(out[i] * m->size[i % 3]);
     for (int i = 0; i < 3; i++)
         pose.origin[i] = q16(m->at[i] + part * m->way[i]);
     return pose;

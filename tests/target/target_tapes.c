@@ -9,6 +9,7 @@
  * A line of GOLDEN.txt is `TAPE FRAME CRC`, what follows is a comment. `list` draws without tapes,
  * so equal CRCs also mean that tapes lose nothing. A tape of which a frame is missing in GOLDEN.txt
  * is recorded without CRCs, and target_golden fails. */
+#include "tools/player/picture.h"
 #include "tools/scenes/present.h"
 #include "tools/scenes/tape.h"
 
@@ -342,26 +343,6 @@ static bool record(struct visitor *v, const struct spec *spec, int index,
            tape_add(v->writer, frame, has_crc ? &crc : NULL, f);
 }
 
-/* Bytes of a row of pixels, or of a row of pages. */
-static size_t row_bytes(const smear_desc *desc)
-{
-    size_t width = (size_t)desc->width;
-    switch (desc->format) {
-    case SMEAR_XRGB8888:
-        return width * 4;
-    case SMEAR_RGB565:
-    case SMEAR_RGB565_SWAPPED:
-    case SMEAR_RGB555:
-        return width * 2;
-    case SMEAR_L4:
-        return (width + 1) / 2;
-    case SMEAR_L1:
-        return (width + 7) / 8;
-    default:
-        return width;
-    }
-}
-
 /* The CRC of what arrives, by the rule of smear_stats.crc32: 32-bit pixels count as R, G, B. */
 static int add_to_crc(void *user, const smear_band *band)
 {
@@ -370,7 +351,7 @@ static int add_to_crc(void *user, const smear_band *band)
     int rows = v->desc.format == SMEAR_L1_PAGES ? (band->height + 7) / 8 : band->height;
     for (int y = 0; y < rows; y++, row += band->stride) {
         if (v->desc.format != SMEAR_XRGB8888) {
-            v->crc = crc32_update(v->crc, row, row_bytes(&v->desc));
+            v->crc = crc32_update(v->crc, row, picture_row_bytes(v->desc.width, v->desc.format));
             continue;
         }
         const uint32_t *pixel = (const uint32_t *)(const void *)row;

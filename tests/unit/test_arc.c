@@ -13,28 +13,8 @@ struct spin {
 static struct spin random_spin(double angle)
 {
     struct spin s = { { uniform(-1, 1), uniform(-1, 1), uniform(-1, 1) }, angle };
-    double length = sqrt(s.axis[0] * s.axis[0] + s.axis[1] * s.axis[1] + s.axis[2] * s.axis[2]);
-    for (int i = 0; i < 3; i++)
-        s.axis[i] /= length;
+    unit3(s.axis);
     return s;
-}
-
-static void spin_matrix(double m[9], const struct spin *s, double angle)
-{
-    double c = cos(angle), d = sin(angle);
-    const double *n = s->axis;
-    const double cross[9] = { 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0 };
-    for (int i = 0; i < 9; i++)
-        m[i] = (i % 4 == 0 ? c : 0) + d * cross[i] + (1 - c) * n[i / 3] * n[i % 3];
-}
-
-static void product(double out[9], const double a[9], const double b[9])
-{
-    for (int i = 0; i < 9; i++) {
-        out[i] = 0;
-        for (int k = 0; k < 3; k++)
-            out[i] += a[i / 3 * 3 + k] * b[3 * k + i % 3];
-    }
 }
 
 /* An object at rest in `rest`, whose axes have scales that change, turns about `spin`. */
@@ -48,10 +28,10 @@ struct motion {
 static void motion_at(double basis[9], double origin[3], const struct motion *m, double time)
 {
     double turn[9], stretched[9];
-    spin_matrix(turn, &m->spin, m->spin.angle * time);
+    turn3(turn, m->spin.axis, m->spin.angle * time);
     for (int i = 0; i < 9; i++)
         stretched[i] = m->rest[i] * (m->scale[i % 3] + m->growth[i % 3] * time);
-    product(basis, turn, stretched);
+    product3(basis, turn, stretched);
     for (int i = 0; i < 3; i++)
         origin[i] = m->origin[i] + m->velocity[i] * time;
 }
@@ -78,7 +58,7 @@ static struct motion random_motion(double angle)
 {
     struct motion m;
     struct spin rest = random_spin(uniform(0, 6.28));
-    spin_matrix(m.rest, &rest, rest.angle);
+    turn3(m.rest, rest.axis, rest.angle);
     m.spin = random_spin(angle);
     for (int i = 0; i < 3; i++) {
         m.scale[i] = 1;

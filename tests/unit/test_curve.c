@@ -17,29 +17,11 @@ struct motion {
     double arm[3];              /* from the pivot to the object's origin, now */
 };
 
-static void turned(double out[3], const struct motion *m, double angle, const double v[3])
-{
-    const double *n = m->axis, c = cos(angle), s = sin(angle);
-    const double along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = c * v[i] + s * (n[j] * v[k] - n[k] * v[j]) + (1 - c) * along * n[i];
-    }
-}
-
 static void motion_at(double basis[9], double origin[3], const struct motion *m, double time)
 {
-    double arm[3];
-    turned(arm, m, m->angle * time, m->arm);
+    turn3(basis, m->axis, m->angle * time);
     for (int i = 0; i < 3; i++)
-        origin[i] = m->pivot[i] + m->velocity[i] * time + m->fall[i] * time * time / 2 + arm[i];
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = { j == 0, j == 1, j == 2 };
-        double column[3];
-        turned(column, m, m->angle * time, unit);
-        for (int i = 0; i < 3; i++)
-            basis[3 * i + j] = column[i];
-    }
+        origin[i] = m->pivot[i] + m->velocity[i] * time + m->fall[i] * time * time / 2 + dot3(basis + 3 * i, m->arm);
 }
 
 static smear_transform pose(const struct motion *m, double time)

@@ -47,19 +47,15 @@ static double normalize(struct vector *a)
 static struct matrix multiply(struct matrix a, struct matrix b)
 {
     struct matrix out;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            out.m[3 * i + j] = a.m[3 * i] * b.m[j] + a.m[3 * i + 1] * b.m[3 + j] + a.m[3 * i + 2] * b.m[6 + j];
+    product3(out.m, a.m, b.m);
     return out;
 }
 
-/* Rodrigues' formula. The axis is of length one. */
 static struct matrix rotation(struct vector axis, double angle)
 {
-    const double c = cos(angle), s = sin(angle), v = 1 - c, x = axis.v[0], y = axis.v[1], z = axis.v[2];
-    return (struct matrix){ { c + x * x * v, x * y * v - z * s, x * z * v + y * s,
-                              x * y * v + z * s, c + y * y * v, y * z * v - x * s,
-                              x * z * v - y * s, y * z * v + x * s, c + z * z * v } };
+    struct matrix out;
+    turn3(out.m, axis.v, angle);
+    return out;
 }
 
 static const struct vector axes[3] = { { { 1, 0, 0 } }, { { 0, 1, 0 } }, { { 0, 0, 1 } } };

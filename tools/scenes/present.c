@@ -4,6 +4,7 @@
 
 #include "tools/scenes/methods.h"
 #include "tools/scenes/present_surface.h"
+#include "tools/scenes/xform.h"
 
 #include <limits.h>
 #include <math.h>
@@ -63,11 +64,6 @@ struct presenter {
     struct backdrop backdrop;
     struct presented out;
 };
-
-static double clamp(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
-}
 
 static int32_t fixed(double x, int fraction_bits)
 {

@@ -3,6 +3,7 @@
 #include "tools/scenes/present_surface.h"
 
 #include "tools/scenes/present.h"
+#include "tools/scenes/xform.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,11 +39,6 @@ bool grow(void **array, int *room, int want, size_t size, struct failure *f)
     *array = grown;
     *room = next;
     return true;
-}
-
-static double clamp(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
 }
 
 static double unit(double x)

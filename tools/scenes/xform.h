@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* xform.h - points and affine transforms in double precision, passed by value. */
+/* xform.h - points and affine transforms in double precision, passed by value; and a number held within bounds. */
 #ifndef SMEAR_TOOLS_SCENES_XFORM_H
 #define SMEAR_TOOLS_SCENES_XFORM_H
 
@@ -13,6 +13,11 @@ struct vec3 {
 struct xform {
     double m[16];
 };
+
+static inline double clamp(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
 
 static inline struct vec3 vec3(double x, double y, double z)
 {

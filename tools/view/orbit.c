@@ -63,11 +63,6 @@ void orbit_open(struct orbit *orbit, struct scene *inner)
     orbit->scene.data = orbit;
 }
 
-static double clamp(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
-}
-
 void orbit_turn(struct orbit *orbit, double yaw, double pitch)
 {
     orbit->yaw = remainder(orbit->yaw + yaw, 2.0 * 3.14159265358979323846);
