@@ -13,7 +13,7 @@ rm -rf "$base"
 mkdir -p "$base"
 # The library is compiled once for all projects that want it alike. Those of boards, which have flags and a standard in common
 # therefore, do without what boards do not have; a build of fuzz-builds has the same (tests/fuzz/fuzz.mk).
-file_flags="-O1 -Wall -Wextra -Werror"
+file_flags="-O2 -Wall -Wextra -Werror"
 board_flags="-O2 -Wall -Wextra -Werror -funsigned-char"
 SMEAR_OBJECTS=${SMEAR_OBJECTS:-$base/objects}
 CMAKE_C_COMPILER_LAUNCHER="sh;$PWD/tests/shell/launch_cached.sh"
@@ -303,8 +303,8 @@ fi
 if command -v cmake >/dev/null 2>&1; then
     # project NAME: configures and builds out/NAME, whose program draws the example's picture. That it is a release where nobody
     # says otherwise is shown by its commands, below: one build with all optimization is fuzz-builds' part. What compiles fastest
-    # is enough here.
-    debug="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0"
+    # is enough here: no flags but a project's own.
+    debug="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="
     project() {
         cp "$dist/platformio/smear/examples/plain/src/main.c" "$base/$1/main.c"
         # shellcheck disable=SC2086
@@ -363,14 +363,14 @@ END
             [ -n "$command" ] && sh -c "$command -o $base/$1-off/anim.o" && ! nm "$base/$1-off/anim.o" | grep smear_actor_init &&
             nm "$base/$1/build/$2" | grep -q smear_actor_init
     }
-    # esp_project NAME ROOT, with the component's CMakeLists.txt in ROOT; likewise for the others
+    # esp_project NAME ROOT [FLAGS], with the component's CMakeLists.txt in ROOT; likewise for the others
     esp_project() {
         mkdir -p "$base/$1"
         cat >"$base/$1/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.13)
 project(program C)
 set(CMAKE_C_STANDARD 11)
-add_compile_options($board_flags)
+add_compile_options(${3:-$board_flags})
 function(idf_component_register)
     cmake_parse_arguments(c "" "" "SRCS;INCLUDE_DIRS;PRIV_INCLUDE_DIRS" \${ARGN})
     list(TRANSFORM c_SRCS PREPEND $2/)
@@ -391,7 +391,7 @@ END
     claim "esp-idf's functions" project esp-idf
     made_project() {
         build/smear convert tests/data/arm.gltf --kit build/kit/kit.tar --display esp_lcd -o "$base/made.zip" &&
-            python3 -m zipfile -e "$base/made.zip" "$base/made" && esp_project made-idf "$base/made/made/components/smear" && project made-idf
+            python3 -m zipfile -e "$base/made.zip" "$base/made" && esp_project made-idf "$base/made/made/components/smear" "$file_flags" && project made-idf
     }
     claim "esp-idf's functions, by the component that smear convert writes" made_project
     claim "esp-idf: a switch that is off leaves code out" switched_off esp-idf libcomponent.a

@@ -3,7 +3,7 @@
 # sketch_compile.sh ZIP FOLDER [FLAGS...]: unpacks a sketch of `smear convert` into FOLDER, compiles it with its library on stand-ins, without a
 # warning, and draws twelve frames into FOLDER/panel.
 set -eu
-zip=$1 folder=$2 stand_ins=$PWD/tests/examples/stand_ins warnings="-O1 -Wall -Wextra -Werror"
+zip=$1 folder=$2 stand_ins=$PWD/tests/examples/stand_ins warnings="-O2 -Wall -Wextra -Werror"
 shift 2
 rm -rf "$folder"
 mkdir -p "$folder"
