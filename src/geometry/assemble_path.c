@@ -166,36 +166,48 @@ struct path_batch {
     struct path_vertex *const *vertex;
     struct smear_homogeneous place[3][KEYS];
     int8_t scale;
+    uint8_t flat_depth;
 };
+
+static void set_scale(const struct path_batch *b)
+{
+    b->segment->scale = b->scale;
+    b->segment->flat_depth = b->flat_depth;
+}
 
 static void make_space(struct smear_space *space, const struct path_batch *b)
 {
-    b->segment->scale = b->scale;
+    set_scale(b);
     smear_space_make(space, b->a->bins, b->segment, b->a->viewport.width, b->a->viewport.height);
 }
 
-/* Finds the places of a triangle's vertices in space, all poses in one scale. */
+/* Finds the places of a triangle's vertices in space, all poses in one scale. Rows of an orthographic camera have a bit more than
+ * places. */
 static SMEAR_NOINLINE void find_places(struct path_batch *b, struct path_vertex *const v[3])
 {
     const struct smear_assembly *d = b->d;
     const bool even = is_orthographic(&d->at.now);
     struct smear_placement at;
-    int scale[KEYS], least = INT8_MAX;
+    int scale[KEYS], distance_scale[KEYS], least = INT8_MAX, least_distance = INT8_MAX;
     b->vertex = v;
     for (int key = 0; key < KEYS; key++) {
         d->place_fine(&at, d, key, projection_coarse(b->a->viewport.height, even));
         scale[key] = at.now.scale;
-        least = min_i32(least, scale[key]);
-        for (int i = 0; i < 3; i++) {
-            placement_transform(&b->place[i][key], &at, v[i]->tag & 0xffffu);
-            if (even)
-                smear_space_take_even(&b->place[i][key], &at.now, &b->a->viewport);
-        }
-    }
-    b->scale = (int8_t)max_i32(least, INT8_MIN);
-    for (int key = 0; key < KEYS && !even; key++)
+        distance_scale[key] = at.now.distance_scale;
+        least = min_i32(least, scale[key] - even);
+        least_distance = min_i32(least_distance, distance_scale[key]);
         for (int i = 0; i < 3; i++)
-            smear_space_scale(&b->place[i][key], clamp_i32(b->scale - scale[key], -31, 31));
+            placement_transform(&b->place[i][key], &at, v[i]->tag & 0xffffu);
+    }
+    least = max_i32(least, even ? 0 : INT8_MIN);
+    b->scale = (int8_t)max_i32(least_distance, INT8_MIN);
+    for (int key = 0; key < KEYS; key++) {
+        const int up = clamp_i32(least - scale[key], -31, 31), distance_up = clamp_i32(b->scale - distance_scale[key], -31, 31);
+        for (int i = 0; i < 3; i++)
+            smear_space_scale(&b->place[i][key], up, distance_up);
+    }
+    if (even)
+        b->flat_depth = (uint8_t)(1 + least);
 }
 
 static const struct smear_homogeneous *places_of(const struct path_batch *b, const struct path_vertex *v)
@@ -207,7 +219,7 @@ static const struct smear_homogeneous *places_of(const struct path_batch *b, con
 static SMEAR_RARE void store_in_space(uint32_t *record, struct path_batch *b, const struct path_vertex *v)
 {
     const struct smear_homogeneous *const place = places_of(b, v);
-    b->segment->scale = b->scale;
+    set_scale(b);
     smear_space_store(record, b->segment, &place[OPEN], &place[MIDDLE], &place[CLOSE]);
     if ((v->outcodes & IN_SPACE) != 0)
         return;

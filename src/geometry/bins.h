@@ -68,11 +68,11 @@ struct smear_segment {
     uint8_t uv, color, motion;
     uint8_t shade;          /* smear_shade_mode */
     uint8_t moves;          /* 0: it is static. 1: the open pose differs. 2: the close pose, too */
-    uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division */
+    uint8_t flat_depth;     /* orthographic: depth is not 1/w, nothing needs a perspective division. 1 + log2 of W in space */
     uint8_t flat;           /* its triangles are flat, though vertices had colours: all the same */
     uint8_t path;           /* 1: places at shutter open and close at `motion` (path.h) in
                              * place of motion words; moves is 0 */
-    int8_t scale;           /* of paths in space: log2 of W per unit (struct smear_projection) */
+    int8_t scale;           /* of paths in space: log2 of distances per unit (struct smear_projection) */
 };
 
 /* These are false at compile time where the methods and surfaces that need them were left out. */

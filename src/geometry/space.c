@@ -7,9 +7,8 @@
 #include "geometry/shot.h"
 #include "geometry/vertex.h"
 
-/* Coordinates of places lie within 2^29, so that sums of four fit: along(). An orthographic camera's x and y from the frame's centre,
- * before they are divided by W, have four bits more than q8; its distances two less than depths. */
-enum { PLACE_MOST = 1 << 29, EVEN_SHIFT = 4, EVEN_W = 256 << EVEN_SHIFT, EVEN_DEPTH_SHIFT = 2 };
+/* Coordinates of places lie within 2^29, so that sums of four fit: along(). */
+enum { PLACE_MOST = 1 << 29 };
 
 void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
                       int32_t height)
@@ -18,30 +17,16 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
     space->turn = g->shot->turn;
     space->phase = INT32_MIN;
     space->viewport = (struct smear_viewport){ width, height };
-    if (segment_flat_depth(s)) {
-        /* Distances are what depths lack of the largest. */
-        space->depths = (struct smear_depths){ 0, SMEAR_DEPTH_MAX >> EVEN_DEPTH_SHIFT, 1 << 30, 2 + EVEN_DEPTH_SHIFT, true, 0, 0 };
-        return;
-    }
     smear_depths_make(&space->depths, &g->shot->camera[0], s->scale);
-    space->depths.coarse = (uint8_t)projection_coarse(height, false);
+    space->depths.coarse = (uint8_t)projection_coarse(height, segment_flat_depth(s));
 }
 
-void smear_space_scale(struct smear_homogeneous *h, int up)
+void smear_space_scale(struct smear_homogeneous *h, int up, int distance_up)
 {
     h->x = scale_sat(h->x, up);
     h->y = scale_sat(h->y, up);
-    h->w = h->distance = scale_sat(h->w, up);
-}
-
-void smear_space_take_even(struct smear_homogeneous *h, const struct smear_projection *p, const struct smear_viewport *viewport)
-{
-    enum { ASIDE = PLACE_MOST >> EVEN_SHIFT, DEEPEST = -(1 << 29) };
-    struct smear_screen screen;
-    smear_project(&screen, &p->depths, h, viewport);
-    *h = (struct smear_homogeneous){ clamp_i32(screen.x - (viewport->width << 7), -ASIDE, ASIDE) * (1 << EVEN_SHIFT),
-                                     clamp_i32(screen.y - (viewport->height << 7), -ASIDE, ASIDE) * (1 << EVEN_SHIFT), EVEN_W,
-                                     (SMEAR_DEPTH_MAX - max_i32(depth_even(&p->depths, h->distance), DEEPEST)) >> EVEN_DEPTH_SHIFT };
+    h->w = scale_sat(h->w, up);
+    h->distance = scale_sat(h->distance, distance_up);
 }
 
 static void store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *h)
@@ -106,7 +91,7 @@ void smear_space_at(struct smear_homogeneous *h, struct smear_space *space, cons
     h->x = along(open[PATH_X], record[VERTEX_X], close[PATH_X], space);
     h->y = along(open[PATH_Y], record[VERTEX_Y], close[PATH_Y], space);
     h->distance = along(open[PATH_DEPTH], record[VERTEX_DEPTH], close[PATH_DEPTH], space);
-    h->w = depths_are_even(&space->depths) ? EVEN_W : h->distance;
+    h->w = depths_are_even(&space->depths) ? 1 << (space->segment->flat_depth - 1) : h->distance;
 }
 
 /* Projects a place; returns its outcode. One behind the near plane is not projected. */

@@ -16,8 +16,8 @@
 #include "geometry/clip.h"
 #include "geometry/path.h"
 
-/* What the paths in space of a segment share. A place is X, Y, W in the segment's scale; before an orthographic camera, where the
- * screen is as exact, x and y from the frame's centre, a W that is one pixel, and a distance that grows as the depth shrinks. */
+/* What the paths in space of a segment share. A place is X, Y, W in the segment's scale; before an orthographic camera X, Y and a W that
+ * is one unit in a scale of their own (flat_depth), and the distance in the segment's. */
 struct smear_space {
     const struct smear_segment *segment;
     struct smear_depths depths;
@@ -30,9 +30,8 @@ struct smear_space {
 void smear_space_make(struct smear_space *space, const struct smear_bins *g, const struct smear_segment *s, int32_t width,
                       int32_t height);
 
-/* Brings a place from the scale of a projection to that of the space, 2^up times as large; from an orthographic projection. */
-void smear_space_scale(struct smear_homogeneous *h, int up);
-void smear_space_take_even(struct smear_homogeneous *h, const struct smear_projection *p, const struct smear_viewport *viewport);
+/* Brings a place from the scales of a projection to that of the space, 2^up times as large. */
+void smear_space_scale(struct smear_homogeneous *h, int up, int distance_up);
 
 /* Stores the three places of a vertex. */
 void smear_space_store(uint32_t *record, const struct smear_segment *s, const struct smear_homogeneous *open,

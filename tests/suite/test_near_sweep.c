@@ -9,6 +9,7 @@ enum { PIXELS_MAX = 160 * 120, BYTES_MAX = PIXELS_MAX * 4, SIDE_MAX = 64, VERTIC
 /* A case: lengths in units, speed in units per second, angles in degrees. */
 struct drive {
     double near_plane, height, speed, fps, shutter, pitch, roll, heading, wall;
+    double half;        /* of the height an orthographic camera sees; 0: it is none */
     int width, rows, side, cubes;
     double cube_from[DRAWS][3], cube_way[DRAWS][3]; /* in the middle, and from open to close, as the eye sees it */
 };
@@ -40,14 +41,18 @@ static struct drive random_drive(void)
         d.wall = uniform(1, 4);
     else if (chance(3))
         d.heading = uniform(-90, 90);
+    d.half = chance(20) ? spread(1, 10) : 0;
+    if (d.half > 0)
+        d.roll = uniform(10, 30);      /* else the near plane ends all along a row of pixels */
     return d;
 }
 
 static void print_drive(const struct drive *d, uint32_t number)
 {
-    printf("  case %u: near %.3f height %.2f speed %.1f fps %g shutter %.0f pitch %.0f roll %.0f heading %.0f wall %.1f side %d %d x %d\n",
-           (unsigned)number, d->near_plane, d->height, d->speed, d->fps, d->shutter, d->pitch, d->roll, d->heading, d->wall, d->side,
-           d->width, d->rows);
+    printf("  case %u: near %.3f height %.2f speed %.1f fps %g shutter %.0f pitch %.0f roll %.0f heading %.0f wall %.1f half %.1f side %d"
+           " %d x %d\n",
+           (unsigned)number, d->near_plane, d->height, d->speed, d->fps, d->shutter, d->pitch, d->roll, d->heading, d->wall, d->half,
+           d->side, d->width, d->rows);
 }
 
 /* ------------------------------------------------------------------ pictures */
@@ -78,7 +83,8 @@ static smear_camera camera_of(const struct drive *d, double part)
     const double cp = cos(d->pitch * degree), sp = sin(d->pitch * degree), cr = cos(d->roll * degree), sr = sin(d->roll * degree);
     const double way = d->speed / d->fps * d->shutter / 360 * part;
     const double basis[9] = { cr, -sr, 0, cp * sr, cp * cr, -sp, sp * sr, sp * cr, cp };
-    smear_camera c = { .focal = 2 * 65536 * 4 / 5, .near_plane = q16(d->near_plane), .far_plane = 6000 * 65536 };
+    smear_camera c = { .focal = 2 * 65536 * 4 / 5, .near_plane = q16(d->near_plane), .half_height = q16(d->half) };
+    c.far_plane = (d->half > 0 ? 100 : 6000) * 65536;
     for (int i = 0; i < 9; i++)
         c.pose.basis[i] = q24(basis[i]);
     c.pose.origin[0] = q16(sin(d->heading * degree) * way);
@@ -276,7 +282,7 @@ static void test_endless_surfaces_look_the_same_however_fast_the_camera_goes(voi
 static struct drive random_pass(void)
 {
     struct drive d = random_drive();
-    d.wall = 0;
+    d.wall = d.half = 0;
     d.cubes = between(1, DRAWS);
     d.height = spread(0.3, 3);
     d.near_plane = fmin(d.near_plane, 0.5 * d.height);

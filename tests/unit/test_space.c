@@ -9,7 +9,7 @@
 #include "tests/host.h"
 #include "tests/unit/store.h"
 
-enum { W = 70, H = 44, POOL_WORDS = 400, SCALE = 14, EVEN_SCALE = 16, CORNERS = 4, KEYS = 3 };
+enum { W = 70, H = 44, POOL_WORDS = 400, SCALE = 14, CORNERS = 4, KEYS = 3 };
 
 static uint32_t words[POOL_WORDS];
 static const smear_camera camera = { .pose = SMEAR_IDENTITY, .focal = 65536, .near_plane = 65536, .far_plane = 500 * 65536 };
@@ -28,9 +28,10 @@ static void begin(bool is_even)
 {
     store_begin(words, POOL_WORDS, 1, W, H, false);
     shot.camera[0] = camera;
+    shot.camera[0].half_height = is_even ? 65536 : 0;
     geometry.shot = &shot;
     set_path_layout(0, false, false, true, SHADE_FLAT);
-    segment[0].flat_depth = is_even;
+    segment[0].flat_depth = is_even ? 13 : 0;
     segment[0].scale = SCALE;
     smear_space_make(&space, &geometry, &segment[0], W, H);
 }
@@ -41,7 +42,7 @@ static bool is_even(void) { return segment[0].flat_depth; }
  * 0 .. 1. */
 static struct smear_homogeneous place_of(const double at[3])
 {
-    const double unit = is_even() ? 256 * EVEN_SCALE : 1 << SCALE, pixels = H / 2.0 / (1 << space.depths.coarse);
+    const double unit = 1 << (is_even() ? 12 : SCALE), pixels = H / 2.0 / (1 << space.depths.coarse);
     if (is_even())
         return (struct smear_homogeneous){ (int32_t)lrint(at[0] * unit), (int32_t)lrint(at[1] * unit), (int32_t)unit,
                                            (int32_t)lrint((1 - at[2]) * space.depths.far_distance) };
@@ -208,7 +209,7 @@ static double inside(double at[CORNERS][4], int x, int y)
     const double sum = weight[0] + weight[1] + weight[2];
     const double distance = (weight[0] * at[0][3] + weight[1] * at[1][3] + weight[2] * at[2][3]) / (is_even() ? sum : 1);
     const double here = is_even() ? distance : 1 / sum, near = space.depths.near_distance, far = space.depths.far_distance;
-    const double unit = is_even() ? 1 << 22 : near / 8;
+    const double unit = is_even() ? far / 64 : near / 8;
     if (sum <= 0)
         return -INFINITY;
     return fmin(least, fmin((here - near) / unit, (far - here) / unit));
