@@ -90,14 +90,15 @@ typedef enum smear_filter_kind {
     SMEAR_FILTER_PINGPONG       /* as SMEAR_PINGPONG, which desc.methods must have */
 } smear_filter_kind;
 
-/* Departures of SMEAR_RECONSTRUCT from the Post Processing Stack v2 filter, or-ed together. */
+/* How SMEAR_RECONSTRUCT departs from the Post Processing Stack v2 filter, or-ed together. */
 enum {
     SMEAR_FENCE     = 1,    /* a static pixel takes nothing from behind: keeps the edges of static foreground */
     SMEAR_CORNER    = 2,    /* a diagonal neighbour counts only if its motion points here */
     SMEAR_BOX       = 4,    /* box shutter instead of the tent */
     SMEAR_DIRECTION = 8,    /* second direction as in Guertin 2014 */
-    SMEAR_UNIFORM   = 16    /* where all motion in reach is alike or changes without a step: plain mean along the
-                             * pixel's own velocity; motion below a pixel stays as it is */
+    SMEAR_PUBLISHED = 16    /* nothing of ours: else the camera's motion is told from depth, what stands still with
+                             * nothing in front stays sharp, and where all motion in reach is alike or changes
+                             * without a step, the mean has no weights. Always so without SMEAR_WITH_FILTERS */
 };
 
 /* Whose weights SMEAR_RECONSTRUCT gives to what it gathers. FENCE, BOX and DIRECTION are departures of the first. */
@@ -129,9 +130,9 @@ typedef struct smear_filter {
     uint8_t flags;              /* SMEAR_FENCE | ...; 0: none */
     uint8_t weights;            /* smear_weights, of SMEAR_RECONSTRUCT and where it is the kind */
     uint8_t camera_step;        /* 1, 2 or 4: draws that do not move themselves get their velocity from depth and the
-                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: from their
-                                 * vertices, the background none (SMEAR_CAMERA: as 1). Not looked at along the
-                                 * lines of SMEAR_FILTER_MEAN */
+                                 * two cameras, at each pixel or each 2 x 2 or 4 x 4; the background too. 0: as 4 in
+                                 * SMEAR_RECONSTRUCT and SMEAR_CAMERA; in others, and with SMEAR_PUBLISHED, from their
+                                 * vertices, the background none. Not looked at along lines of SMEAR_FILTER_MEAN */
     smear_pingpong pingpong;
 } smear_filter;
 

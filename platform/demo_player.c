@@ -152,7 +152,7 @@ int demo_player_frame(struct demo_player *player, uint32_t frame, int draw)
     smear_frame how = {
         .camera = &scene->camera, .cut = scene->cut, .clear = player->screen->sky,
         .method = player->shutter_degrees == 0 ? SMEAR_NONE : player->screen->method,
-        .filter.flags = SMEAR_FENCE | SMEAR_CORNER | SMEAR_UNIFORM,
+        .filter.flags = SMEAR_FENCE | SMEAR_CORNER,
         .light_space = player->screen->light, .target = player->screen->target, .fog = player->fog, .scene = player->extras,
         .shutter = { .degrees = player->shutter_degrees, .path = player->screen->path }
     };

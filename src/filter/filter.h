@@ -28,7 +28,7 @@ struct smear_blur_settings {
     smear_transfer transfer;    /* of what is averaged */
     bool orthographic;          /* depth units are even in distance */
     int32_t samples;            /* wanted taps */
-    bool dense;                 /* unweighted means take a tap per pixel of the travel, not one per two */
+    bool lines;                 /* only the middles of blocks have a velocity: the camera's motion alone is blurred (line.c) */
     bool held;                  /* something stays where it is in front of a moving camera: it must not be mixed in */
     uint8_t flags;              /* SMEAR_FENCE | ... */
     uint8_t weights;            /* smear_weights */
@@ -77,18 +77,12 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w,
                                 const struct smear_row_table *rows, int32_t row, int32_t column,
                                 const struct smear_blur_settings *settings);
 
-/* Takes the unweighted mean along each pixel's own velocity, for tiles in whose reach all motion is alike or changes
- * without a step. */
-uint32_t smear_blur_uniform(uint32_t *out, const struct smear_window *w,
-                            const struct smear_row_table *rows, int32_t row, int32_t column,
-                            const struct smear_blur_settings *settings);
-
 /* Finds the velocity of each block of tile `column` of a row that is drawn, and whether any moves. */
 void smear_line_look(const struct smear_window *w, const struct smear_flow *flow, int32_t row, int32_t column);
 
-/* Takes the mean along each block's line. */
-uint32_t smear_blur_line(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t column,
-                         const struct smear_blur_settings *settings);
+/* Takes the unweighted mean along each block's line or, where its pixels do not move alike, along each one's own velocity. */
+uint32_t smear_blur_mean(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows, int32_t row,
+                         int32_t column, const struct smear_blur_settings *settings);
 
 /* Gathers with the weights of other filters (settings->weights). */
 uint32_t smear_blur_weights(uint32_t *out, const struct smear_window *w, const struct smear_row_table *rows,

@@ -67,12 +67,13 @@ int smear_filter_resolve(smear_frame *f, const smear_desc *d)
 {
     smear_filter *filter = &f->filter;
     smear_pingpong *p = &filter->pingpong;
-    if (!SMEAR_FILTER_KINDS) {
+    if (!SMEAR_FILTER_KINDS) {      /* nor the means, nor velocities from depth */
         filter->kind = SMEAR_FILTER_RECONSTRUCT;
+        filter->flags |= SMEAR_PUBLISHED;
         return SMEAR_OK;
     }
-    if (f->method == SMEAR_CAMERA && filter->camera_step == 0)
-        filter->camera_step = 1;
+    if (filter->camera_step == 0 && (f->method == SMEAR_CAMERA || (f->method == SMEAR_RECONSTRUCT && !(filter->flags & SMEAR_PUBLISHED))))
+        filter->camera_step = 4;
     if (filter->camera_step == 3)
         return FAULT(FRAME_STEP);
     if (f->method == SMEAR_RECONSTRUCT || (f->method == SMEAR_HALF && filter->kind == SMEAR_FILTER_DEFAULT))

@@ -48,7 +48,7 @@ static struct smear_row_table row_table(const struct smear_filtered *f, int row,
 }
 
 /* Whether blocks are blurred along lines. */
-static inline bool goes_along_lines(const struct smear_filtered *f) { return SMEAR_WITH_FILTERS && f->lines; }
+static inline bool goes_along_lines(const struct smear_filtered *f) { return SMEAR_WITH_FILTERS && f->blur.lines; }
 
 /* ------------------------------------------------------------------ reduce */
 
@@ -101,17 +101,15 @@ static uint32_t filter_tile(const struct smear_filtered *f, uint32_t *tile, int 
         smear_blur_copy(tile, w, &rows, column);
         return 0;
     }
-    if (goes_along_lines(f))
-        return smear_blur_line(tile, w, &rows, column, &f->blur);
     if (SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_PINGPONG) {
         const int last = f->passes - 1;
         return smear_pingpong_pass(tile, w->tile, pass_input(f, last), w, &rows, &f->plan.pass[last], row, column, y0, y1,
                                    &f->blur);
     }
-    if ((SMEAR_WITH_FILTERS && f->kind == SMEAR_FILTER_MEAN) || (kind == TILE_UNIFORM && (f->blur.flags & SMEAR_UNIFORM)))
-        return smear_blur_uniform(tile, w, &rows, row, column, &f->blur);
-    if (SMEAR_WITH_FILTERS && f->blur.weights != SMEAR_WEIGHTS_STACK)
+    if (SMEAR_WITH_FILTERS && f->kind != SMEAR_FILTER_MEAN && f->blur.weights != SMEAR_WEIGHTS_STACK)
         return smear_blur_weights(tile, w, &rows, row, column, &f->blur);
+    if (SMEAR_WITH_FILTERS && (f->kind == SMEAR_FILTER_MEAN || (kind == TILE_UNIFORM && !(f->blur.flags & SMEAR_PUBLISHED))))
+        return smear_blur_mean(tile, w, &rows, row, column, &f->blur);
     return smear_blur_reconstruct(tile, w, &rows, row, column, &f->blur);
 }
 
@@ -316,19 +314,17 @@ static void begin_filter(struct smear_filtered *f, const struct smear_rows *rows
 {
     f->method = frame->method;
     f->kind = frame->filter.kind;
-    f->lines = false;                   /* until smear_filtered_render */
     f->blur = (struct smear_blur_settings){
         .transfer = frame_transfer(&rows->raster),
         .orthographic = SMEAR_WITH_VIEWS && camera->half_height > 0,
-        .samples = frame->samples, .dense = frame->method == SMEAR_HALF,
-        .flags = frame->filter.flags, .weights = frame->filter.weights
+        .samples = frame->samples, .flags = frame->filter.flags, .weights = frame->filter.weights
     };
     if (f->blur.orthographic)
         f->blur.far_over_range = far_over_range(camera);
     f->window = frame->method == SMEAR_HALF ? f->half : &rows->window;
+    f->camera_step = frame->filter.camera_step;
     if (!SMEAR_WITH_FILTERS)
         return;
-    f->camera_step = frame->filter.camera_step;
     f->passes = smear_pingpong_plan(f->plan.pass, &frame->filter.pingpong, f->window->reach);
     for (int i = 0; i < PINGPONG_PASSES_MAX - 1; i++)
         f->pass_end[i] = 0;
@@ -355,8 +351,8 @@ int smear_filtered_render(struct smear_context *c)
     const int rows = c->rows.window.rows, late = c->rows.blends ? f->window->lag : 0;
     int result = SMEAR_OK;
     f->blur.held = c->has_fixed;
-    f->lines = SMEAR_WITH_FILTERS && frame_has_depth_velocity(&c->rows.raster) && c->frame.method == SMEAR_CAMERA
-            && f->kind == SMEAR_FILTER_MEAN && !c->has_fixed;
+    f->blur.lines = SMEAR_WITH_FILTERS && frame_has_depth_velocity(&c->rows.raster) && c->frame.method == SMEAR_CAMERA
+                 && f->kind == SMEAR_FILTER_MEAN && !c->has_fixed;
     if (frame_has_depth_velocity(&c->rows.raster)) {
         const struct smear_shutter_order at = smear_shot_order(&c->shot);
         const bool spans = shot_spans_exposure(&c->shot);

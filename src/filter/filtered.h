@@ -17,7 +17,6 @@ struct smear_filtered {
     struct smear_blur_settings blur;
     uint8_t method;                         /* smear_method */
     uint8_t kind;                           /* smear_filter_kind */
-    bool lines;                             /* the camera's motion alone is blurred, along a line for each block (line.c) */
     int32_t row;                            /* rows taken by smear_filter_row */
     /* Velocities of what does not move itself, from depth and two cameras, where raster.velocity_from_depth. */
     struct smear_reprojection reprojection;

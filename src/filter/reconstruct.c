@@ -8,7 +8,7 @@
  *
  * Ours differs: velocity has an exact zero (so a speed is at least 1/16 px where it divides); all is integer,
  * weights in 1/4096, directions in 1/256 px; whether a tap is in front is decided on depth codes, and its
- * velocity is only read if it is.
+ * velocity is only read if it is. A pixel that stands still and has nothing moving in front stays, but for SMEAR_PUBLISHED.
  *
  * What neighbours share is kept from pixel to pixel: whatever follows from the neighbourhood's direction,
  * from the pixel's velocity, from its depth and from the velocity of the last tap in front. */
@@ -48,7 +48,8 @@ struct gathering {
     const struct smear_window *w;
     const struct smear_row_table *rows;
     smear_transfer transfer;
-    bool box, fence, guertin, orthographic;
+    bool box, fence, guertin, orthographic, published;
+    bool met;                   /* of the pixel: what moves in front of it counts */
     int32_t wanted;             /* pairs */
     uint32_t far_units;         /* orthographic: depth units from the eye to the far plane */
     const uint32_t *color;      /* the window's planes from the tile's first column on */
@@ -259,9 +260,11 @@ SMEAR_INLINE void tap(struct gathering *g, struct weighed_sum *sum, const struct
     uint32_t code = g->depth_code[at], weight;
     int32_t cover = g->background - (distance >> 12);           /* q8 */
     if (code > f->own_code) {
-        weight = front_weight(g, front_speed(g, (uint32_t)(g->x0 + at)), code, shape, distance);
+        const int32_t speed = front_speed(g, (uint32_t)(g->x0 + at));
+        weight = front_weight(g, speed, code, shape, distance);
         if (weight == 0)
             return;
+        g->met = g->met || speed != 0;
     } else {
         if (cover <= 0)
             return;
@@ -281,6 +284,7 @@ static uint32_t gather(struct gathering *g, struct direction *top, int32_t here,
     struct weighed_sum sum = { 0, 0, 0, 0 };
     g->background = m->background;
     g->over = m->over;
+    g->met = false;
 
     int32_t offset = ((int32_t)noise - 32768) * top->spacing >> 16;         /* q12, within half a spacing */
     int32_t shift = top->length * offset;                                   /* q20 px */
@@ -298,7 +302,7 @@ static uint32_t gather(struct gathering *g, struct direction *top, int32_t here,
         tap(g, &sum, &f, base[k].x - dx, base[k].y - dy, distance - shift, shape);
     }
     uint32_t pixel = g->color[here];
-    if (sum.weight == 0)
+    if (sum.weight == 0 || (!g->met && m->word == 0 && !g->published))       /* what stands still before what moves stays sharp */
         return pixel;
     /* The centre last: 1.2 / (2 B pairs). */
     weighed_add(&sum, pixel, max_u32((g->over >> 8) * top->center >> 12, 1), g->transfer, 0);
@@ -338,7 +342,8 @@ uint32_t smear_blur_reconstruct(uint32_t *out, const struct smear_window *w, con
         .w = w, .rows = rows, .transfer = settings->transfer,
         .box = (settings->flags & SMEAR_BOX) != 0, .fence = (settings->flags & SMEAR_FENCE) != 0,
         .guertin = (settings->flags & SMEAR_DIRECTION) != 0, .orthographic = settings->orthographic,
-        .wanted = clamp_i32(settings->samples / 2, 1, 64), .far_units = blur_far_units(settings),
+        .published = (settings->flags & SMEAR_PUBLISHED) != 0, .wanted = clamp_i32(settings->samples / 2, 1, 64),
+        .far_units = blur_far_units(settings),
         .color = w->color + x0, .depth_code = w->depth + x0, .x0 = x0
     };
     struct direction direction[9];

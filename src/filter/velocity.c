@@ -304,33 +304,30 @@ static inline void keep(const struct smear_window *w, const struct smear_camera_
     }
 }
 
-/* Fills in the pixels of a block; at[j] is where row j of it begins in the window. */
+/* Fills in the pixels of a block; at[j] is where row j of it begins in the window. Two velocities are enough: that of the nearest depth,
+ * and that of the farthest for what is more than 1/16 farther away. */
 static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
                        const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
                        int32_t columns, int32_t rows)
 {
-    int32_t nearest = -1;
+    int32_t nearest = -1, farthest = UINT16_MAX;
     for (int32_t j = 0; j < rows; j++)
-        for (int32_t i = x; i < x + columns; i++)
-            if (is_unknown(w, at[j] + i))
-                nearest = max_i32(nearest, w->depth[at[j] + i]);
+        for (int32_t i = at[j] + x; i < at[j] + x + columns; i++)
+            if (is_unknown(w, i)) {
+                nearest = max_i32(nearest, w->depth[i]);
+                farthest = min_i32(farthest, w->depth[i]);
+            }
     if (nearest < 0)
         return;
-    struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)nearest);
-    int32_t units = (int32_t)smear_depth_units((uint16_t)nearest), least = units - (units >> 4);
-    bool moves = false;
+    const uint32_t units = smear_depth_units((uint16_t)nearest);
+    const int32_t least = depth_code_of(units - (units >> 4));
+    const struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)nearest);
+    const struct kept far = farthest < least ? velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)farthest) : k;
     for (int32_t j = 0; j < rows; j++)
-        for (int32_t i = x; i < x + columns; i++) {
-            struct kept own = k;
-            if (!is_unknown(w, at[j] + i))
-                continue;
-            uint16_t code = w->depth[at[j] + i];
-            if ((int32_t)smear_depth_units(code) < least)
-                own = velocity_of(r, store, 2 * i + 1, 2 * (y + j) + 1, code);
-            keep(w, store, at[j] + i, own);
-            moves = moves || (own.x | own.y) != 0;
-        }
-    if (moves)
+        for (int32_t i = at[j] + x; i < at[j] + x + columns; i++)
+            if (is_unknown(w, i))
+                keep(w, store, i, w->depth[i] < least ? far : k);
+    if ((k.x | k.y | far.x | far.y) != 0)
         w->moving[x >> w->tile_shift] = 1;
 }
 

@@ -660,7 +660,7 @@ static uint32_t distance_for(uint16_t code)
 
 static void test_the_filter_gives_the_bits_of_rendering_the_same_content(void)
 {
-    static const uint8_t flags[] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, SMEAR_UNIFORM, 31 };
+    static const uint8_t flags[] = { 0, SMEAR_FENCE, SMEAR_CORNER, SMEAR_BOX, SMEAR_DIRECTION, SMEAR_PUBLISHED, 31 };
     for (int variant = 0; variant < 14; variant++) {
         smear_desc desc = small_desc(variant & 1 ? 100 : 64, 70);
         desc.reach = (int16_t)(variant & 2 ? 20 : 12);

@@ -20,6 +20,7 @@ static void check_packed(struct subject *s, int reach)
     struct present_options present = subject_options(s);
     int compared = 0, off = 0, worst = 0, worst_x = -1, worst_y = -1;
     present.method = SMEAR_RECONSTRUCT;
+    present.reconstruct = SMEAR_PUBLISHED;
     present.shutter_poses = true;
     END_UNLESS(reference_take(s, &present, s->width, s->height, &frame));
     if (shot_take(s, &present, &(struct shot_options){.reach = reach, .look = true}, &shot)) {
@@ -136,7 +137,7 @@ static void flag_names(int flags, char out[40])
     snprintf(out, 40, "%s%s%s%s%s%s", flags == 0 ? "plain" : "",
              flags & SMEAR_FENCE ? "fence " : "", flags & SMEAR_CORNER ? "corner " : "",
              flags & SMEAR_BOX ? "box " : "", flags & SMEAR_DIRECTION ? "dir " : "",
-             flags & SMEAR_UNIFORM ? "uniform" : "");
+             flags & SMEAR_PUBLISHED ? "published" : "");
 }
 
 struct port_case {
@@ -157,7 +158,7 @@ static void compare_port(struct subject *s, const struct port_case *c, struct di
     present.shutter_poses = true;
     present.samples = c->samples != 0 ? c->samples : 8;
     present.light = c->light;
-    present.reconstruct = c->flags;
+    present.reconstruct = c->flags | SMEAR_PUBLISHED;
     struct shot_options options = {.reach = c->reach, .tile = c->tile, .look = true};
     END_UNLESS(shot_take(s, &present, &options, &shot));
     if (run_port(&shot, &present, c->tile != 0 ? c->tile : tile_of(reach), &code)) {
@@ -337,21 +338,19 @@ struct quality_case {
 static const struct quality_case quality_cases[] = {
     {"none", SMEAR_NONE, 0},
     {"plain", SMEAR_RECONSTRUCT, 0},
+    {"publ", SMEAR_RECONSTRUCT, SMEAR_PUBLISHED},
     {"fence", SMEAR_RECONSTRUCT, SMEAR_FENCE},
     {"corner", SMEAR_RECONSTRUCT, SMEAR_CORNER},
     {"box", SMEAR_RECONSTRUCT, SMEAR_BOX},
     {"dir", SMEAR_RECONSTRUCT, SMEAR_DIRECTION},
-    {"unif", SMEAR_RECONSTRUCT, SMEAR_UNIFORM},
     {"f+c", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER},
     {"c+b", SMEAR_RECONSTRUCT, SMEAR_CORNER | SMEAR_BOX},
     {"f+b", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_BOX},
     {"f+c+b", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX},
-    {"b+u", SMEAR_RECONSTRUCT, SMEAR_BOX | SMEAR_UNIFORM},
-    {"c+b+u", SMEAR_RECONSTRUCT, SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM},
-    {"fcb+u", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM},
+    {"fcb+p", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_PUBLISHED},
     {"fcbd", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_DIRECTION},
     {"all", SMEAR_RECONSTRUCT, SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_DIRECTION
-                               | SMEAR_UNIFORM},
+                               | SMEAR_PUBLISHED},
 };
 enum { QUALITY_CASES = sizeof quality_cases / sizeof *quality_cases };
 

@@ -36,7 +36,8 @@ static void stage_make(struct stage *s, int method, int source)
     s->draw[0] = (smear_draw){ .mesh = &square, .material = &s->material[0], .now = &s->wall, .open = &s->wall_before };
     s->draw[1] = (smear_draw){ .mesh = &square, .material = &s->material[1], .now = &s->square,
                                .open = &s->square_before };
-    s->frame = (smear_frame){ .camera = &s->camera, .open = &s->before, .method = (uint8_t)method, .filter.camera_step = source == DEPTH };
+    s->frame = (smear_frame){ .camera = &s->camera, .open = &s->before, .method = (uint8_t)method, .filter.camera_step = source == DEPTH,
+                               .filter.flags = source == DEPTH ? 0 : SMEAR_PUBLISHED };
 }
 
 /* A stage, and a rig that looks at it. */
@@ -267,7 +268,8 @@ struct way {
 };
 
 static const struct way ways[] = {
-    { SMEAR_RECONSTRUCT, 0, 0, SMEAR_FENCE }, { SMEAR_RECONSTRUCT, 0, 1, SMEAR_FENCE },
+    { SMEAR_RECONSTRUCT, 0, 0, SMEAR_FENCE | SMEAR_PUBLISHED }, { SMEAR_RECONSTRUCT, 0, 1, SMEAR_FENCE },
+    { SMEAR_RECONSTRUCT, 0, 1, SMEAR_FENCE | SMEAR_PUBLISHED }, { SMEAR_RECONSTRUCT, 0, 0, SMEAR_FENCE },
     { SMEAR_CAMERA, SMEAR_FILTER_MEAN, 1, 0 }, { SMEAR_CAMERA, SMEAR_FILTER_MEAN, 4, 0 },
     { SMEAR_CAMERA, SMEAR_FILTER_PINGPONG, 2, 0 }, { SMEAR_CAMERA, SMEAR_FILTER_RECONSTRUCT, 1, SMEAR_FENCE },
     { SMEAR_PINGPONG, 0, 0, 0 }, { SMEAR_PINGPONG, 0, 1, 0 }, { SMEAR_HALF, 0, 0, SMEAR_FENCE },

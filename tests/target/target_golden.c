@@ -34,6 +34,8 @@ static bool is_drawn_otherwise(const struct tape *tape)
     for (int i = 0; i < tape->frame_count; i++) {
         const smear_frame *f = tape->frame[i].frame;
         otherwise = otherwise || (!SMEAR_WITH_LINEAR && f->light_space == SMEAR_LIGHT_LINEAR)
+                 || (!SMEAR_WITH_FILTERS && (f->method == SMEAR_RECONSTRUCT || f->method == SMEAR_DEFAULT_METHOD)
+                     && (d->methods & SMEAR_SET(SMEAR_RECONSTRUCT)) != 0 && !(f->filter.flags & SMEAR_PUBLISHED))
                  || (!SMEAR_WITH_CURVES && f->shutter.path == SMEAR_PATH_DEFAULT && f->method != SMEAR_NONE && !f->shutter.poses);
     }
     return otherwise;

@@ -35,7 +35,7 @@ const struct chart_curve chart_curves[] = {
 };
 const int chart_curve_count = sizeof chart_curves / sizeof *chart_curves;
 
-#define MEND (SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX | SMEAR_UNIFORM)
+#define MEND (SMEAR_FENCE | SMEAR_CORNER | SMEAR_BOX)
 
 /* Codes, in the unit of smear_frame.target. */
 #define CODES(codes) ((int)((codes) * 64))

@@ -83,7 +83,7 @@ static const char *read_method(void *to, const char *value)
 
 static bool read_departure(void *to, const char *name, const char *value)
 {
-    static const char *const names[] = { "fence", "corner", "box", "direction", "uniform", NULL };
+    static const char *const names[] = { "fence", "corner", "box", "direction", "published", NULL };
     int found = read_name(name, names);
     if (found < 0 || value != NULL)
         return false;
@@ -96,7 +96,7 @@ static const char *read_reconstruct(void *to, const char *value)
 {
     ((struct render_options *)to)->reconstruct = 0;
     return read_list(value, read_departure, to) ? NULL
-                                                : "needs a list of fence, corner, box, direction, uniform";
+                                                : "needs a list of fence, corner, box, direction, published";
 }
 
 static const char *read_target(void *to, const char *value)
