@@ -176,15 +176,27 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
     return k;
 }
 
-/* Adds the contrast of one pixel of each block of columns [x0, x1), `in` from its left, with those beside and below it. */
-static void add_contrast(struct smear_line_seen *seen, const uint32_t *row, const uint32_t *below, int32_t in, int32_t x0, int32_t x1)
+/* Adds the contrast of one pixel of each fourth block of columns [x, x1), `in` from its left, with those beside and below it. */
+static void add_contrast(struct smear_line_seen *seen, const struct smear_window *w, int32_t in, int32_t x, int32_t x1, int32_t y)
 {
-    for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
-        const int32_t at = min_i32(x + in, x1 - 2);
+    const uint32_t *const row = w->color + window_ring_row(w, y) * w->width, *const below = row + w->width;
+    for (; x < x1; x += 4 * BLOCK, seen += 4) {
+        const int32_t at = min_i32(x + in, w->width - 2);
         if (at < x || ((row[at] ^ row[at + 1]) | (row[at] ^ below[at])) == 0)
             continue;
         const uint32_t square = pixel_square_between(row[at], row[at + 1]) + pixel_square_between(row[at], below[at]);
         seen->contrast = (uint16_t)(seen->contrast + (square >> 4));
+    }
+}
+
+/* Adds that of two pixels of each block of a row of blocks, whose pixel rows end at `end`. Four beside each other look at other rows of
+ * theirs, four below each other at other columns, so that edges along the screen's axes are met as often as others. */
+static void look_at_contrast(struct smear_line_seen *seen, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y, int32_t end)
+{
+    const int32_t down = y >> LINE_BLOCK_LOG2, across = x0 >> LINE_BLOCK_LOG2;
+    for (int32_t k = 0; k < BLOCK && y + 1 < end; k++) {
+        const int32_t block = (k - 2 * down - across) & 3;      /* of four, from x0 on */
+        add_contrast(seen + block, w, ((down + 2 * k) & 3) + (k & 4), x0 + block * BLOCK, x1, min_i32(y + k, end - 2));
     }
 }
 
@@ -211,14 +223,9 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
     for (int32_t y = y0; y < y1; y += BLOCK) {
         struct smear_line_seen *const seen = seen_at(lines, w, x0, y);
         const int32_t end = min_i32(y + BLOCK, y1);
-        if (first)
+        if (first) {
             __builtin_memset(seen, 0, (size_t)line_blocks(x1 - x0) * sizeof *seen);
-        for (int32_t in = 1; first && in < BLOCK; in += BLOCK / 2) {
-            const int32_t v = min_i32(y + in, end - 2);
-            if (v < y)
-                break;
-            add_contrast(seen, w->color + window_ring_row(w, v) * w->width, w->color + window_ring_row(w, v + 1) * w->width, in, x0,
-                         x1);
+            look_at_contrast(seen, w, x0, x1, y, end);
         }
         for (int32_t v = y; v < end; v += BLOCK - 1)
             note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
