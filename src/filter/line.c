@@ -88,14 +88,12 @@ static void block_taps(struct block_run *b, struct smear_pixel_velocity v, int32
     b->log = min_i32(log, LINE_TAPS_LOG_MAX);
 }
 
-/* Returns how many rows of a block from y on, all or one, lie at even distances in the table, as those of all taps do. */
+/* Returns how many rows of a block from y on, all or one, lie at even distances in the table, as those do that taps meet. */
 static int32_t rows_alike(const struct block_run *b, const uint32_t *row, int32_t y, int32_t width)
 {
-    const uint32_t apart = (uint32_t)((b->y1 - 1 - y) * width);
-    bool alike = row[b->y1 - 1] - row[y] == apart;
-    for (int k = 0; k < b->taps; k++)
-        alike = alike && row[b->y1 - 1 + b->y[k]] - row[y + b->y[k]] == apart;
-    return alike ? b->y1 - y : 1;
+    const int32_t ends[2] = { b->y[0], b->y[b->taps - 1] };
+    const int32_t first = y + min_i32(ends[0], ends[1]), last = b->y1 - 1 + max_i32(ends[0], ends[1]);
+    return row[last] - row[first] == (uint32_t)((last - first) * width) ? b->y1 - y : 1;
 }
 
 /* Finds where taps from number `first` on lie from a pixel of columns [x, x + m->columns) in row y; within the frame. */
@@ -172,13 +170,14 @@ static uint32_t blur_own(uint32_t *out, const struct smear_window *w, const uint
     return taken;
 }
 
-/* Whether pixels of the block move like its middle: by its corners. */
-static bool moves_alike(const struct smear_window *w, const uint32_t *row, const struct block_run *b, struct smear_pixel_velocity v)
+/* Whether pixels of a block, which has rows [y0, y1) of the frame, move like its middle: by its corners. */
+static bool moves_alike(const struct smear_window *w, const struct block_run *b, int32_t y0, int32_t y1, struct smear_pixel_velocity v)
 {
     enum { ALIKE = 6 };         /* 1/8 px */
     bool alike = true;
     for (int i = 0; i < 4; i++) {
-        const struct smear_pixel_velocity c = window_velocity(w, row[i & 1 ? b->y1 - 1 : b->y0] + (uint32_t)(i & 2 ? b->x1 - 1 : b->x0));
+        const int32_t row = window_ring_row(w, i & 1 ? y1 - 1 : y0) * w->width;
+        const struct smear_pixel_velocity c = window_velocity(w, (uint32_t)(row + (i & 2 ? b->x1 - 1 : b->x0)));
         alike = alike && max_i32(abs_i32(c.x - v.x), abs_i32(c.y - v.y)) <= ALIKE;
     }
     return alike;
@@ -194,12 +193,13 @@ uint32_t smear_blur_mean(uint32_t *out, const struct smear_window *w, const stru
     const bool may_stay = settings->held || (m->min_x <= 0 && m->max_x >= 0 && m->min_y <= 0 && m->max_y >= 0);
     uint32_t taken = 0;
     for (int32_t y = rows->y0, next; y < rows->y1; y = next) {
-        next = min_i32((y & -block) + block, rows->y1);
+        const int32_t top = y & -block, bottom = min_i32(top + block, w->height);
+        next = min_i32(bottom, rows->y1);
         for (int32_t x = left; x < right; x += block) {
             const struct smear_pixel_velocity v = window_velocity(w, block_middle(w, x, y));
             struct block_run b = { .x0 = x, .x1 = min_i32(x + block, right), .y0 = y - rows->first, .y1 = next - rows->first };
             uint32_t *to = out + (y - rows->y0) * w->tile + (x - left);
-            if (!settings->lines && (may_stay || !moves_alike(w, rows->offset, &b, v))) {
+            if (!settings->lines && (may_stay || !moves_alike(w, &b, top, bottom, v))) {
                 taken += blur_own(to, w, rows->offset, &b, travel, settings);
                 continue;
             }

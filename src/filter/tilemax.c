@@ -17,6 +17,19 @@ static int32_t change(struct smear_pixel_velocity a, struct smear_pixel_velocity
     return max_i32(abs_i32(a.x - b.x), abs_i32(a.y - b.y));
 }
 
+/* Whether n velocities of a row are those above them, as most are: blocks of pixels share one. */
+static bool are_as_above(const struct smear_window *w, uint32_t at, uint32_t above, int32_t n)
+{
+    const uint32_t end = at + (uint32_t)n;
+    uint32_t differs = 0;
+    if (w->velocity8 == NULL)
+        for (; at < end; at++, above++)
+            differs |= velocity_word(NULL, w->velocity16, at) ^ velocity_word(NULL, w->velocity16, above);
+    for (; at < end; at++, above++)
+        differs |= velocity_word(w->velocity8, NULL, at) ^ velocity_word(w->velocity8, NULL, above);
+    return differs == 0;
+}
+
 void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
 {
     struct smear_tile_motion m = { 0, 0, INT16_MAX, INT16_MIN, INT16_MAX, INT16_MIN };
@@ -26,7 +39,10 @@ void smear_tilemax(const struct smear_window *w, int32_t row, int32_t column)
     for (int32_t y = y0; y < y1; y++) {
         uint32_t at = (uint32_t)(window_ring_row(w, y) * w->width + x0), end = at + (uint32_t)n;
         uint32_t above = (uint32_t)(window_ring_row(w, max_i32(y - 1, 0)) * w->width + x0);
-        struct smear_pixel_velocity last = window_velocity(w, x0 > 0 ? at - 1 : at);
+        const uint32_t before = x0 > 0;
+        if (y > y0 && are_as_above(w, at - before, above - before, n + (int32_t)before))
+            continue;
+        struct smear_pixel_velocity last = window_velocity(w, at - before);
         uint32_t last_word = ~window_velocity_word(w, at);
         for (; at < end; at++, above++) {
             const uint32_t word = window_velocity_word(w, at);

@@ -304,29 +304,61 @@ static inline void keep(const struct smear_window *w, const struct smear_camera_
     }
 }
 
+/* The depth codes of a block's pixels whose velocity is not known, and how many these are. */
+struct unknown {
+    uint32_t nearest, farthest;
+    int32_t count;
+};
+
+static struct unknown find_unknown(const struct smear_window *w, const int32_t at[4], int32_t x, int32_t columns, int32_t rows)
+{
+    const int8_t *const narrow = w->velocity8;
+    struct unknown u = { 0, UINT16_MAX, 0 };
+    for (int32_t j = 0; j < rows; j++)
+        for (int32_t i = at[j] + x, end = i + columns; i < end; i++) {
+            if (narrow != NULL ? narrow[2 * i] != SMEAR_VELOCITY_UNKNOWN8 : w->velocity16[2 * i] != SMEAR_VELOCITY_UNKNOWN16)
+                continue;
+            u.nearest = max_u32(u.nearest, w->depth[i]);
+            u.farthest = min_u32(u.farthest, w->depth[i]);
+            u.count++;
+        }
+    return u;
+}
+
+/* Stores one velocity in pixels [at, end). */
+static void keep_all(const struct smear_window *w, int32_t at, int32_t end, struct kept k)
+{
+    const int8_t narrow[2] = { (int8_t)k.x, (int8_t)k.y };
+    const int16_t wide[2] = { (int16_t)k.x, (int16_t)k.y };
+    if (w->velocity8 == NULL)
+        for (; at < end; at++)
+            __builtin_memcpy(w->velocity16 + 2 * at, wide, sizeof wide);
+    for (; at < end; at++)
+        __builtin_memcpy(w->velocity8 + 2 * at, narrow, sizeof narrow);
+}
+
 /* Fills in the pixels of a block; at[j] is where row j of it begins in the window. Two velocities are enough: that of the nearest depth,
  * and that of the farthest for what is more than 1/16 farther away. */
 static void fill_block(const struct smear_window *w, const struct smear_reprojection *r,
                        const struct smear_camera_store *store, const int32_t at[4], int32_t x, int32_t y,
                        int32_t columns, int32_t rows)
 {
-    int32_t nearest = -1, farthest = UINT16_MAX;
-    for (int32_t j = 0; j < rows; j++)
-        for (int32_t i = at[j] + x; i < at[j] + x + columns; i++)
-            if (is_unknown(w, i)) {
-                nearest = max_i32(nearest, w->depth[i]);
-                farthest = min_i32(farthest, w->depth[i]);
-            }
-    if (nearest < 0)
+    const struct unknown u = find_unknown(w, at, x, columns, rows);
+    if (u.count == 0)
         return;
-    const uint32_t units = smear_depth_units((uint16_t)nearest);
-    const int32_t least = depth_code_of(units - (units >> 4));
-    const struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)nearest);
-    const struct kept far = farthest < least ? velocity_of(r, store, 2 * x + columns, 2 * y + rows, (uint32_t)farthest) : k;
-    for (int32_t j = 0; j < rows; j++)
-        for (int32_t i = at[j] + x; i < at[j] + x + columns; i++)
+    const uint32_t units = smear_depth_units((uint16_t)u.nearest), least = (uint32_t)depth_code_of(units - (units >> 4));
+    const bool one = u.farthest >= least;
+    const struct kept k = velocity_of(r, store, 2 * x + columns, 2 * y + rows, u.nearest);
+    const struct kept far = one ? k : velocity_of(r, store, 2 * x + columns, 2 * y + rows, u.farthest);
+    const bool all = one && u.count == columns * rows && store->inspect == NULL;
+    for (int32_t j = 0; j < rows; j++) {
+        const int32_t end = at[j] + x + columns;
+        if (all)
+            keep_all(w, end - columns, end, k);
+        for (int32_t i = end - columns; !all && i < end; i++)
             if (is_unknown(w, i))
                 keep(w, store, i, w->depth[i] < least ? far : k);
+    }
     if ((k.x | k.y | far.x | far.y) != 0)
         w->moving[x >> w->tile_shift] = 1;
 }
