@@ -106,4 +106,7 @@ static inline void *arena_take(struct smear_arena *a, size_t count, size_t size)
     return block;
 }
 
+/* Returns the CRC-32 of PNG and zlib of the bytes before, whose CRC is `crc` (0: there are none), and these (crc32.c). */
+uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* crc32.c - see crc32.h. */
-#include "base/crc32.h"
+/* crc32.c - see base.h. */
+#include "base/base.h"
 
 uint32_t smear_crc32(uint32_t crc, const uint8_t *bytes, uint32_t size)
 {

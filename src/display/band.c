@@ -2,7 +2,7 @@
 /* band.c - see band.h. */
 #include "display/band.h"
 
-#include "base/crc32.h"
+#include "base/base.h"
 #include "display/pixel_format.h"
 #include "display/points.h"
 

@@ -5,10 +5,10 @@
 #ifndef SMEAR_ROW_H
 #define SMEAR_ROW_H
 
-#include "smear.h"
+#include "smear_scene.h"
 
 #include "base/jobs.h"
-#include "display/sky.h"
+#include "geometry/shot.h"
 #include "raster/raster.h"
 #include "raster/window.h"
 
@@ -19,6 +19,15 @@ struct smear_bands {
                                  * those of the first */
     uint32_t handed;            /* bands handed to flush so far */
     unsigned sent;              /* of them reported by smear_band_done */
+};
+
+/* What is asked of a sky, which lies in scene/: programs bring it by naming it. */
+struct smear_sky_kind {
+    /* Takes in where the camera looks at an instant; null: over the exposure. `width`: of the frame. */
+    void (*aim)(smear_sky *sky, const struct smear_shot *shot, const struct smear_instant *instant, int32_t width, smear_transfer transfer);
+    /* Fills the target's pixels, not its depths, and `too`: as wide rows of its tile row, one behind the other; or null. What a pixel gets
+     * does not depend on the target's sides. */
+    void (*fill)(const smear_sky *sky, const struct smear_raster_target *t, uint32_t *too);
 };
 
 /* Which draws a fill of the store takes. */

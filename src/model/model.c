@@ -4,7 +4,7 @@
 
 #include "base/compiled.h"
 #include "model/blob.h"
-#include "base/crc32.h"
+#include "base/base.h"
 
 #if SMEAR_WITH_MODEL
 

@@ -9,7 +9,7 @@
  *         the elevation, of both ends
  *         runs of pixels of one colour between them: as few as do not show
  *         or, where the horizon passes, each row by itself, and each run by its own plane */
-#include "display/sky.h"
+#include "display/row.h"
 
 #include "base/fixmath.h"
 #include "kernels/fill.h"

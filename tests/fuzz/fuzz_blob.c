@@ -5,7 +5,7 @@
  * first byte is odd is left as it is. Everything lies in blocks of exactly its size. Seeds are in tests/fuzz/corpus/blob. */
 #include "tests/fuzz/require.h"
 #include "model/blob.h"
-#include "base/crc32.h"
+#include "base/base.h"
 
 #include <smear.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "build/suites/arm.h"
 #include "build/suites/arm_blob.h"
 
-#include "base/crc32.h"
+#include "base/base.h"
 #include "model/skin.h"
 #include "tests/test.h"
 

@@ -4,7 +4,7 @@
 #include "display/pixel_format.h"
 #include "screen/screen.h"
 
-#include "base/crc32.h"
+#include "base/base.h"
 #include "base/tables.h"
 #include "tests/random.h"
 #include "tests/test.h"

@@ -4,7 +4,7 @@
 #include "smear_math.h"
 #include "smear_scene.h"
 
-#include "base/crc32.h"
+#include "base/base.h"
 #include "geometry/vertex.h"
 #include "tests/random.h"
 #include "tests/test.h"
