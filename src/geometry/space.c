@@ -21,10 +21,11 @@ void smear_space_make(struct smear_space *space, const struct smear_bins *g, con
     space->depths.coarse = (uint8_t)projection_coarse(height, segment_flat_depth(s));
 }
 
+/* A scene may be so large that a pixel is less than a step of its places: those are cut off far beyond the frame. */
 void smear_space_scale(struct smear_homogeneous *h, int up, int distance_up)
 {
-    h->x = scale_sat(h->x, up);
-    h->y = scale_sat(h->y, up);
+    h->x = clamp_i32(scale_sat(h->x, up), -PLACE_MOST, PLACE_MOST);
+    h->y = clamp_i32(scale_sat(h->y, up), -PLACE_MOST, PLACE_MOST);
     h->w = scale_sat(h->w, up);
     h->distance = scale_sat(h->distance, distance_up);
 }

@@ -301,4 +301,16 @@ static void test_planes_go_where_floating_point_has_them(void)
     CHECK(refused > 1000);
 }
 
+/* Where a picture shows a part of 2^19 of a scene before an orthographic camera, its places have fewer bits than a unit. */
+static void test_sums_of_four_places_fit_however_large_the_scene(void)
+{
+    for (int n = 0; n < 20000; n++) {
+        struct smear_homogeneous h = { (int32_t)lrint(uniform(-1, 1) * (1 << 30)), (int32_t)lrint(uniform(-1, 1) * (1 << 30)), 1,
+                                       (int32_t)lrint(uniform(-1, 1) * (1 << 29)) };
+        smear_space_scale(&h, (int)lrint(uniform(-31, 31)), (int)lrint(uniform(-31, 0)));
+        if (!CHECK(abs(h.x) <= 1 << 29 && abs(h.y) <= 1 << 29 && abs(h.distance) <= 1 << 29))
+            return;
+    }
+}
+
 #include "build/suites/space.h"
