@@ -190,7 +190,8 @@ uint32_t smear_blur_mean(uint32_t *out, const struct smear_window *w, const stru
     const struct smear_tile_motion *m = &window_motion(w, row)[column];
     const int32_t travel = max_i32(abs_i32(m->x), abs_i32(m->y));
     /* What stays where it is must not be blurred. */
-    const bool may_stay = settings->held || (m->min_x <= 0 && m->max_x >= 0 && m->min_y <= 0 && m->max_y >= 0);
+    const bool own = !settings->lines;
+    const bool may_stay = own && (settings->held || (m->min_x <= 0 && m->max_x >= 0 && m->min_y <= 0 && m->max_y >= 0));
     uint32_t taken = 0;
     for (int32_t y = rows->y0, next; y < rows->y1; y = next) {
         const int32_t top = y & -block, bottom = min_i32(top + block, w->height);
@@ -199,7 +200,7 @@ uint32_t smear_blur_mean(uint32_t *out, const struct smear_window *w, const stru
             const struct smear_pixel_velocity v = window_velocity(w, block_middle(w, x, y));
             struct block_run b = { .x0 = x, .x1 = min_i32(x + block, right), .y0 = y - rows->first, .y1 = next - rows->first };
             uint32_t *to = out + (y - rows->y0) * w->tile + (x - left);
-            if (!settings->lines && (may_stay || !moves_alike(w, &b, top, bottom, v))) {
+            if (own && (may_stay || !moves_alike(w, &b, top, bottom, v))) {
                 taken += blur_own(to, w, rows->offset, &b, travel, settings);
                 continue;
             }
