@@ -179,7 +179,8 @@ int smear_lines_needed(struct smear_lines *lines, const struct smear_window *w, 
 /* Adds the contrast of one pixel of each fourth block of columns [x, x1), `in` from its left, with those beside and below it. */
 static void add_contrast(struct smear_line_seen *seen, const struct smear_window *w, int32_t in, int32_t x, int32_t x1, int32_t y)
 {
-    const uint32_t *const row = w->color + window_ring_row(w, y) * w->width, *const below = row + w->width;
+    const uint32_t *const row = w->color + window_ring_row(w, y) * w->width;
+    const uint32_t *const below = w->color + window_ring_row(w, y + 1) * w->width;
     for (; x < x1; x += 4 * BLOCK, seen += 4) {
         const int32_t at = min_i32(x + in, w->width - 2);
         if (at < x || ((row[at] ^ row[at + 1]) | (row[at] ^ below[at])) == 0)
