@@ -151,6 +151,7 @@ static void check_raster(struct subject *s, int width, int height, bool shutter_
     struct present_options present = subject_options(s);
     double bar, start = cpu_seconds();
     present.method = SMEAR_RECONSTRUCT;
+    present.reconstruct = SMEAR_PUBLISHED;  /* velocities of vertices */
     present.shutter_poses = shutter_poses;
     present.path = SMEAR_PATH_LINE;         /* the reference's velocities are now less a frame ago */
     present.light = encoded ? SMEAR_LIGHT_ENCODED : SMEAR_LIGHT_LINEAR;

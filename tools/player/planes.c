@@ -41,6 +41,7 @@ bool planes_draw(struct planes *planes, const struct presented *presented, struc
     /* Only the filter has velocities; a centred exposure has the frame's own instant amid. */
     struct presented drawn = *presented;
     drawn.frame.method = SMEAR_RECONSTRUCT;
+    drawn.frame.filter = (smear_filter){ .flags = SMEAR_PUBLISHED };    /* velocities of vertices, not of blocks by depth */
     drawn.frame.shutter.exposure = SMEAR_CENTRED;
     drawn.frame.shutter.path = SMEAR_PATH_LINE;     /* velocities of curves belong to the exposure */
     drawn.frame.samples = 1;
