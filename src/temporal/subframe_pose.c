@@ -5,42 +5,22 @@
 #include "base/fixmath.h"
 #include "geometry/transform.h"
 
-struct range {
-    int32_t low, high;
-};
-
-static inline struct range range_of(int32_t a, int32_t b, int32_t c)
-{
-    return (struct range){ min_i32(a, min_i32(b, c)), max_i32(a, max_i32(b, c)) };
-}
-
-/* Pixels of [low, high) whose centres may lie in a range of q8. */
-static inline struct range pixels_of(struct range r, int32_t low, int32_t high)
-{
-    return (struct range){ max_i32((r.low + 127) >> 8, low), min_i32((r.high + 127) >> 8, high) };
-}
-
-static inline struct range range_along(const struct posed *p, int axis)
-{
-    return range_of(p->v[0][axis], p->v[1][axis], p->v[2][axis]);
-}
-
-/* Shifts the vertices along an axis. Returns their range. */
-static SMEAR_RARE struct range shift_along(struct posed *p, const struct smear_bins *g, const struct smear_triangle *t, int axis,
-                                           int32_t shift)
+/* Shifts the vertices along an axis. */
+static SMEAR_RARE void shift_along(struct posed *p, const struct smear_bins *g, const struct smear_triangle *t, int axis, int32_t shift)
 {
     for (int i = 0; i < 3; i++)
         if (path_is_shifted(bins_vertex(g, p->segment, t->vertex[i]) + p->segment->motion, axis))
             p->record[i].word[axis] += shift;
-    return range_along(p, axis);
 }
 
-/* Keeps the vertices within a range along an axis. Returns theirs. */
-static SMEAR_RARE struct range keep_within(struct posed *p, int axis, int32_t low, int32_t high)
+/* Keeps the vertices within the guard band, of which (x, y) is the middle. */
+static SMEAR_RARE void keep_within(struct posed *p, int32_t x, int32_t y, int32_t guard)
 {
-    for (int i = 0; i < 3; i++)
-        p->record[i].word[axis] = clamp_i32(p->record[i].word[axis], low, high);
-    return range_along(p, axis);
+    for (int i = 0; i < 3; i++) {
+        p->record[i].word[VERTEX_X] = clamp_i32(p->record[i].word[VERTEX_X], x - guard, x + guard);
+        p->record[i].word[VERTEX_Y] = clamp_i32(p->record[i].word[VERTEX_Y], y - guard, y + guard);
+    }
+    p->bounds = bounds_of(p->v[0], p->v[1], p->v[2]);
 }
 
 /* Makes the vertices' records, and their box in `bounds`. Between places within the guard band a parabola may leave it. */
@@ -53,16 +33,15 @@ static inline void place(struct posed *p, const struct subframes *f, const struc
     for (int i = 0; i < 3; i++)
         p->v[i] = p->record[i].word;
     path_triangle(box, p->record, bins_vertex(frame->bins, s, 0), t->vertex, s->motion, u);
-    struct range along_x = { box[0], box[2] }, along_y = { box[1], box[3] };
-    if (SMEAR_EDGES && f->shift[VERTEX_X] != 0)
-        along_x = shift_along(p, frame->bins, t, VERTEX_X, f->shift[VERTEX_X]);
-    if (SMEAR_EDGES && f->shift[VERTEX_Y] != 0)
-        along_y = shift_along(p, frame->bins, t, VERTEX_Y, f->shift[VERTEX_Y]);
-    if (((along_x.low - x + guard) | (x + guard - along_x.high) | (along_y.low - y + guard) | (y + guard - along_y.high)) < 0) {
-        along_x = keep_within(p, VERTEX_X, x - guard, x + guard);
-        along_y = keep_within(p, VERTEX_Y, y - guard, y + guard);
+    p->bounds = (struct bounds){ box[0], box[1], box[2], box[3] };
+    if (SMEAR_EDGES && (f->shift[VERTEX_X] | f->shift[VERTEX_Y]) != 0) {
+        shift_along(p, frame->bins, t, VERTEX_X, f->shift[VERTEX_X]);
+        shift_along(p, frame->bins, t, VERTEX_Y, f->shift[VERTEX_Y]);
+        p->bounds = bounds_of(p->v[0], p->v[1], p->v[2]);
     }
-    p->bounds = (struct bounds){ along_x.low, along_y.low, along_x.high, along_y.high };
+    const struct bounds *const b = &p->bounds;
+    if (((b->x0 - x + guard) | (x + guard - b->x1) | (b->y0 - y + guard) | (y + guard - b->y1)) < 0)
+        keep_within(p, x, y, guard);
 }
 
 /* Takes vertices as they are. */
@@ -70,8 +49,7 @@ static inline void take(struct posed *p, const struct smear_bins *g, const struc
 {
     for (int i = 0; i < 3; i++)
         p->v[i] = bins_vertex(g, p->segment, t->vertex[i]);
-    const struct range x = range_along(p, VERTEX_X), y = range_along(p, VERTEX_Y);
-    p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+    p->bounds = bounds_of(p->v[0], p->v[1], p->v[2]);
 }
 
 static SMEAR_RARE void clamp_depths(struct posed *p)
@@ -109,12 +87,10 @@ static inline bool is_turned_away(const int32_t *a, const int32_t *b, const int3
 static inline bool find_box(struct posed *p, const struct subframes *f, bool turns)
 {
     const struct smear_raster_target *tile = &f->work;
-    const struct range x = { p->bounds.x0, p->bounds.x1 }, y = { p->bounds.y0, p->bounds.y1 };
-    const struct range columns = pixels_of(x, tile->x0, tile->x1), rows = pixels_of(y, tile->y0, tile->y1);
-    if (columns.low >= columns.high || rows.low >= rows.high || (turns && is_turned_away(p->v[0], p->v[1], p->v[2])))
-        return false;
-    p->box = (struct subframe_box){ columns.low, rows.low, columns.high, rows.high };
-    return true;
+    const struct bounds *const b = &p->bounds;
+    p->box = (struct subframe_box){ max_i32((b->x0 + 127) >> 8, tile->x0), max_i32((b->y0 + 127) >> 8, tile->y0),
+                                    min_i32((b->x1 + 127) >> 8, tile->x1), min_i32((b->y1 + 127) >> 8, tile->y1) };
+    return !subframe_box_is_empty(&p->box) && !(turns && is_turned_away(p->v[0], p->v[1], p->v[2]));
 }
 
 bool smear_subframe_pose_next(struct posed *p, const struct subframes *f)
@@ -123,8 +99,7 @@ bool smear_subframe_pose_next(struct posed *p, const struct subframes *f)
         p->v[0] = p->record[0].word;
         p->v[1] = p->record[i - 1].word;
         p->v[2] = p->record[i].word;
-        const struct range x = range_along(p, VERTEX_X), y = range_along(p, VERTEX_Y);
-        p->bounds = (struct bounds){ x.low, y.low, x.high, y.high };
+        p->bounds = bounds_of(p->v[0], p->v[1], p->v[2]);
         p->next = i + 1;
         if (find_box(p, f, true))
             return true;
