@@ -123,7 +123,7 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
 
 bool smear_row_fill(struct smear_rows *rows, int row, int kinds)
 {
-    return smear_row_fill_columns(rows, row, kinds, 0, INT16_MAX);
+    return rows->refill == NULL || smear_row_fill_columns(rows, row, kinds, 0, INT16_MAX);
 }
 
 bool smear_row_fill_columns(struct smear_rows *rows, int row, int kinds, int32_t x0, int32_t x1)
@@ -141,7 +141,7 @@ bool smear_row_fill_columns(struct smear_rows *rows, int row, int kinds, int32_t
 
 bool smear_row_fill_next(struct smear_rows *rows)
 {
-    if (!rows->refill->more)
+    if (rows->refill == NULL || !rows->refill->more)
         return false;
     rows->refill->fill(rows->refill);
     return true;

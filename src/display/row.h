@@ -195,7 +195,7 @@ static inline void row_advance_blended(struct smear_rows *rows, int row)
         rows->blend = row_advance(rows, rows->bins.blend_last, rows->blend, row);
 }
 
-/* Fills the store with triangles of a row that is refilled, and begins their lists: from the first one on; with the next
+/* Fills the store with triangles of a row, where it is refilled, and begins their lists: from the first one on; with the next
  * ones, if there are any left.
  *
  *     for (bool any = smear_row_fill(rows, row, kinds); any; any = smear_row_fill_next(rows)) */

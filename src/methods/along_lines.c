@@ -52,11 +52,8 @@ static void draw_mover_picture(struct smear_temporal *self, struct smear_finish 
     const int32_t row = f->row.row, top = row_top(rows, row), bottom = row_bottom(rows, row);
     const uint32_t *list = &lines->list[line_movers_list(lines->picture)];
     smear_row_run(rows, over_job, &f->row, FILL_MOVING);
-    if (rows->refill == NULL)
+    for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
         smear_movers_find(lines, &rows->bins, &rows->window, *list, top, bottom);
-    else
-        for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
-            smear_movers_find(lines, &rows->bins, &rows->window, *list, top, bottom);
 }
 
 /* Draws what moves by itself over what lines have blurred, and blurs both: of two pictures the mean. */

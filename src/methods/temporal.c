@@ -58,11 +58,8 @@ static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows
     struct smear_raster_target over;
     copy_background(t);
     finished_target(t, &over);
-    if (t->fill == NULL)
+    for (bool any = tile_run_fill(t, FILL_BLENDED, false); any; any = tile_run_fill(t, FILL_BLENDED, true))
         smear_raster_list(&rows->raster, &over, t->blend);
-    else
-        for (bool any = t->fill(t, FILL_BLENDED, false); any; any = t->fill(t, FILL_BLENDED, true))
-            smear_raster_list(&rows->raster, &over, t->blend);
 }
 
 /* Fills the store with the first or next triangles of the row: smear_tile_run.fill. */
@@ -330,33 +327,20 @@ int smear_finish_run(struct smear_temporal *self, struct smear_finish *f, const 
     return smear_band_flush(&f->row);
 }
 
-/* Finds what moves and is blended in a row that is refilled. */
-static void list_refilled(struct smear_temporal *self, struct smear_rows *rows, int row)
-{
-    for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
-        list_tiles(self, rows, row);
-    if (!rows->blends)
-        return;
-    for (bool any = smear_row_fill(rows, row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
-        smear_list_blended(&self->moving, &rows->bins, &rows->window, rows->blend, row_top(rows, row));
-}
-
 /* Finds what moves and is blended in a row. */
 static void list_row(struct smear_temporal *self, struct smear_rows *rows, int row)
 {
     const struct smear_bins *bins = &rows->bins;
     smear_list_begin(&self->moving, &rows->window);
-    if (rows->refill != NULL) {
-        list_refilled(self, rows, row);
-        return;
+    if (rows->refill == NULL) {
+        rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
+        smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
     }
-    rows->moving = row_advance(rows, bins->moving_last, rows->moving, row);
-    smear_list_moving(&self->moving, bins, &rows->window, rows->moving);
-    list_tiles(self, rows, row);
-    if (!rows->blends)
-        return;
-    rows->blend = row_advance(rows, bins->blend_last, rows->blend, row);
-    smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));
+    for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
+        list_tiles(self, rows, row);
+    row_advance_blended(rows, row);
+    for (bool any = rows->blends && smear_row_fill(rows, row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
+        smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));
 }
 
 void smear_temporal_begin_row(struct smear_temporal *self, struct smear_rows *rows, int row)

@@ -64,13 +64,13 @@ static void note_blended(struct subframes *f, uint32_t triangle, bool *moves)
 
 /* ------------------------------------------------------------------ several fills */
 
-/* Begins to go through triangles of the tiles that come in several fills, or goes on. */
+/* Begins to go through triangles of the tiles, or goes on. */
 static bool fill(struct subframes *f, int kinds, bool next)
 {
-    if (!f->refilled->fill(f->refilled, kinds, next))
-        return false;
-    f->space->segment = NULL;           /* segments are others now */
-    return true;
+    if (f->refilled == NULL)
+        return !next;
+    f->space->segment = NULL;           /* segments are others then */
+    return f->refilled->fill(f->refilled, kinds, next);
 }
 
 /* ------------------------------------------------------------------ instants */
@@ -85,22 +85,15 @@ static void draw_moving_triangle(const struct subframes *f, struct smear_raster_
     }
 }
 
-static void draw_filled(const struct subframes *f, int32_t time, struct subframe_box *all)
-{
-    struct smear_raster_pass pass;
-    smear_raster_begin(&pass, f->t->frame, &f->work);
-    for (uint32_t i = 0; i < f->t->moving_count; i++)
-        if (subframes_see(f, &f->t->moving[i]))
-            draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
-}
-
 static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
 {
-    if (f->refilled == NULL)
-        draw_filled(f, time, all);
-    else
-        for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
-            draw_filled(f, time, all);
+    struct smear_raster_pass pass;
+    for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true)) {
+        smear_raster_begin(&pass, f->t->frame, &f->work);
+        for (uint32_t i = 0; i < f->t->moving_count; i++)
+            if (subframes_see(f, &f->t->moving[i]))
+                draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
+    }
 }
 
 enum blend_step {
@@ -124,24 +117,16 @@ static void blend_one(const struct subframes *f, struct smear_raster_pass *pass,
             smear_raster_triangle(pass, p.segment, p.color, p.v, &p.bounds);
 }
 
-static SMEAR_RARE void blend_filled(const struct subframes *f, int32_t time, enum blend_step step,
-                                    const struct smear_raster_target *target, struct subframe_box *all)
-{
-    struct smear_raster_pass pass;
-    if (step != BLEND_BOX)
-        smear_raster_begin(&pass, f->t->frame, target);
-    for (uint32_t i = f->t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(f->t->frame->bins, i)->next)
-        blend_one(f, &pass, i, time, step, all);
-}
-
 static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_step step,
                              const struct smear_raster_target *target, struct subframe_box *all)
 {
-    if (f->refilled == NULL)
-        blend_filled(f, time, step, target, all);
-    else
-        for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
-            blend_filled(f, time, step, target, all);
+    struct smear_raster_pass pass;
+    for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true)) {
+        if (step != BLEND_BOX)
+            smear_raster_begin(&pass, f->t->frame, target);
+        for (uint32_t i = f->t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(f->t->frame->bins, i)->next)
+            blend_one(f, &pass, i, time, step, all);
+    }
 }
 
 /* The work planes within a box. */
@@ -194,7 +179,7 @@ static SMEAR_NOINLINE bool list(struct subframes *f)
             if (touches(f, i))
                 note_blended(f, i, &moves);
         f->fills++;
-    } while (f->refilled != NULL && fill(f, FILL_MOVING | FILL_BLENDED, true));
+    } while (fill(f, FILL_MOVING | FILL_BLENDED, true));
     if (f->blends) {
         f->nearest = UINT16_MAX;
         f->area = whole;

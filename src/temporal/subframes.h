@@ -39,6 +39,12 @@ struct smear_tile_run {
     void *work;                                 /* memory of the worker's own */
 };
 
+/* Begins to go through triangles of the tiles, or goes on: where they find room at once they are there, once. */
+static inline bool tile_run_fill(struct smear_tile_run *t, int kinds, bool next)
+{
+    return t->fill == NULL ? !next : t->fill(t, kinds, next);
+}
+
 static inline bool moving_is_in(const struct smear_moving_triangle *m, const struct smear_tile_run *t)
 {
     return m->first <= t->last_column && m->last >= t->column;
