@@ -172,15 +172,15 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
 {
     struct smear_temporal *self = f->self;
     struct smear_tile_travel *travel = self->moving.travel;
-    struct smear_tile_choice choice;
     int next = first + 1;
     travel_set_method(&travel[first], TILE_SUBFRAMES);
     for (; next < end && !is_static(&travel[next]); next++) {
-        smear_tile_method_choose(&choice, &self->chooser, &travel[next]);
-        if (choice.method != TILE_SUBFRAMES || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0)
+        int32_t more;
+        if (smear_tile_method_choose(&self->chooser, &travel[next], &more) != TILE_SUBFRAMES
+            || ((travel[next].flags ^ travel[first].flags) & TILE_BLENDED) != 0)
             break;
         travel_set_method(&travel[next], TILE_SUBFRAMES);
-        instants = max_i32(instants, choice.instants);
+        instants = max_i32(instants, more);
     }
     const struct smear_tile_plan plan = { &self->chooser, &travel[first], &self->moving.blocks, self->tiles };
     const bool plans = self->chooser.method == SMEAR_AUTO && self->moving.measures;
@@ -195,12 +195,12 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
     return next;
 }
 
-static SMEAR_RARE void finish_tile(const struct smear_finish *f, int column, const struct smear_tile_choice *choice, int worker)
+static SMEAR_RARE void finish_tile(const struct smear_finish *f, int column, enum smear_tile_method method, int worker)
 {
     struct smear_rows *rows = f->row.rows;
     struct smear_tile_run t = tiles_of(f, column, column + 1, worker);
     refill_tiles(&t, f);
-    if (SMEAR_WITH_TIMEMASK && choice->method == TILE_TIMEMASK) {
+    if (SMEAR_WITH_TIMEMASK && method == TILE_TIMEMASK) {
         /* Samples of pixels are merged by depth, all at once. */
         if (t.fill != NULL) {
             rows->refill->failed = true;
@@ -246,16 +246,16 @@ static void finish_job(void *argument, int strip, int worker)
               end = min_i32((strip + 1) * tiles, (job_right(&f->row) + w->tile - 1) >> w->tile_shift);
     for (int column = max_i32(strip * tiles, job_left(&f->row) >> w->tile_shift); column < end;) {
         const struct smear_tile_travel *tile = &f->self->moving.travel[column];
-        struct smear_tile_choice choice;
         if (is_static(tile)) {
             column = finish_static(f, column, end, worker);
             continue;
         }
-        smear_tile_method_choose(&choice, &f->self->chooser, tile);
-        if (choice.method == TILE_SUBFRAMES)
-            column = finish_subframes(f, column, end, choice.instants, worker);
+        int32_t instants;
+        const enum smear_tile_method method = smear_tile_method_choose(&f->self->chooser, tile, &instants);
+        if (method == TILE_SUBFRAMES)
+            column = finish_subframes(f, column, end, instants, worker);
         else
-            finish_tile(f, column++, &choice, worker);
+            finish_tile(f, column++, method, worker);
     }
 }
 

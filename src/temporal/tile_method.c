@@ -166,17 +166,15 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
 
 /* ------------------------------------------------------------------ all */
 
-void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
-                              const struct smear_tile_travel *tile)
+enum smear_tile_method smear_tile_method_choose(const struct smear_chooser *chooser, const struct smear_tile_travel *tile,
+                                                int32_t *instants)
 {
-    if ((tile->flags & TILE_MOVES) == 0 && (tile->flags & PATH_SUBFRAMES) == 0) {
-        choice->method = TILE_COPY;
-    } else if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (tile->flags & PATH_WITHOUT_MASK) == 0) {
-        choice->method = TILE_TIMEMASK;
-    } else {
-        choice->method = TILE_SUBFRAMES;
-        choice->instants = chooser->method == SMEAR_AUTO ? INSTANTS_MAX : instants_for(tile, chooser->samples);
-    }
+    if ((tile->flags & (TILE_MOVES | PATH_SUBFRAMES)) == 0)
+        return TILE_COPY;
+    if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (tile->flags & PATH_WITHOUT_MASK) == 0)
+        return TILE_TIMEMASK;
+    *instants = chooser->method == SMEAR_AUTO ? INSTANTS_MAX : instants_for(tile, chooser->samples);
+    return TILE_SUBFRAMES;
 }
 
 /* ------------------------------------------------------------------ budget */

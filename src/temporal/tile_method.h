@@ -41,11 +41,6 @@ static inline void travel_set_method(struct smear_tile_travel *tile, enum smear_
     tile->flags |= (uint16_t)((unsigned)method << TILE_METHOD);
 }
 
-struct smear_tile_choice {
-    enum smear_tile_method method;
-    int32_t instants;                           /* TILE_SUBFRAMES */
-};
-
 struct smear_chooser {
     uint8_t method;             /* smear_method: SMEAR_SUBFRAMES, SMEAR_TIMEMASK or SMEAR_AUTO */
     int32_t samples;
@@ -76,9 +71,9 @@ struct smear_travel_areas {
 int32_t smear_tile_method_target(const struct smear_chooser *chooser, const struct smear_travel_areas *areas,
                                  uint32_t budget, uint32_t *work);
 
-/* Chooses the method of a tile. */
-void smear_tile_method_choose(struct smear_tile_choice *choice, const struct smear_chooser *chooser,
-                              const struct smear_tile_travel *tile);
+/* Chooses the method of a tile; stores how many instants TILE_SUBFRAMES has. */
+enum smear_tile_method smear_tile_method_choose(const struct smear_chooser *chooser, const struct smear_tile_travel *tile,
+                                                int32_t *instants);
 
 /* Whether gaps between instants may be closed in a tile, and how they close where no moving surface is seen in the middle
  * of the exposure: along the mean displacement. */

@@ -35,12 +35,12 @@ void tiles_begin(struct tiles *t)
 /* The chooser is asked again for what it has said of this tile. */
 static struct tile_note temporal_tile(const struct smear_probe *c, const struct smear_tile_travel *tile)
 {
-    struct smear_tile_choice choice;
+    int32_t instants;
     if (travel_method(tile) == TILE_COPY)
         return still;
-    smear_tile_method_choose(&choice, &c->temporal->chooser, tile);
+    smear_tile_method_choose(&c->temporal->chooser, tile, &instants);
     if (travel_method(tile) == TILE_SUBFRAMES)
-        return (struct tile_note){ SMEAR_SUBFRAMES, TILES_COMPLEX, (uint16_t)(tile->instants != 0 ? tile->instants : choice.instants) };
+        return (struct tile_note){ SMEAR_SUBFRAMES, TILES_COMPLEX, (uint16_t)(tile->instants != 0 ? tile->instants : instants) };
     return (struct tile_note){ SMEAR_TIMEMASK, TILES_COMPLEX, (uint16_t)c->temporal->chooser.samples };
 }
 
