@@ -36,14 +36,6 @@ void smear_background_job(void *argument, int job, int worker)
     smear_row_draw_opaque(&f->row, job, &t, 0);
 }
 
-static void copy_background(const struct smear_tile_run *t)
-{
-    const struct smear_raster_target *s = &t->background;
-    for (int32_t y = s->y0; y < s->y1; y++)
-        __builtin_memcpy(t->out + (y - s->y0) * t->pitch, s->color + target_row(&s->color_rows, s, y) + s->x0,
-                         (size_t)(s->x1 - s->x0) * sizeof *t->out);
-}
-
 /* Points `out` at the finished pixels of tiles, with the depths of the background. */
 static void finished_target(const struct smear_tile_run *t, struct smear_raster_target *out)
 {
@@ -56,7 +48,7 @@ static void finished_target(const struct smear_tile_run *t, struct smear_raster_
 static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
 {
     struct smear_raster_target over;
-    copy_background(t);
+    smear_tile_run_take_background(t, false);
     finished_target(t, &over);
     for (bool any = tile_run_fill(t, FILL_BLENDED, false); any; any = tile_run_fill(t, FILL_BLENDED, true))
         smear_raster_list(&rows->raster, &over, t->blend);
@@ -138,7 +130,7 @@ static int finish_static(const struct smear_finish *f, int first, int end, int w
     const struct smear_tile_run t = tiles_of(f, first, next, worker);
     struct smear_raster_target out;
     finished_target(&t, &out);
-    copy_background(&t);
+    smear_tile_run_take_background(&t, false);
     smear_band_convert_rows(&f->row, &out, x0, x1);
     return next;
 }

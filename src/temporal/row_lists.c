@@ -462,9 +462,9 @@ static SMEAR_NOINLINE void add_in_space(const struct smear_row_moving *r, const 
         || !smear_plane_motion_make(&row, &space, record, (left << BLOCK_SHIFT) + BLOCK_PX / 2,
                                     top + (upper << BLOCK_SHIFT) + BLOCK_PX / 2, BLOCK_PX))
         return;
-    for (int32_t y = upper; y <= lower; y++, smear_plane_motion_down(&row)) {
+    for (int32_t y = upper; y <= lower; y++, smear_plane_motion_go(&row, true)) {
         struct smear_plane_motion here = row;
-        for (int32_t x = left; x <= right; x++, smear_plane_motion_right(&here)) {
+        for (int32_t x = left; x <= right; x++, smear_plane_motion_go(&here, false)) {
             struct smear_block *const block = block_at(&r->blocks, x, y);
             struct smear_place_motion d;
             if (!smear_plane_motion_at(&d, &here, (x << BLOCK_SHIFT) + BLOCK_PX / 2, top + (y << BLOCK_SHIFT) + BLOCK_PX / 2))

@@ -69,8 +69,7 @@ bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *s
                              int32_t x, int32_t y, int32_t step);
 
 /* Goes on by a step to the right, or down. */
-void smear_plane_motion_right(struct smear_plane_motion *m);
-void smear_plane_motion_down(struct smear_plane_motion *m);
+void smear_plane_motion_go(struct smear_plane_motion *m, bool down);
 
 /* Finds the motion at a pixel, which lies at (x, y). False where the triangle does not cover it in the middle of the exposure. */
 bool smear_plane_motion_at(struct smear_place_motion *out, const struct smear_plane_motion *m, int32_t x, int32_t y);

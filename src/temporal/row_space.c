@@ -95,21 +95,12 @@ bool smear_plane_motion_make(struct smear_plane_motion *m, struct smear_space *s
     return true;
 }
 
-void smear_plane_motion_right(struct smear_plane_motion *m)
+void smear_plane_motion_go(struct smear_plane_motion *m, bool down)
 {
     for (int i = 0; i < 3; i++) {
-        m->side[i].at += m->side[i].right;
-        m->pose[0][i].at += m->pose[0][i].right;
-        m->pose[1][i].at += m->pose[1][i].right;
-    }
-}
-
-void smear_plane_motion_down(struct smear_plane_motion *m)
-{
-    for (int i = 0; i < 3; i++) {
-        m->side[i].at += m->side[i].down;
-        m->pose[0][i].at += m->pose[0][i].down;
-        m->pose[1][i].at += m->pose[1][i].down;
+        m->side[i].at += down ? m->side[i].down : m->side[i].right;
+        m->pose[0][i].at += down ? m->pose[0][i].down : m->pose[0][i].right;
+        m->pose[1][i].at += down ? m->pose[1][i].down : m->pose[1][i].right;
     }
 }
 

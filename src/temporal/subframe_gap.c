@@ -116,21 +116,6 @@ static enum gap_cover cover_of(const struct subframes *f, const struct subframe_
     return smear_subframe_depths(f, b, GAP_PAIRS_MAX).most > f->nearest ? COVER_ALL : COVER_FEW;
 }
 
-/* Returns the mean of a stretch's pairs. */
-static const union gap_mean *mean_of(struct gap *gap, const struct subframes *f, int32_t pairs)
-{
-    union gap_mean *mean = &gap->mean[pairs];
-    if ((gap->made >> pairs & 1u) != 0)
-        return mean;
-    gap->made |= 1u << pairs;
-    if (sums_light(f))
-        mean->light = smear_light_mean(smear_light_full(f->instants), pairs, gap->unit, pair_weight(gap, pairs - 1),
-                                       frame_transfer(f->t->frame));
-    else
-        mean->packed = smear_packed_mean(gap->weight[pairs]);
-    return mean;
-}
-
 /* The taps of pixels that have so many pairs, and the mean of them. */
 struct gap_part {
     const union gap_mean *mean;
@@ -139,14 +124,16 @@ struct gap_part {
 
 static inline void part_make(struct gap_part *part, struct gap *gap, const struct subframes *f, int32_t pairs)
 {
-    const union gap_mean *mean = mean_of(gap, f, pairs);
+    union gap_mean *const mean = &gap->mean[pairs];
+    const uint32_t last = pair_weight(gap, pairs - 1);
+    if ((gap->made >> pairs & 1u) == 0 && sums_light(f))
+        mean->light = smear_light_mean(smear_light_full(f->instants), pairs, gap->unit, last, frame_transfer(f->t->frame));
+    else if ((gap->made >> pairs & 1u) == 0)
+        mean->packed = smear_packed_mean(gap->weight[pairs]);
+    gap->made |= 1u << pairs;
     part->mean = mean;
-    part->taps.at.offset = gap->offset;
-    part->taps.at.pairs = pairs;
-    part->taps.at.instant = sums_light(f) ? smear_light_most(f->instants) : 1;
-    part->taps.unit_log2 = gap->unit_log2;
-    part->taps.last = pair_weight(gap, pairs - 1);
-    part->taps.mean = &mean->packed;
+    part->taps = (struct gap_taps){ { gap->offset, pairs, sums_light(f) ? smear_light_most(f->instants) : 1 }, gap->unit_log2, last,
+                                    &mean->packed };
 }
 
 /* Whether a sum is that of one code at all instants: of light nearly, of which some bits were rounded away by thresholds that leave up
@@ -255,10 +242,8 @@ static struct smear_step step_at(const struct subframes *f, const struct smear_t
     const struct smear_block *b = block_at(plan->blocks, x >> BLOCK_SHIFT, (y - t->background.y0) >> BLOCK_SHIFT);
     if (instants > b->last)
         return (struct smear_step){ 0, 0 };
-    if (b->depth != 0)
-        return widened(b->x / instants, b->y / instants);
     const struct smear_tile_travel *tile = tile_at(t, plan, x);
-    return widened(tile->x / instants, tile->y / instants);
+    return b->depth != 0 ? widened(b->x / instants, b->y / instants) : widened(tile->x / instants, tile->y / instants);
 }
 
 static inline bool is_alike(struct smear_step a, struct smear_step b) { return a.x == b.x && a.y == b.y; }

@@ -102,10 +102,7 @@ void smear_subframe_sums_clear(const struct subframes *f);
 /* Adds the box of instant k to the sums, and makes its colours nothing again, or background where draws are blended. */
 void smear_subframe_sums_add(const struct subframes *f, const struct subframe_box *box, uint32_t k);
 
-/* Copies its colours, or puts PACKED_NOTHING in their place. */
-void smear_subframe_take_background(const struct subframes *f, bool nothing);
-
-/* Puts them in place of PACKED_NOTHING. */
+/* Puts colours of the background in place of PACKED_NOTHING. */
 void smear_subframe_lay_over(const struct subframes *f);
 
 /* Copies its depths in a box and, where tiles begin with whole words, perhaps one pixel more to either side. */

@@ -356,7 +356,7 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     smear_subframe_restore_depth(&f, &whole);
     uint32_t samples = 0;
     const bool moves = list(&f);
-    smear_subframe_take_background(&f, !f.blends);
+    smear_tile_run_take_background(t, !f.blends);
     if (moves)
         samples = f.plans ? draw_planned(&f, plan, &all) : draw_rest(&f, 0, 0, &all);
     if (f.blends)
@@ -364,7 +364,7 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     else if (f.instants == 0)
         smear_subframe_lay_over(&f);
     else
-        smear_subframe_take_background(&f, false);
+        smear_tile_run_take_background(t, false);
     if (samples != 0 && f.instants != 0)
         smear_subframe_average(&f, &all, plan);
     return samples;

@@ -73,6 +73,9 @@ struct smear_tile_plan;
  * t->blend are others afterwards. Returns the samples taken. */
 uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
 
+/* Copies the background's colours, or puts PACKED_NOTHING in their place. */
+void smear_tile_run_take_background(const struct smear_tile_run *t, bool nothing);
+
 /* Finds depths in the middle of the exposure of what is opaque, of columns [x0, x1) of the tiles, when their pixels are done.
  * Returns them, in the work memory, in rows like those of `out`. */
 uint16_t *smear_subframes_depth(const struct smear_tile_run *t, int32_t x0, int32_t x1);

@@ -265,9 +265,9 @@ static void test_planes_go_where_floating_point_has_them(void)
         }
         REQUIRE(smear_plane_motion_make(&m, &space, record, x, y, step));
         for (int i = 0; i < right; i++)
-            smear_plane_motion_right(&m);
+            smear_plane_motion_go(&m, false);
         for (int i = 0; i < down; i++)
-            smear_plane_motion_down(&m);
+            smear_plane_motion_go(&m, true);
         const int px = x + right * step, py = y + down * step;
         struct smear_place_motion motion;
         double open[2], close[2], nearness;
