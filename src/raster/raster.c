@@ -30,62 +30,6 @@ static inline void draw_point(const struct smear_raster_frame *frame,
         smear_velocity_still(target, at, frame_has_depth_velocity(frame));
 }
 
-/* Where points are drawn: x in [x0, x0 + width), y in [y0, y0 + height), which are not empty; pixel (x0, y0) is the planes' first. */
-struct points_plane {
-    const struct smear_triangle *top;   /* entry i lies i entries before */
-    uint32_t x0, width, y0, height;
-    int32_t stride;
-    uint16_t *depth;
-    void *pixels;
-};
-
-/* Takes what points of a list are drawn by at once. False where rows of the plane go round, or pixels say more than colour and depth. */
-static bool points_make(struct points_plane *p, const struct smear_raster_frame *frame, const struct smear_raster_target *t)
-{
-    const struct smear_plane_rows *rows = &t->window_rows;
-    const int32_t at = rows->ring_row * rows->stride + t->x0 - rows->x0;
-    *p = (struct points_plane){ bins_triangle(frame->bins, 0), (uint32_t)t->x0, (uint32_t)(t->x1 - t->x0), (uint32_t)t->y0,
-                                (uint32_t)(t->y1 - t->y0), rows->stride, t->depth + at,
-                                target_is_direct(t) ? (void *)(t->direct + at) : t->color + at };
-    return rows->ring_row + (t->y1 - t->y0) <= rows->ring && !target_has_velocity(t);
-}
-
-/* Draws points of a list up to its first entry that is none, where they are nearer. Returns the list from there on. Pixels are RGB565
- * where they are narrow. */
-SMEAR_INLINE struct smear_list points_list(const struct points_plane *p, struct smear_list l, bool narrow)
-{
-    const struct points_plane k = *p;
-    for (uint32_t i; (i = list_first(&l)) != SMEAR_NO_TRIANGLE;) {
-        const struct smear_triangle *const t = k.top - i;
-        if (t->segment != SMEAR_POINT)
-            break;
-        const uint32_t x = t->vertex[POINT_X] - k.x0, y = t->vertex[POINT_Y] - k.y0, depth = t->vertex[POINT_DEPTH], color = t->color;
-        list_next(&l, t);
-        if (x >= k.width || y >= k.height)
-            continue;
-        const int32_t at = (int32_t)y * k.stride + (int32_t)x;
-        if (depth <= k.depth[at])
-            continue;
-        k.depth[at] = (uint16_t)depth;
-        if (narrow)
-            ((uint16_t *)k.pixels)[at] = (uint16_t)rgb565_nearest(color);
-        else
-            ((uint32_t *)k.pixels)[at] = color & 0xffffffu;
-    }
-    return l;
-}
-
-static SMEAR_NOINLINE uint32_t draw_points(const struct points_plane *p, uint32_t head, bool narrow)
-{
-    const struct smear_list list = { head, NULL, NULL };
-    return narrow ? points_list(p, list, true).head : points_list(p, list, false).head;
-}
-
-static SMEAR_NOINLINE const uint32_t *draw_numbered_points(const struct points_plane *p, const uint32_t *number, const uint32_t *end)
-{
-    return points_list(p, (struct smear_list){ SMEAR_NO_TRIANGLE, number, end }, false).number;
-}
-
 /* ------------------------------------------------------------------ a triangle */
 
 static inline bool has_levels(const struct setup *s)
@@ -324,14 +268,12 @@ SMEAR_INLINE_ALWAYS void draw_any_list(const struct smear_raster_frame *frame, c
                                        struct smear_list list, const struct smear_between *between)
 {
     struct smear_raster_pass p;
-    struct points_plane points = { .depth = NULL };
     const uint32_t ordered = SMEAR_FRONT_ORDER ? smear_front_order(frame, target, list) : 0;
     smear_raster_begin(&p, frame, target);
     if (ordered != 0) {
         draw_ordered(&p, ordered, between);
         return;
     }
-    const bool at_once = !SMEAR_SMALL_CODE && points_make(&points, frame, target);
     uint32_t i = 0;
     for (uint32_t number; (number = list_first(&list)) != SMEAR_NO_TRIANGLE; i++) {
         const struct smear_triangle *const t = bins_triangle(frame->bins, number);
@@ -339,12 +281,8 @@ SMEAR_INLINE_ALWAYS void draw_any_list(const struct smear_raster_frame *frame, c
         list_next(&list, t);
         if (t->segment != SMEAR_POINT)
             draw_listed(&p, t, number);
-        else if (!at_once)
-            draw_point(frame, target, t, p.moved);
-        else if (SMEAR_POOL_PARTS && list.number != NULL)       /* of a window's rows */
-            list.number = draw_numbered_points(&points, list.number - 1, list.end);
         else
-            list.head = draw_points(&points, number, target_is_direct(target));
+            draw_point(frame, target, t, p.moved);
     }
 }
 
