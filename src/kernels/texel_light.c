@@ -49,6 +49,8 @@ uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index)
     const uint32_t t = texel_fetch(l->texels, l->palette, index, l->format) & 0xffffffu;
     l->index = index;
     l->near = 0;
+    if (!SMEAR_ON_64 && l->numbers != NULL)
+        l->number = l->numbers[index];
     if (t == l->texel)
         return l->pixel;
     if ((SMEAR_WITH_LINEAR || SMEAR_WITH_FOG) && l->composed)

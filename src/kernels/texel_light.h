@@ -39,6 +39,8 @@ struct texel_light {
     uint32_t fog;                       /* 0x00RRGGBB, of which pixels have so much of 65536 */
     int32_t fog_part;
     uint32_t clear, fog_pair, fog_green;    /* of 256; what fog adds to red and blue, and to green, 8 bits more */
+    const uint8_t *numbers;             /* texels that are numbers of colours, else null */
+    uint32_t number;                    /* of the last texel's colour: beside it there often is another */
 };
 
 /* White light. The texture's sizes are 2^log2_width and 2^log2_height, both at least 2. */
@@ -54,6 +56,8 @@ static inline void texel_light_start(struct texel_light *l, const void *texels, 
     l->texels = texels;
     l->palette = palette;
     l->format = format;
+    l->numbers = !SMEAR_ON_64 && format == SMEAR_TEXEL_PALETTE8 ? (const uint8_t *)texels : NULL;
+    l->number = ~0u;
     l->narrow = narrow;
     l->linear = l->composed = SMEAR_WITH_LINEAR && linear;
     l->fog_part = 0;
@@ -81,17 +85,22 @@ static inline void texel_light_fog(struct texel_light *l, int32_t part)
     l->fog_pair = (l->fog & 0xff00ffu) * a + 0x800080u;
     l->fog_green = pixel_green(l->fog) * a + 0x80u;
     l->composed = l->linear || seen != 0;
-    l->index = l->texel = ~0u;
+    l->index = l->texel = l->number = ~0u;
     l->near = 0;
 }
 
 /* Returns the pixel of another texel than the last one. Rarely called, where textures are magnified. */
 uint32_t smear_texel_light_find(struct texel_light *l, uint32_t index);
 
-/* The pixel of a texel. */
+/* The pixel of a texel. Where words have 64 bits, calls are cheaper than to look for its colour first. */
 SMEAR_INLINE uint32_t texel_light_pixel(struct texel_light *l, uint32_t index)
 {
-    return index == l->index ? l->pixel : smear_texel_light_find(l, index);
+    if (index == l->index)
+        return l->pixel;
+    if (SMEAR_ON_64 || l->numbers == NULL || l->numbers[index] != l->number)
+        return smear_texel_light_find(l, index);
+    l->index = index;
+    return l->pixel;
 }
 
 #endif
