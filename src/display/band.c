@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "display/pixel_format.h"
 #include "display/points.h"
+#include "kernels/fill.h"
 
 uint8_t *smear_band_begin(struct smear_rows *rows)
 {
@@ -110,6 +111,64 @@ static bool convert_at_once(const struct row_job *r, const struct smear_raster_t
     return true;
 }
 
+/* Whether anything was drawn in eight columns. */
+static inline bool is_drawn(const uint16_t *depth)
+{
+    const pixel_word *const pair = (const pixel_word *)(const void *)depth;
+    uint64_t four[2] = { pair[0] | pair[1], pair[2] | pair[3] };
+    if (SMEAR_ON_64)
+        __builtin_memcpy(four, depth, sizeof four);
+    return four[0] != 0 || four[1] != 0;
+}
+
+/* Makes eights of columns from x on, to `end`, look like others as long as nothing was drawn in them. Returns where something was. */
+SMEAR_INLINE int32_t fill_undrawn(uint16_t *out, const uint16_t *depth, int32_t x, int32_t end, int32_t step, const uint16_t *look)
+{
+    const pixel_word *const from = (const pixel_word *)(const void *)look;
+    const uint32_t a = from[0], b = from[1], c = from[2], d = from[3];
+    for (; x != end && !is_drawn(depth + x); x += step) {
+        pixel_word *const to = (pixel_word *)(void *)(out + x);
+        to[0] = a;
+        to[1] = b;
+        to[2] = c;
+        to[3] = d;
+    }
+    return x;
+}
+
+static void convert_eights(const smear_desc *d, uint16_t *out, const uint32_t *in, int32_t n, int32_t x, int32_t y)
+{
+    const smear_format format = drawn_format(d);
+    const smear_dither dither = (smear_dither)d->display.dither;
+    if (!smear_format_rows((uint8_t *)(out + x), 0, in, 0, 1, n, 0, y, format, dither))
+        smear_format_row((uint8_t *)out, 0, in, n, x, y, y, format, dither);
+}
+
+/* Converts columns [x0, x1) of a row, and clears what was drawn. `looks`: of rows with the same thresholds, undrawn columns; or null. */
+static void convert_drawn(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1, int32_t y,
+                          const uint16_t *looks[8])
+{
+    const struct smear_rows *const rows = r->rows;
+    const int32_t at = target_row(&t->color_rows, t, y);
+    uint32_t *const color = t->color + at;
+    uint16_t *const depth = t->depth + at, *const out = (uint16_t *)(void *)r->band + (y - job_top(r)) * rows->window.width;
+    const uint16_t **const look = &looks[y & 7];
+    int32_t left = x0, right = x1;
+    if (*look == NULL && !is_drawn(depth + x0)) {
+        convert_eights(rows->desc, out, color + x0, 8, x0, y);
+        *look = out + x0;
+    }
+    if (*look != NULL) {
+        left = fill_undrawn(out, depth, x0, x1, 8, *look);
+        right = fill_undrawn(out, depth, x1 - 8, left - 8, -8, *look) + 8;
+    }
+    if (left == right)
+        return;
+    convert_eights(rows->desc, out, color + left, right - left, left, y);
+    pixels_fill(color + left, rows->clear, right - left);
+    pixels_clear_narrow(depth + left, right - left);
+}
+
 void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_target *t, int32_t x0, int32_t x1)
 {
     const struct overlay_box box = { x0, job_top(r), x1, job_bottom(r) };
@@ -117,6 +176,12 @@ void smear_band_convert_rows(const struct row_job *r, const struct smear_raster_
         smear_points_draw(r->rows, t, &box);
     if (rows_have_overlay(r->rows))
         smear_overlay_draw(r->rows->overlay, t, &box, frame_transfer(&r->rows->raster));
+    if (SMEAR_STAYS_CLEAR && r->stays_clear) {
+        const uint16_t *looks[8] = { NULL };
+        for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++)
+            convert_drawn(r, t, x0, x1, y, looks);
+        return;
+    }
     if (SMEAR_ROWS_AT_ONCE && x0 < x1 && convert_at_once(r, t, &box))
         return;
     for (int32_t y = box.y0; x0 < x1 && y < box.y1; y++)

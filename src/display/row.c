@@ -112,7 +112,7 @@ bool smear_row_draw_opaque(const struct row_job *r, int job, struct smear_raster
     t->x1 = job_right(r);
     if (!smear_job_area(rows, job, t))
         return false;
-    if (r->steps & ROW_CLEAR)
+    if ((r->steps & ROW_CLEAR) && !(SMEAR_STAYS_CLEAR && r->is_clear))
         smear_row_clear(rows, t, velocity, r->sky_too);
     t->over = rows->refill != NULL;
     t->cache = smear_raster_cache_of(&rows->cache, job);

@@ -151,6 +151,8 @@ struct row_job {
     int32_t y0, y1;
     int32_t x0, x1;             /* of a temporal method */
     uint8_t steps;              /* ROW_CLEAR | ...: those that a job does, see smear_row_run */
+    bool stays_clear;           /* what has no depth has the frame's colour, so that clearing what else is converted clears the next row */
+    bool is_clear;              /* so the row before was */
     uint32_t *sky_too;          /* rows that get the sky of those that are cleared, too, and are cleared next; or null */
 };
 

@@ -232,6 +232,9 @@
 #define SMEAR_ROWS_AT_ONCE \
     (!SMEAR_VECTORS && !SMEAR_SMALL_FILE && !SMEAR_ON_WASM && (SMEAR_WITH_RGB || SMEAR_WITH_RGB565))
 
+/* Of sharp rows, only what was drawn is converted and cleared: not where assembly takes all of several rows at once. */
+#define SMEAR_STAYS_CLEAR (!SMEAR_SMALL_CODE && !SMEAR_ASM_ARMV6M && !SMEAR_ASM_ARMV7EM && !SMEAR_ASM_ARM)
+
 /* Functions that have one copy where fast memory has no room for more. */
 #if SMEAR_ASM_ARM
 #define SMEAR_COPY SMEAR_NOINLINE

@@ -38,14 +38,14 @@ void smear_sharp_advance_lists(struct smear_rows *rows, int row)
         rows->window.moving[i] = 0;
 }
 
-void smear_sharp_draw_row(struct smear_rows *rows, int row)
+void smear_sharp_draw_row(struct row_job *job)
 {
-    struct row_job job = { .rows = rows, .row = row };
+    struct smear_rows *const rows = job->rows;
     const uint32_t start = stage_start(rows);
-    smear_sharp_advance_lists(rows, row);
-    smear_row_run(rows, smear_sharp_draw_job, &job, FILL_STATIC | FILL_MOVING);
+    smear_sharp_advance_lists(rows, job->row);
+    smear_row_run(rows, smear_sharp_draw_job, job, FILL_STATIC | FILL_MOVING);
     if (SMEAR_WITH_DEBUG && rows->inspect != NULL)
-        smear_sharp_inspect_row(rows, row);
+        smear_sharp_inspect_row(rows, job->row);
     stage_end(rows, &rows->stats->time.raster, start);
 }
 
@@ -103,11 +103,20 @@ static bool is_covered(const struct smear_rows *rows, int row)
     return rows_are_covered(rows, &box) || (rows_have_overlay(rows) && smear_points_touch(rows, box.y0, box.y1));
 }
 
-/* Draws a row by way of the window. */
-static inline int draw_window_row(struct smear_rows *rows, int row)
+/* Whether nothing but opaque triangles changes the rows of a frame, which lie in the same memory, and pixels are of 16 bits in eights. */
+static bool stays_clear(const struct smear_rows *rows)
 {
-    struct row_job job = { .rows = rows, .row = row };
-    smear_sharp_draw_row(rows, row);
+    const smear_desc *d = rows->desc;
+    return (d->width & 7) == 0 && smear_format_stride(1, drawn_format(d)) == 2 && d->display.dither <= SMEAR_DITHER_ORDERED
+        && rows->window.ring == rows->bins.row_px && rows->inspect == NULL && !rows->blends && !rows_have_sky(rows)
+        && !rows_have_overlay(rows);
+}
+
+/* Draws a row by way of the window. */
+static inline int draw_window_row(struct smear_rows *rows, int row, bool stays_clear, bool is_clear)
+{
+    struct row_job job = { .rows = rows, .row = row, .stays_clear = stays_clear, .is_clear = is_clear };
+    smear_sharp_draw_row(&job);
     smear_row_blend(rows, row);
     return smear_band_finish(&job);
 }
@@ -119,9 +128,10 @@ int smear_sharp_rows(struct smear_rows *rows, struct smear_damage *damage, bool 
         return smear_damage_rows(rows, damage, first, end);
     if (SMEAR_POOL_PARTS && rows->jobs.workers > 1 && !direct && smear_workers_rows(rows, first, end, &result))
         return result;
+    const bool stay_clear = SMEAR_STAYS_CLEAR && !direct && stays_clear(rows);
     for (int row = first; row < end && result == SMEAR_OK; row++) {
         const bool straight = SMEAR_DIRECT && direct && rows->refill == NULL && !is_covered(rows, row);
-        result = straight ? draw_direct_row(rows, row) : draw_window_row(rows, row);
+        result = straight ? draw_direct_row(rows, row) : draw_window_row(rows, row, stay_clear, stay_clear && row > first);
     }
     return result;
 }

@@ -9,8 +9,8 @@
 /* A job that draws opaque triangles of a row, or of columns of it, into the window: colour and depth. */
 void smear_sharp_draw_job(void *argument, int job, int worker);
 
-/* Draws opaque triangles of tile row `row` into the window: colour and depth. */
-void smear_sharp_draw_row(struct smear_rows *rows, int row);
+/* Draws opaque triangles of the job's tile row into the window: colour and depth. */
+void smear_sharp_draw_row(struct row_job *job);
 
 /* What comes before it and after it, where another method draws a row: the lists move on, nothing in it moves; and
  * desc.debug.inspect looks at it. */
