@@ -68,6 +68,7 @@ static void lay_out_temporal(struct smear_context *c, struct smear_arena *a, con
     if (!is_temporal(d))
         return;
     c->assembler.path_limit = d->max_triangles;
+    t->moving.room = d->max_triangles;
     t->moving.moving = arena_take(a, d->max_triangles, sizeof *t->moving.moving);
     t->moving.travel = arena_take(a, (size_t)c->rows.window.columns, sizeof *t->moving.travel);
     if ((d->methods & SMEAR_SET(SMEAR_AUTO)) != 0)

@@ -330,6 +330,8 @@ static void list_row(struct smear_temporal *self, struct smear_rows *rows, int r
     }
     for (bool any = smear_row_fill(rows, row, FILL_MOVING); any; any = smear_row_fill_next(rows))
         list_tiles(self, rows, row);
+    if (SMEAR_FRONT_ORDER && SMEAR_HAS_MUL64 && rows->refill == NULL && self->moving.measures && self->chooser.method != SMEAR_TIMEMASK)
+        smear_list_order(&self->moving, bins, &rows->window, row_top(rows, row));
     row_advance_blended(rows, row);
     for (bool any = rows->blends && smear_row_fill(rows, row, FILL_BLENDED); any; any = smear_row_fill_next(rows))
         smear_list_blended(&self->moving, bins, &rows->window, rows->blend, row_top(rows, row));

@@ -12,15 +12,8 @@
 
 enum {
     OCTAVE = 4,                     /* levels of depths up to twice as near */
-    LEVELS = 12 * OCTAVE,
-    STRIPS = 16,
     ORDER_LEAST = 16, ORDER_MOST = 2048,    /* triangles of a list */
     ORDER_PIXELS = 8, BEGUN_PIXELS = 32     /* of the target for each, and for each that begins in it: smaller ones hide little */
-};
-
-/* Levels that were taken: of each strip, from which level of a near end on how far back triangles were put. */
-struct front_taken {
-    uint8_t back[STRIPS][LEVELS];
 };
 
 size_t smear_front_order_bytes(const struct smear_bins *bins)
@@ -41,14 +34,8 @@ static inline int32_t level_of(int32_t units)
 {
     const uint32_t u = (uint32_t)max_i32(units, 1);
     const int zeros = count_leading_zeros(u);       /* 1 at least */
-    return max_i32((LEVELS / OCTAVE - zeros) * OCTAVE + (int32_t)(u << zeros >> 29 & 3u), 0);
+    return max_i32((FRONT_LEVELS / OCTAVE - zeros) * OCTAVE + (int32_t)(u << zeros >> 29 & 3u), 0);
 }
-
-/* A triangle's columns and depths. */
-struct front_range {
-    int32_t x0, x1;                 /* q8 */
-    int32_t farthest, nearest;      /* units q11 */
-};
 
 static inline void range_add(struct front_range *r, const int32_t *v)
 {
@@ -67,12 +54,13 @@ static inline struct front_range range_of(const int32_t *v0, const int32_t *v1, 
     return r;
 }
 
-/* Finds how far back a triangle comes, and notes it. `shift`: log2 of a strip's pixels, and 8. */
-static inline uint32_t take_level(struct front_taken *taken, const struct smear_raster_target *target, const struct front_range *r,
-                                  int shift)
+uint32_t smear_front_level(struct front_taken *taken, const struct front_range *r, int32_t left, int32_t right)
 {
-    const int32_t left = target->x0 << 8, margin = depth_margin(r->nearest);
-    const int32_t first = max_i32(r->x0 - left, 0) >> shift, last = min_i32(r->x1 - left, (target->x1 << 8) - left - 1) >> shift;
+    int shift = 8;
+    while ((right - left) << 8 > FRONT_STRIPS << shift)
+        shift++;
+    const int32_t margin = depth_margin(r->nearest), x = left << 8;
+    const int32_t first = max_i32(r->x0 - x, 0) >> shift, last = min_i32(r->x1 - x, ((right - left) << 8) - 1) >> shift;
     const int32_t far = level_of(r->farthest - margin), near = level_of(r->nearest + margin);
     uint32_t level = (uint32_t)far;
     for (int32_t strip = first; strip <= last; strip++)
@@ -81,15 +69,6 @@ static inline uint32_t take_level(struct front_taken *taken, const struct smear_
         for (int32_t i = near; i >= 0 && taken->back[strip][i] > level; i--)
             taken->back[strip][i] = (uint8_t)level;
     return level;
-}
-
-/* Returns log2 of a strip's pixels, and 8. */
-static int strip_shift(const struct smear_raster_target *target)
-{
-    int shift = 0;
-    while (target->x1 - target->x0 > STRIPS << shift)
-        shift++;
-    return shift + 8;
 }
 
 /* Returns twice a triangle's area, in whole pixels. */
@@ -125,11 +104,10 @@ static bool is_worth_it(const struct smear_raster_frame *frame, const struct sme
 
 /* Finds levels of a list's triangles, and how many have each. Returns how many there are in all; 0 where they are too many, or one
  * is a point or blended. */
-static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct smear_raster_frame *frame,
+static uint32_t find_levels(uint16_t count[FRONT_LEVELS], uint8_t *level, const struct smear_raster_frame *frame,
                             const struct smear_raster_target *target, struct smear_list list)
 {
     const struct smear_bins *const bins = frame->bins;
-    const int shift = strip_shift(target);
     struct front_taken taken;
     uint32_t n = 0;
     __builtin_memset(&taken, 255, sizeof taken);
@@ -144,7 +122,7 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
         const int32_t *const v0 = bins_vertex(bins, segment, t->vertex[0]), *const v1 = bins_vertex(bins, segment, t->vertex[1]),
                       *const v2 = bins_vertex(bins, segment, t->vertex[2]);
         const struct front_range r = range_of(v0, v1, v2);
-        level[n] = (uint8_t)take_level(&taken, target, &r, shift);
+        level[n] = (uint8_t)smear_front_level(&taken, &r, target->x0, target->x1);
         count[level[n++]]++;
     }
     return n;
@@ -153,7 +131,7 @@ static uint32_t find_levels(uint16_t count[LEVELS], uint8_t *level, const struct
 uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list)
 {
     const struct smear_plane_rows *const rows = &target->window_rows;
-    uint16_t *const order = front_order_of(&target->cache), place[LEVELS] = { 0 };
+    uint16_t *const order = front_order_of(&target->cache), place[FRONT_LEVELS] = { 0 };
     if (order == NULL || target_has_velocity(target) || frame_has_fog(frame)
         || rows->ring_row + (target->y1 - target->y0) > rows->ring || ((uintptr_t)target->depth & 3u) != 0 || (rows->stride & 1) != 0)
         return 0;
@@ -161,18 +139,13 @@ uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct 
         return 0;
     uint8_t *const level = (uint8_t *)(order + front_order_most((const struct front_memory *)target->cache.entry - 1));
     const uint32_t n = find_levels(place, level, frame, target, list);
-    uint32_t at = 0;
-    for (int i = LEVELS - 1; i >= 0 && n != 0; i--) {
-        const uint32_t count = place[i];
-        place[i] = (uint16_t)at;
-        at += count;
-    }
+    front_places(place);
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t number = list_first(&list);
         order[place[level[i]]++] = (uint16_t)number;
         list_next(&list, bins_triangle(frame->bins, number));
     }
-    return at;
+    return n;
 }
 
 /* Whether depths of columns [left, right) of some rows are 2 half at least. */

@@ -88,6 +88,36 @@ static inline uint16_t *front_order_of(const struct smear_raster_cache *cache)
     return m != NULL && m->bytes > 2 * sizeof(struct front_memory) ? (uint16_t *)(void *)((uint8_t *)cache->entry - m->bytes) : NULL;
 }
 
+enum { FRONT_LEVELS = 48, FRONT_STRIPS = 16 };
+
+/* Levels that were taken: of each strip of columns, from which level of a near end on how far back triangles were put; at first all
+ * UINT8_MAX. */
+struct front_taken {
+    uint8_t back[FRONT_STRIPS][FRONT_LEVELS];
+};
+
+/* A triangle's columns and depths. */
+struct front_range {
+    int32_t x0, x1;                 /* q8 */
+    int32_t farthest, nearest;      /* units q11 */
+};
+
+/* Finds how far back a triangle comes among those of columns [left, right) before it, and notes it: its level, below FRONT_LEVELS. Those of
+ * higher levels may be drawn before it, and those of one level in order. */
+uint32_t smear_front_level(struct front_taken *taken, const struct front_range *r, int32_t left, int32_t right);
+
+/* Makes of how many have each level where the first of them stands, the nearest level first. Returns how many there are in all. */
+static inline uint32_t front_places(uint16_t place[FRONT_LEVELS])
+{
+    uint32_t at = 0;
+    for (int i = FRONT_LEVELS - 1; i >= 0; i--) {
+        const uint32_t count = place[i];
+        place[i] = (uint16_t)at;
+        at += count;
+    }
+    return at;
+}
+
 /* Puts the numbers of a list's triangles into the target's order, the nearest first, so far as that makes no difference to any
  * pixel. Returns how many there are; 0 where the list is to be drawn as it is. */
 uint32_t smear_front_order(const struct smear_raster_frame *frame, const struct smear_raster_target *target, struct smear_list list);

@@ -3,6 +3,8 @@
 #include "temporal/row_lists.h"
 
 #include "base/fixmath.h"
+#include "geometry/transform.h"
+#include "raster/kept.h"
 #include "temporal/row_blocks.h"
 
 struct smear_closing smear_closing_of(int32_t x, int32_t y, int32_t unlike)
@@ -527,6 +529,98 @@ void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *g, c
         r->moving[r->count++] = (struct smear_moving_triangle){ i, (uint8_t)(b->x0 >> shift),
                                                                 (uint8_t)((b->x1 - 1) >> shift), b->nearest };
     }
+}
+
+/* ------------------------------------------------------------------ order */
+
+enum { STEEP = 1 << 24 };
+/* Returns 256 |a| / |c|, cut; STEEP for all that is steeper. */
+static int64_t slope_of(int64_t a, int64_t c)
+{
+    const int64_t part = a < 0 ? -a : a;
+    int64_t whole = c < 0 ? -c : c;
+    int up = 0;
+    for (; part >= whole && up < 16; up++)
+        whole <<= 1;
+    return part >= whole ? STEEP : (int64_t)ratio_q30(part, whole) << up >> 22;
+}
+
+/* Narrows the range of a triangle's depths in the middle of the exposure to where its plane meets a box of places, q8 px. */
+static void narrow_range(struct front_range *r, const int32_t *const v[3], const int32_t box[4])
+{
+    const int32_t a[3] = { v[1][VERTEX_X] - v[0][VERTEX_X], v[1][VERTEX_Y] - v[0][VERTEX_Y], v[1][VERTEX_DEPTH] - v[0][VERTEX_DEPTH] },
+                  b[3] = { v[2][VERTEX_X] - v[0][VERTEX_X], v[2][VERTEX_Y] - v[0][VERTEX_Y], v[2][VERTEX_DEPTH] - v[0][VERTEX_DEPTH] };
+    const int64_t area = cross_wide(a[VERTEX_X], a[VERTEX_Y], b[VERTEX_X], b[VERTEX_Y]);
+    int64_t middle = (int64_t)v[0][VERTEX_DEPTH] << 9, off = 4 * SMEAR_GUARD_PX << 9;       /* slopes are cut, to a unit per pixel */
+    for (int i = 0; i < 2; i++) {
+        const int32_t low = max_i32(min_i32(min_i32(a[i], b[i]), 0), box[i] - v[0][i]),
+                      high = min_i32(max_i32(max_i32(a[i], b[i]), 0), box[2 + i] - v[0][i]);
+        const int64_t rise = cross_wide(a[VERTEX_DEPTH], a[1 - i], b[VERTEX_DEPTH], b[1 - i]), steep = slope_of(rise, area);
+        if (low > high || steep >= STEEP)
+            return;
+        middle += ((rise < 0) != (area < 0)) == (i == 0) ? -steep * (low + high) : steep * (low + high);
+        off += steep * (high - low);
+    }
+    const int64_t farthest = (middle - off) >> 9, nearest = (middle + off) >> 9;
+    if (farthest > r->farthest && farthest < r->nearest)
+        r->farthest = (int32_t)farthest;
+    if (nearest < r->nearest && nearest > r->farthest)
+        r->nearest = (int32_t)nearest;
+}
+
+/* Finds the columns of a moving triangle, and its depths in a tile row at any time: no place of it goes farther from where it is in the
+ * middle of the exposure than its vertices do, nor nearer or farther away. */
+static void moving_range(struct front_range *r, const struct smear_bins *g, uint32_t triangle, const struct smear_window *w, int32_t top)
+{
+    const struct smear_triangle *t = bins_triangle(g, triangle);
+    const struct smear_segment *s = &g->segment[t->segment];
+    const struct smear_path_bounds *b = bins_bounds(g, triangle);
+    *r = (struct front_range){ b->x0 << 8, b->x1 << 8, SMEAR_DEPTH_MIN, SMEAR_DEPTH_MAX };
+    if (b->space != 0)
+        return;
+    const int32_t *const v[3] = { bins_vertex(g, s, t->vertex[0]), bins_vertex(g, s, t->vertex[1]), bins_vertex(g, s, t->vertex[2]) };
+    struct front_range in = { 0, 0, SMEAR_DEPTH_MAX, SMEAR_DEPTH_MIN };
+    int32_t off = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t depth = v[i][VERTEX_DEPTH], *const open = v[i] + s->motion, *const close = open + PATH_POSE_WORDS;
+        off = max_i32(off, 64 + max_i32(abs_i32(open[PATH_DEPTH] - depth), abs_i32(close[PATH_DEPTH] - depth)));    /* paths are rounded */
+        in.farthest = min_i32(in.farthest, depth);
+        in.nearest = max_i32(in.nearest, depth);
+    }
+    const int32_t reach = ((b->travel + b->curvature) << 3) + ((bins_margin(g) + 1) << 8);
+    const int32_t box[4] = { -reach, (top << 8) - reach, (w->width << 8) + reach, ((top + w->tile) << 8) + reach };
+    if (in.nearest - in.farthest > in.nearest >> 3 && max_i32(b->travel, b->curvature) < UINT16_MAX)
+        narrow_range(&in, v, box);
+    r->farthest = max_i32(in.farthest - off, SMEAR_DEPTH_MIN);
+    r->nearest = off < SMEAR_DEPTH_MAX - in.nearest ? in.nearest + off : SMEAR_DEPTH_MAX;
+}
+
+void smear_list_order(struct smear_row_moving *r, const struct smear_bins *g, const struct smear_window *w, int32_t top)
+{
+    enum { LARGE = 256 };       /* pixels of the box around a path, in the mean, of which three must lie over each other */
+    const uint32_t count = r->count, enough = max_u32(3u * (uint32_t)(w->tile * w->width), LARGE * count);
+    struct smear_moving_triangle *const listed = r->moving + count;
+    uint8_t *const level = (uint8_t *)(listed + count);
+    uint16_t place[FRONT_LEVELS] = { 0 };
+    struct front_taken taken;
+    uint32_t pixels = 0;
+    for (uint32_t i = 0; i < count && pixels < enough; i++) {
+        const struct smear_path_bounds *b = bins_bounds(g, r->moving[i].triangle);
+        pixels += (uint32_t)((b->x1 - b->x0) * max_i32(min_i32(b->y1, top + w->tile) - max_i32(b->y0, top), 0));
+    }
+    if (pixels < enough || count > min_u32(r->room / 3, UINT16_MAX))
+        return;
+    __builtin_memset(&taken, UINT8_MAX, sizeof taken);
+    for (uint32_t i = 0; i < count; i++) {
+        struct front_range range;
+        moving_range(&range, g, r->moving[i].triangle, w, top);
+        level[i] = (uint8_t)smear_front_level(&taken, &range, 0, w->width);
+        place[level[i]]++;
+    }
+    front_places(place);
+    __builtin_memcpy(listed, r->moving, count * sizeof *listed);
+    for (uint32_t i = 0; i < count; i++)
+        r->moving[place[level[i]]++] = listed[i];
 }
 
 /* ------------------------------------------------------------------ areas */

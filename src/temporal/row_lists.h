@@ -9,7 +9,7 @@
 
 struct smear_row_moving {
     struct smear_moving_triangle *moving;
-    uint32_t count;
+    uint32_t count, room;
     struct smear_tile_travel *travel;           /* per tile */
     struct smear_row_blocks blocks;
     bool measures;                              /* how far triangles go is asked, besides where */
@@ -25,6 +25,10 @@ void smear_list_columns(struct smear_row_moving *r, const struct smear_bins *bin
 
 /* Lists the moving triangles from `head` on. */
 void smear_list_moving(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w, uint32_t head);
+
+/* Puts the moving triangles of a tile row that are listed in order from the front, so far as that makes no difference to any pixel at any
+ * instant. As they are, where few pixels would be hidden. */
+void smear_list_order(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w, int32_t top);
 
 /* Marks the tiles of blended draws, from `head` on. */
 void smear_list_blended(struct smear_row_moving *r, const struct smear_bins *bins, const struct smear_window *w,
