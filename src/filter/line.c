@@ -123,7 +123,7 @@ static void blur_block(uint32_t *out, const struct smear_window *w, const uint32
                 find_offsets(&m, b, w, row, x, y, LINE_TAPS_MAX);
                 m.out = more;
                 smear_line_means(&m, linear);
-                smear_line_mix(mean, more, m.columns, 1, linear);
+                smear_line_mix(mean, more, NULL, m.columns, 1, linear);
             }
         }
     }

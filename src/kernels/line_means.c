@@ -120,6 +120,28 @@ SMEAR_INLINE void pass_alike_armv6m(uint32_t **a, const uint32_t **b, const uint
     *a = r0;
     *b = r1;
 }
+
+/* Writes the means of three, n not 0, of words that differ: 36 instructions a pixel and 7 where they are alike, compilers 53 and 10. */
+static inline void line_mix_three_armv6m(uint32_t *mean, const uint32_t *more, const uint32_t *last, int32_t n)
+{
+    register uint32_t *r0 __asm__("r0") = mean;
+    register const uint32_t *r1 __asm__("r1") = more, *r2 __asm__("r2") = last, *r12 __asm__("r12") = mean + n;
+    __asm__ volatile(
+        ".syntax unified\n\t" "movs r3, #255\n\t" "lsls r4, r3, #16\n\t" "orrs r3, r4\n\t" "mov r8, r3\n\t"     /* 0x00ff00ff */
+        "movs r3, #128\n\t" "lsls r4, r3, #16\n\t" "orrs r3, r4\n\t" "mov r9, r3\n"                              /* halves */
+        "1: ldr r3, [r0]\n\t" "ldm r1!, {r4}\n\t" "ldm r2!, {r5}\n\t" "cmp r3, r4\n\t" "bne 2f\n\t" "cmp r3, r5\n\t" "beq 3f\n"
+        "2: adds r6, r3, r4\n\t" "adds r6, r6, r5\n\t" "mov r7, r8\n\t" "ands r3, r7\n\t" "ands r4, r7\n\t" "ands r5, r7\n\t"
+        "adds r3, r3, r4\n\t" "adds r3, r3, r5\n\t" "subs r6, r6, r3\n\t" "lsrs r6, r6, #8\n\t" "movs r5, #85\n\t"
+        "lsrs r4, r3, #2\n\t" "ands r4, r7\n\t" "muls r3, r5\n\t" "adds r3, r3, r4\n\t" "add r3, r9\n\t" "lsrs r3, r3, #8\n\t"
+        "ands r3, r7\n\t" "lsrs r4, r6, #2\n\t" "uxtb r4, r4\n\t" "muls r6, r5\n\t" "adds r6, r6, r4\n\t" "adds r6, #128\n\t"
+        "lsrs r6, r6, #8\n\t" "uxtb r6, r6\n\t" "lsls r6, r6, #8\n\t" "orrs r3, r6\n\t" "stm r0!, {r3}\n\t"
+        "cmp r0, r12\n\t" "bne 1b\n\t" "b 7f\n"
+        "3: adds r0, #4\n\t" "mov r7, r12\n\t" "subs r7, #8\n\t" "cmp r0, r7\n\t" "bhi 6f\n"
+        "4: " LINE_ALIKE_ARMV6M("5", "5") "ldm r2!, {r5, r6}\n\t" "cmp r3, r5\n\t" "bne 8f\n\t" "cmp r4, r6\n\t" "bne 8f\n\t"
+        "cmp r0, r7\n\t" "bls 4b\n\t" "b 6f\n" "8: subs r2, #8\n" "5: subs r0, #8\n\t" "subs r1, #8\n\t" "b 1b\n"
+        "6: cmp r0, r12\n\t" "bne 1b\n" "7:"
+        : "+r"(r0), "+r"(r1), "+r"(r2) : "r"(r12) : "r3", "r4", "r5", "r6", "r7", "r8", "r9", "cc", "memory");
+}
 /* clang-format on */
 
 static inline void find_bytes(int32_t *bytes, const struct line_block *b, int32_t log)
@@ -377,94 +399,79 @@ void smear_line_means(const struct line_block *b, bool linear)
 
 /* ------------------------------------------------------------------ means of pictures */
 
-enum { THIRD = 3 };             /* the mean of so many is a product by 85 and a quarter, in 16 bits: 256 / 3 = 85.33 */
+/* The mean of three, of pixels or of vectors of them: a third is 85 and a quarter, in 16 bits: 256 / 3 = 85.33. */
+#define LINE_SUM(a, b, c) (((a) & 0xff00ffu) + ((b) & 0xff00ffu) + ((c) & 0xff00ffu))
+#define LINE_THIRD(s) ((((s) << 6) + ((s) << 4) + ((s) << 2) + (s) + ((s) >> 2 & 0xff00ffu) + 0x800080u) >> 8 & 0xff00ffu)
+#define LINE_MEAN3(a, b, c) (LINE_THIRD(LINE_SUM(a, b, c)) | (LINE_THIRD(LINE_SUM((a) >> 8, (b) >> 8, (c) >> 8)) & 0xffu) << 8)
 
-/* Returns the mean of k pixels and one more; `part` of each, q8. What all have more than red and blue is green, 256 times. */
-SMEAR_INLINE uint32_t mixed_codes(uint32_t mean, uint32_t more, uint32_t k, uint32_t part)
+/* Returns the code of the mean of their light. */
+static uint32_t mixed_light(uint32_t a, uint32_t b, uint32_t c, bool three)
 {
-    const uint32_t pair = 0xff00ffu, red_blue = k * (mean & pair) + (more & pair), green = (k * mean + more - red_blue) >> 8;
-    const uint32_t rest = k + 1 == THIRD ? red_blue >> 2 & pair : 0, green_rest = k + 1 == THIRD ? green >> 2 & 255u : 0;
-    return ((red_blue * part + rest + 0x800080u) >> 8 & pair) | ((green * part + green_rest + 128u) & 0xff00u);
-}
-
-/* `part`: of each, q16. */
-static uint32_t mixed_light(uint32_t mean, uint32_t more, uint32_t k, uint32_t part)
-{
+    const uint32_t part = three ? 65536 / 3 : 65536 / 2;
     uint32_t out = 0;
     for (int i = 0; i < 24; i += 8) {
-        const uint32_t sum = k * smear_srgb_light[mean >> i & 255u] + smear_srgb_light[more >> i & 255u];
-        out |= (uint32_t)smear_srgb_encode[(sum * part + 32768) >> 16] << i;
+        const uint32_t light = smear_srgb_light[a >> i & 255u] + smear_srgb_light[b >> i & 255u];
+        out |= (uint32_t)smear_srgb_encode[((light + (three ? smear_srgb_light[c >> i & 255u] : 0u)) * part + 32768) >> 16] << i;
     }
     return out;
 }
 
-/* Whether no channel differs by 16 or more, about: light of such codes is mixed as codes, which are off by less than one but in the
- * dark. Halves of codes are told apart, by 8. */
-static inline bool is_near(uint32_t a, uint32_t b)
-{
-    return ((((a >> 1 & 0x7f7f7fu) | 0x808080u) - (b >> 1 & 0x7f7f7fu) + 0x080808u) & 0xf0f0f0u) == 0x808080u;
-}
+/* What is not 0 where a channel differs by 16 or more, about: light of such codes is mixed as codes, which are off by less than one but
+ * in the dark. Halves of codes are told apart, by 8. */
+#define LINE_FAR(a, b) ((((((a) >> 1 & 0x7f7f7fu) | 0x808080u) - ((b) >> 1 & 0x7f7f7fu) + 0x080808u) & 0xf0f0f0u) ^ 0x808080u)
 
-SMEAR_INLINE void mix(uint32_t *mean, const uint32_t *more, int32_t n, uint32_t k, bool linear)
+/* Writes the mean of two, or of three. */
+SMEAR_INLINE void mix(uint32_t *mean, const uint32_t *more, const uint32_t *last, int32_t n, bool three, bool linear)
 {
-    uint32_t part = 256 / (k + 1);
-    SMEAR_KEEP_VALUE(part);             /* a product takes less than shifts */
     for (const uint32_t *const end = mean + n; mean != end; mean++, more++) {
-        const uint32_t a = *mean, b = *more;
+        const uint32_t a = *mean, b = *more, c = three ? *last++ : b;
 #if PACKED_ASM_ARMV6M
-        if (a == b && end - mean >= 4)
+        if (!three && a == b && end - mean >= 4)
             pass_alike_armv6m(&mean, &more, end - 4);
 #endif
-        if (a == b)
+        if (a == b && a == c)
             continue;
-        if (SMEAR_WITH_LINEAR && linear && !is_near(a, b))
-            *mean = mixed_light(a, b, k, 65536 / (k + 1));
+        if (SMEAR_WITH_LINEAR && linear && (LINE_FAR(a, b) | LINE_FAR(a, c)) != 0)
+            *mean = mixed_light(a, b, c, three);
         else
-            *mean = k == 1 ? line_between(a, b) : mixed_codes(a, b, k, part);
+            *mean = three ? LINE_MEAN3(a, b, c) : line_between(a, b);
     }
 }
 
-void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+/* Of four, `mean` has that of two already. */
+void smear_line_mix_reference(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear)
 {
-    mix(mean, more, n, (uint32_t)k, linear);
+    if (k == 3)
+        mix(more, last, NULL, n, false, linear);
+    mix(mean, more, last, n, k == 2, linear);
 }
 
-#if SMEAR_VECTORS
-SMEAR_INLINE smear_v4u mixed_halves4(smear_v4u mean, smear_v4u more, uint32_t k)
-{
-    const uint32_t part = 256u / (k + 1) * 0x10001u;
-    const smear_v4u parts = { part, part, part, part }, sum = (mean & 0xff00ffu) * k + (more & 0xff00ffu);
-    const smear_v4u most = v4u_mul16(sum, parts) + 0x800080u;
-    return (k + 1 == THIRD ? most + (sum >> 2 & 0xff00ffu) : most) >> 8 & 0xff00ffu;
-}
-#endif
-
-/* Does so for a number that is known; light in rounds of vectors. */
-SMEAR_INLINE void mix_known(uint32_t *mean, const uint32_t *more, int32_t n, uint32_t k, bool linear)
+/* Does so in rounds of vectors. */
+SMEAR_INLINE void mix_rounds(uint32_t *mean, const uint32_t *more, const uint32_t *last, int32_t n, bool three, bool linear)
 {
 #if SMEAR_VECTORS
-    for (; n >= 4; n -= 4, mean += 4, more += 4) {
-        const smear_v4u a = v4u_load(mean), b = v4u_load(more);
-        if (!v4u_any(a ^ b))
+    for (; n >= 4; n -= 4, mean += 4, more += 4, last += three ? 4 : 0) {
+        const smear_v4u a = v4u_load(mean), b = v4u_load(more), c = three ? v4u_load(last) : b;
+        if (!v4u_any((a ^ b) | (a ^ c)))
             continue;
-        const smear_v4u half = (a >> 1 & 0x7f7f7fu) | 0x808080u, other = b >> 1 & 0x7f7f7fu;
-        if (SMEAR_WITH_LINEAR && linear && v4u_any(((half - other + 0x080808u) & 0xf0f0f0u) ^ 0x808080u))
-            smear_line_mix_reference(mean, more, 4, (int32_t)k, true);
+        if (SMEAR_WITH_LINEAR && linear && v4u_any(LINE_FAR(a, b) | LINE_FAR(a, c)))
+            mix(mean, more, last, 4, three, true);
         else
-            v4u_store(mean, k == 1 ? v4u_mean8(a, b) : mixed_halves4(a, b, k) | (mixed_halves4(a >> 8, b >> 8, k) & 0xffu) << 8);
+            v4u_store(mean, three ? LINE_MEAN3(a, b, c) : v4u_mean8(a, b));
     }
 #endif
-    mix(mean, more, n, k, SMEAR_VECTORS && linear);
-}
-
-void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
-{
-    if (!SMEAR_VECTORS && SMEAR_WITH_LINEAR && linear)
-        smear_line_mix_reference(mean, more, n, k, true);
-    else if (k == 1)
-        mix_known(mean, more, n, 1, linear);
-    else if (k == 2)
-        mix_known(mean, more, n, 2, linear);
+#if PACKED_ASM_ARMV6M
+    if (three && !(SMEAR_WITH_LINEAR && linear))
+        line_mix_three_armv6m(mean, more, last, n);
     else
-        mix_known(mean, more, n, 3, linear);
+#endif
+        mix(mean, more, last, n, three, linear);
+}
+
+void smear_line_mix(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear)
+{
+    if (k == 2)
+        mix_rounds(mean, more, last, n, true, linear);
+    for (int32_t two = k == 3 ? 2 : k == 1; two > 0; two--)
+        mix_rounds(two == 2 ? more : mean, two == 2 ? last : more, NULL, n, false, linear);
 }

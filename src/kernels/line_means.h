@@ -28,12 +28,13 @@ static inline uint32_t line_between(uint32_t a, uint32_t b) { return (a | b) - (
  * channel may be anything: texels are copied with theirs. */
 void smear_line_means(const struct line_block *b, bool linear);
 
-/* Writes the mean of k pixels, which `mean` has of each, and one more, k 1 .. 3; with `linear` that of their light. Their upper eight
- * bits may be anything. */
-void smear_line_mix(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
+/* Mixes picture k, 1 .. 3, with those before it: writes the mean of `mean` and `more`; of these and `last`, where k is 2; where k is 3,
+ * of `mean`, which weighs twice, `more`, which is lost, and `last`. With `linear` that of their light. Their upper eight bits may be
+ * anything. */
+void smear_line_mix(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear);
 
 /* What all variants give. */
 void smear_line_means_reference(const struct line_block *b, bool linear);
-void smear_line_mix_reference(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear);
+void smear_line_mix_reference(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear);
 
 #endif

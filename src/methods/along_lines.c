@@ -25,8 +25,7 @@ static void lines_job(void *argument, int job, int worker)
     (void)worker;
     smear_job_columns(rows, job, &x0, &x1);
     smear_lines_blur(f->self->lines, &rows->window, x0, x1, top, bottom);
-    for (int32_t y = top; x0 < x1 && y < bottom; y++)
-        smear_lines_take_depth(f->self->lines, &rows->window, x0, x1, y);
+    smear_lines_copy_depth(f->self->lines, &rows->window, x0, x1, top, bottom, false);
 }
 
 /* Draws over a picture what is behind all of them, or movers over what lines have blurred. */
@@ -76,15 +75,14 @@ static SMEAR_RARE void draw_movers(struct smear_temporal *self, struct smear_fin
         __builtin_memcpy(lines->over, lines->row, (size_t)(w->width * w->tile) * sizeof *lines->over);
     draw_mover_picture(self, f);
     if (pictures > 1) {
-        for (int32_t y = top; y < bottom; y++)
-            smear_lines_take_depth(lines, w, 0, w->width, y);
+        smear_lines_copy_depth(lines, w, 0, w->width, top, bottom, false);
         smear_movers_next(lines, w);
         lines->picture = 1;
         f->background.color = lines->over;
         draw_mover_picture(self, f);
         lines->picture = 0;
         f->background.color = lines->row;
-        smear_line_mix(lines->row, lines->over, w->width * (bottom - top), 1, lines->transfer);
+        smear_line_mix(lines->row, lines->over, NULL, w->width * (bottom - top), 1, lines->transfer);
     }
     smear_movers_blur(lines, w, top, bottom);
 }
@@ -107,7 +105,7 @@ static SMEAR_RARE int finish_along_lines(struct smear_temporal *self, struct sme
     return smear_finish_run(self, &finish, &all);
 }
 
-/* Mixes a picture of a row with those before it. */
+/* Mixes a picture of a row with that before it, or both with those before them. */
 static void mix_job(void *argument, int job, int worker)
 {
     const struct smear_finish *f = (const struct smear_finish *)argument;
@@ -118,8 +116,8 @@ static void mix_job(void *argument, int job, int worker)
     int32_t x0, x1;
     (void)worker;
     smear_job_columns(rows, job, &x0, &x1);
-    for (int32_t y = top; lines->picture != 0 && x0 < x1 && y < bottom; y++)
-        smear_line_mix(w->color + window_ring_row(w, y) * w->width + x0, lines->row + (y - top) * w->width + x0, x1 - x0, lines->picture,
+    for (int32_t y = top, at = x0; x0 < x1 && y < bottom; y++, at += w->width)
+        smear_line_mix(w->color + window_ring_row(w, y) * w->width + x0, lines->row + at, lines->over + at, x1 - x0, lines->picture,
                        lines->transfer);
 }
 
@@ -137,11 +135,8 @@ static void look_job(void *argument, int job, int worker)
     smear_lines_look(lines, &rows->window, x0, x1, top, bottom);
     if (lines->picture + 1 == lines->pictures)
         smear_lines_displace(lines, &rows->window, x0, x1, top, bottom);
-    for (int32_t y = top; x0 < x1 && y < bottom; y++)
-        if (lines->picture == 0 && lines->behind != 0)
-            smear_lines_take_depth(lines, &rows->window, x0, x1, y);
-        else if (lines->picture != 0 && lines->picture == lines->pictures / 2 && lines->movers != 0)
-            smear_lines_give_depth(lines, &rows->window, x0, x1, y);
+    if (lines->picture == 0 ? lines->behind != 0 : lines->picture == lines->pictures / 2 && lines->movers != 0)
+        smear_lines_copy_depth(lines, &rows->window, x0, x1, top, bottom, lines->picture != 0);
 }
 
 /* Draws what stands still far behind a picture of a row into it. The depth in the window stays what it is. */
@@ -156,8 +151,8 @@ static void draw_behind(struct smear_temporal *self, struct smear_finish *f)
     lines->picture = LINE_BEHIND;
     smear_row_run(rows, over_job, &f->row, FILL_MOVING);
     lines->picture = picture;
-    for (int32_t y = row_top(rows, f->row.row); picture == 0 && y < row_bottom(rows, f->row.row); y++)
-        smear_lines_give_depth(lines, w, 0, w->width, y);
+    if (picture == 0)
+        smear_lines_copy_depth(lines, w, 0, w->width, row_top(rows, f->row.row), row_bottom(rows, f->row.row), true);
 }
 
 /* Draws a further picture of a row. */
@@ -166,7 +161,7 @@ static void draw_further(struct smear_temporal *self, struct smear_finish *f)
     struct smear_rows *rows = f->row.rows;
     struct smear_lines *lines = self->lines;
     const uint32_t start = stage_start(rows), first = rows->opaque;
-    f->background.color = lines->row;
+    f->background.color = lines->picture > 1 && lines->picture + 1 == lines->pictures ? lines->over : lines->row;
     f->background.depth = lines->depth;
     f->background.color_rows = f->background.window_rows = (struct smear_plane_rows){ rows->window.width, 0, rows->window.tile, 0 };
     if (rows->refill == NULL) {
@@ -195,7 +190,7 @@ static SMEAR_RARE void draw_pictures(struct smear_temporal *self, struct smear_r
         smear_jobs_run(&rows->jobs, look_job, &finish, rows->jobs.workers);
         if (lines->behind != 0)
             draw_behind(self, &finish);
-        if (k > 0)
+        if (k > 0 && (lines->pictures - k) % 2 != 0)    /* of three or four the last two at once */
             smear_jobs_run(&rows->jobs, mix_job, &finish, rows->jobs.workers);
     }
     lines->picture = 0;

@@ -201,21 +201,14 @@ static void look_at_contrast(struct smear_line_seen *seen, const struct smear_wi
     }
 }
 
-/* Notes the nearest of the outer two pixels of each block. */
-static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int32_t x0, int32_t x1)
+/* Notes the nearest of two pixels of each block in a row of them, or only of those that are bare so far. */
+static void note_depth(struct smear_line_seen *seen, const uint16_t *depth, int32_t x0, int32_t x1, int32_t left, int32_t right, bool bare)
 {
-    for (int32_t x = x0; x < x1; x += BLOCK, seen++) {
-        const uint32_t nearest = max_u32(depth[x], depth[min_i32(x + BLOCK, x1) - 1]);
-        seen->depth = (uint16_t)max_u32(nearest, seen->depth);
-    }
-}
-
-/* Of blocks that are bare at their corners, a row in their midst shows what is small. */
-static void note_midst(struct smear_line_seen *seen, const uint16_t *depth, int32_t x0, int32_t x1)
-{
-    for (int32_t x = x0 + BLOCK / 2 - 1; x < x1; x += BLOCK, seen++)
-        if (seen->depth == 0)
-            seen->depth = (uint16_t)max_u32(depth[x], depth[min_i32(x + 1, x1 - 1)]);
+    for (int32_t x = x0; x < x1; x += BLOCK, seen++)
+        if (!bare || seen->depth == 0) {
+            const uint32_t nearest = max_u32(depth[min_i32(x + left, x1 - 1)], depth[min_i32(x + right, x1 - 1)]);
+            seen->depth = (uint16_t)max_u32(nearest, seen->depth);
+        }
 }
 
 void smear_lines_look(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
@@ -229,20 +222,20 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
             look_at_contrast(seen, w, x0, x1, y, end);
         }
         for (int32_t v = y; v < end; v += BLOCK - 1)
-            note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
+            note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1, 0, BLOCK - 1, false);
+        /* Of blocks that are bare at their corners, a row in their midst shows what is small. */
         const int32_t v = min_i32(y + BLOCK / 2 - 1, end - 1);
-        note_midst(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1);
+        note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1, BLOCK / 2 - 1, BLOCK / 2, true);
     }
 }
 
-void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
+void smear_lines_copy_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                            bool back)
 {
-    __builtin_memcpy(line_depth(lines, w, x0, y), window_depth(w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
-}
-
-void smear_lines_give_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y)
-{
-    __builtin_memcpy(window_depth(w, x0, y), line_depth(lines, w, x0, y), (size_t)(x1 - x0) * sizeof *lines->depth);
+    for (int32_t y = x0 < x1 ? y0 : y1; y < y1; y++) {
+        uint16_t *const line = line_depth(lines, w, x0, y), *const window = window_depth(w, x0, y);
+        __builtin_memcpy(back ? window : line, back ? line : window, (size_t)(x1 - x0) * sizeof *line);
+    }
 }
 
 /* Returns a / n, n 1 .. LINE_PICTURES: quotients are calls where there is no instruction. */

@@ -141,9 +141,9 @@ static inline uint16_t *window_depth(const struct smear_window *w, int32_t x, in
     return w->depth + window_ring_row(w, y) * w->width + x;
 }
 
-/* Copies the depth of columns [x0, x1) of row y of the window to lines->depth, and back. */
-void smear_lines_take_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
-void smear_lines_give_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y);
+/* Copies the depth of columns [x0, x1) of rows [y0, y1) of the window to lines->depth, or back. */
+void smear_lines_copy_depth(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1,
+                            bool back);
 
 /* Finds the displacements of the blocks of columns [x0, x1) of a tile row whose pictures have been looked at. */
 void smear_lines_displace(const struct smear_lines *lines, const struct smear_window *w, int32_t x0, int32_t x1, int32_t y0, int32_t y1);

@@ -135,29 +135,45 @@ static void prepare_mix(struct kernel_call *c)
     }
 }
 
-static void mix(struct kernel_call *c, void (*mixes)(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear), bool linear)
+typedef void mixer(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear);
+
+static void mix(struct kernel_call *c, mixer *mixes, bool linear)
 {
-    mixes(c->plane[OUT], c->plane[IN], c->n, 1 + (int32_t)(c->word[LOG] % 3u), linear);
+    const uint32_t *const in = c->plane[IN];
+    uint32_t more[64], last[64];
+    for (int32_t i = 0; i < c->n; i++) {
+        more[i] = in[i];
+        last[i] = in[i % 3 != 0 ? i : c->n - 1 - i];
+    }
+    mixes(c->plane[OUT], more, last, c->n, 1 + (int32_t)(c->word[LOG] % 3u), linear);
     forget_fourth(c);
 }
 
 /* Each channel by itself; a third is 85 and a quarter of 256. Words that are the same stay. */
-static void mix_one_by_one(uint32_t *mean, const uint32_t *more, int32_t n, int32_t k, bool linear)
+static uint32_t mixed(uint32_t a, uint32_t b, uint32_t c, uint32_t count, bool linear)
+{
+    bool light = false;
+    uint32_t out = 0;
+    for (int channel = 0; channel < 24; channel += 8) {
+        const int32_t x = (int32_t)(a >> channel & 0xffu) / 2, y = (int32_t)(b >> channel & 0xffu) / 2;
+        const int32_t z = (int32_t)(c >> channel & 0xffu) / 2;
+        light = light || (linear && (x - y < -8 || x - y >= 8 || (count == 3 && (x - z < -8 || x - z >= 8))));
+    }
+    for (int channel = 0; channel < 24; channel += 8) {
+        const uint32_t x = a >> channel & 0xffu, y = b >> channel & 0xffu, z = c >> channel & 0xffu;
+        const uint32_t sum = x + y + (count == 3 ? z : 0);
+        const uint32_t lights = smear_srgb_light[x] + smear_srgb_light[y] + (count == 3 ? smear_srgb_light[z] : 0u);
+        const uint32_t code = count == 3 ? (85 * sum + sum / 4 + 128) / 256 : (2 * sum + count) / (2 * count);
+        out |= (light ? smear_srgb_encode[(lights * (65536 / count) + 32768) >> 16] : code) << channel;
+    }
+    return a == b && (count == 2 || a == c) ? a : out;
+}
+
+static void mix_one_by_one(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_t n, int32_t k, bool linear)
 {
     for (int32_t i = 0; i < n; i++) {
-        bool light = false;
-        uint32_t out = 0;
-        for (int channel = 0; channel < 24; channel += 8) {
-            const int32_t apart = (int32_t)((mean[i] >> channel & 0xffu) / 2) - (int32_t)((more[i] >> channel & 0xffu) / 2);
-            light = light || (linear && (apart < -8 || apart >= 8));
-        }
-        for (int channel = 0; channel < 24; channel += 8) {
-            const uint32_t a = mean[i] >> channel & 0xffu, b = more[i] >> channel & 0xffu, count = (uint32_t)k + 1u;
-            const uint32_t sum = (uint32_t)k * a + b, lights = (uint32_t)k * smear_srgb_light[a] + smear_srgb_light[b];
-            const uint32_t code = count == 3 ? (85 * sum + sum / 4 + 128) / 256 : (2 * sum + count) / (2 * count);
-            out |= (light ? smear_srgb_encode[(lights * (65536 / count) + 32768) >> 16] : code) << channel;
-        }
-        mean[i] = mean[i] == more[i] ? more[i] : out;
+        const uint32_t other = k == 3 ? mixed(more[i], last[i], 0, 2, linear) : more[i];
+        mean[i] = mixed(mean[i], other, last[i], k == 2 ? 3 : 2, linear);
     }
 }
 
