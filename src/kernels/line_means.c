@@ -401,7 +401,7 @@ void smear_line_means(const struct line_block *b, bool linear)
 
 /* The mean of three, of pixels or of vectors of them: a third is 85 and a quarter, in 16 bits: 256 / 3 = 85.33. */
 #define LINE_SUM(a, b, c) (((a) & 0xff00ffu) + ((b) & 0xff00ffu) + ((c) & 0xff00ffu))
-#define LINE_THIRD(s) ((((s) << 6) + ((s) << 4) + ((s) << 2) + (s) + ((s) >> 2 & 0xff00ffu) + 0x800080u) >> 8 & 0xff00ffu)
+#define LINE_THIRD(s) (((s) * 85u + ((s) >> 2 & 0xff00ffu) + 0x800080u) >> 8 & 0xff00ffu)
 #define LINE_MEAN3(a, b, c) (LINE_THIRD(LINE_SUM(a, b, c)) | (LINE_THIRD(LINE_SUM((a) >> 8, (b) >> 8, (c) >> 8)) & 0xffu) << 8)
 
 /* Returns the code of the mean of their light. */

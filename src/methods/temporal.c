@@ -48,7 +48,7 @@ static void finished_target(const struct smear_tile_run *t, struct smear_raster_
 static void blend_static(struct smear_tile_run *t, const struct smear_rows *rows)
 {
     struct smear_raster_target over;
-    smear_tile_run_take_background(t, false);
+    smear_tile_run_take_background(t, t->out, false);
     finished_target(t, &over);
     for (bool any = tile_run_fill(t, FILL_BLENDED, false); any; any = tile_run_fill(t, FILL_BLENDED, true))
         smear_raster_list(&rows->raster, &over, t->blend);
@@ -130,7 +130,7 @@ static int finish_static(const struct smear_finish *f, int first, int end, int w
     const struct smear_tile_run t = tiles_of(f, first, next, worker);
     struct smear_raster_target out;
     finished_target(&t, &out);
-    smear_tile_run_take_background(&t, false);
+    smear_tile_run_take_background(&t, t.out, false);
     smear_band_convert_rows(&f->row, &out, x0, x1);
     return next;
 }
@@ -179,7 +179,8 @@ static int finish_subframes(const struct smear_finish *f, int first, int end, in
     struct smear_tile_run t = tiles_of(f, first, next, worker);
     widen(&t, f);
     refill_tiles(&t, f);
-    if (!self->moving.measures)
+    t.mixes = !self->moving.measures;
+    if (t.mixes)
         instants = 1 + self->lines->pictures;
     const uint32_t samples = smear_subframes_tiles(&t, instants, plans ? &plan : NULL);
     f->row.rows->samples[worker] += temporal_is_sharp(self) ? 0 : samples;

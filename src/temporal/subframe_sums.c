@@ -64,11 +64,10 @@ void smear_subframe_restore_depth(const struct subframes *f, const struct subfra
                          (size_t)(wide.x1 - wide.x0) * sizeof *s->depth);
 }
 
-void smear_tile_run_take_background(const struct smear_tile_run *t, bool nothing)
+void smear_tile_run_take_background(const struct smear_tile_run *t, uint32_t *color, bool nothing)
 {
     const struct smear_raster_target *s = &t->background;
     const size_t bytes = (size_t)(s->x1 - s->x0) * sizeof *s->color;
-    uint32_t *color = t->out;
     for (int32_t y = s->y0; y < s->y1; y++, color += t->pitch)
         if (nothing)
             __builtin_memset(color, (int)(PACKED_NOTHING & 255u), bytes);

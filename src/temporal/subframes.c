@@ -4,7 +4,8 @@
  * Where no moving triangle is at an instant, a tile looks as it does without moving triangles: that picture, the
  * background (what does not move, with its blended draws), is made once and weighs for all instants that show nothing
  * else. At each instant only the box around the moving triangles is drawn, summed and emptied again: before nothing, as
- * what moves may have the colours of the background. What is blended is drawn over the background.
+ * what moves may have the colours of the background. What is blended is drawn over the background. Few instants of which no gaps are
+ * closed are drawn over the background, each apart, and mixed.
  *
  *     list        what may be seen in the tiles
  *     for each instant:
@@ -15,11 +16,13 @@
 
 #include "display/row.h"
 #include "geometry/path.h"
+#include "kernels/line_means.h"
 #include "raster/raster.h"
 #include "temporal/subframe_tile.h"
 #include "temporal/tile_method.h"
 
-enum { SUM_WORDS = 2 };         /* of a packed sum */
+enum { SUM_WORDS = 2,           /* of a packed sum, or planes of instants */
+       MIXED = 2 + SUM_WORDS };     /* instants at most */
 
 size_t smear_subframes_work(int32_t width, int32_t height)
 {
@@ -288,6 +291,30 @@ static uint32_t draw_rest(struct subframes *f, int32_t drawn, uint32_t samples, 
     return f->refilled != NULL && !f->blends ? draw_others_apart(f, drawn, samples, all) : draw_others(f, drawn, samples, all);
 }
 
+/* Draws few instants over what stands still, each in a plane of its own, and mixes them as pictures are: the last two of three or four at
+ * once. */
+static uint32_t mix_instants(struct subframes *f, const struct subframe_box *whole)
+{
+    const int32_t n = (int32_t)f->instants, pixels = f->t->pitch * (whole->y1 - whole->y0);
+    uint32_t *const plane = (uint32_t *)f->t->work, samples = 0;
+    struct subframe_box all = no_box;
+    for (int32_t k = 0; k < n; k++) {
+        f->work.color = k == 0 ? f->t->out : plane + (k > 1 && k + 1 == n ? pixels : 0);
+        smear_tile_run_take_background(f->t, f->work.color, false);
+        const struct subframe_box box = draw_instant(f, smear_shutter_instant(f->t->shutter, k, n));
+        box_add(&all, &box);
+        const int32_t drawn = pixels_in(&box);
+        samples += (uint32_t)drawn;
+        if (drawn != 0 && k + 1 != n)
+            smear_subframe_restore_depth(f, &box);
+        for (int32_t y = all.y0; k > 0 && (n - k) % 2 != 0 && y < all.y1; y++) {
+            const int32_t at = work_row(f, &all, y);
+            smear_line_mix(f->t->out + at, plane + at, plane + pixels + at, all.x1 - all.x0, k, frame_transfer(f->t->frame));
+        }
+    }
+    return samples;
+}
+
 /* Draws and sums as many instants as the plan says, the middle one first. Where something passes the eye they show
  * what the middle does not: what changes from one to the next is planned for, too. Up to half as many more are done without. */
 static uint32_t draw_planned(struct subframes *f, const struct smear_tile_plan *plan, struct subframe_box *all)
@@ -356,7 +383,9 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     smear_subframe_restore_depth(&f, &whole);
     uint32_t samples = 0;
     const bool moves = list(&f);
-    smear_tile_run_take_background(t, !f.blends);
+    if (moves && t->mixes && !f.blends && !has_shifts(&f) && instants <= MIXED)
+        return mix_instants(&f, &whole);
+    smear_tile_run_take_background(t, t->out, !f.blends);
     if (moves)
         samples = f.plans ? draw_planned(&f, plan, &all) : draw_rest(&f, 0, 0, &all);
     if (f.blends)
@@ -364,7 +393,7 @@ uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const
     else if (f.instants == 0)
         smear_subframe_lay_over(&f);
     else
-        smear_tile_run_take_background(t, false);
+        smear_tile_run_take_background(t, t->out, false);
     if (samples != 0 && f.instants != 0)
         smear_subframe_average(&f, &all, plan);
     return samples;

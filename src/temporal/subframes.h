@@ -30,6 +30,7 @@ struct smear_tile_run {
     uint32_t *out;                              /* finished working pixels, rows `pitch` apart */
     int32_t pitch;
     int32_t tile;                               /* edge, pixels */
+    bool mixes;                                 /* few instants, as pictures of lines.h are mixed */
     /* Where the row's triangles do not find room at once (display/row.h), else null: `moving` and `blend` are only some of
      * them, the first ones or, with `next`, those after; false when there are none left. `kinds`: FILL_MOVING ... Of what
      * moves, those that are seen in columns [fill_x0, fill_x1) */
@@ -74,7 +75,7 @@ struct smear_tile_plan;
 uint32_t smear_subframes_tiles(struct smear_tile_run *t, int32_t instants, const struct smear_tile_plan *plan);
 
 /* Copies the background's colours, or puts PACKED_NOTHING in their place. */
-void smear_tile_run_take_background(const struct smear_tile_run *t, bool nothing);
+void smear_tile_run_take_background(const struct smear_tile_run *t, uint32_t *color, bool nothing);
 
 /* Finds depths in the middle of the exposure of what is opaque, of columns [x0, x1) of the tiles, when their pixels are done.
  * Returns them, in the work memory, in rows like those of `out`. */
