@@ -223,9 +223,9 @@ void smear_lines_look(const struct smear_lines *lines, const struct smear_window
         }
         for (int32_t v = y; v < end; v += BLOCK - 1)
             note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1, 0, BLOCK - 1, false);
-        /* Of blocks that are bare at their corners, a row in their midst shows what is small. */
-        const int32_t v = min_i32(y + BLOCK / 2 - 1, end - 1);
-        note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1, BLOCK / 2 - 1, BLOCK / 2, true);
+        /* Of blocks that are bare at their corners, those on the way from one to the other show what is small or thin. */
+        for (int32_t v = y + 1; v < end - 1; v++)
+            note_depth(seen, first ? window_depth(w, 0, v) : line_depth(lines, w, 0, v), x0, x1, v - y, v - y, true);
     }
 }
 
