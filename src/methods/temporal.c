@@ -432,7 +432,7 @@ void smear_temporal_begin(struct smear_temporal *self, const smear_frame *frame,
 int smear_temporal_rows(struct smear_temporal *self, struct smear_rows *rows, int first, int *end)
 {
     const bool plans = self->chooser.method == SMEAR_AUTO;
-    self->moving.measures = !temporal_has_lines(self);
+    self->moving.measures = !temporal_has_lines(self) || self->lines->measures;
     self->moving.blocks.columns = plans && self->moving.measures ? block_columns(rows->window.width) : 0;
     if (plans) {
         self->chooser.target = self->target;        /* the part before may have had another */

@@ -41,20 +41,24 @@ static bool is_far(const smear_camera *c, uint32_t units)
 }
 
 /* Returns how a draw goes on the screen, as some of its vertices tell, and whether one picture of it does not do: it goes far, or it shows
- * something else every few pixels and goes less than the shortest line blurs. */
-static enum smear_line_kind kind_of(bool *twice, const struct smear_flow *own, const struct smear_lines *lines,
+ * something else every few pixels and goes less than the shortest line blurs. `passed`: pixels of its box times how far it goes, px; of all
+ * the frame where it comes near the eye. */
+static enum smear_line_kind kind_of(bool *twice, uint32_t *passed, const struct smear_flow *own, const struct smear_lines *lines,
                                     const struct smear_placement *place, const struct smear_window *w, const smear_mesh *mesh,
                                     const smear_camera *camera)
 {
     enum { SAMPLES = 8, ALIKE = 384, STILL = 128, PARALLAX = 4 * 256, FAR = 8 * 256, SHORT = 384,     /* q8 px */
-           FINE_LOG2 = 4 };             /* px of its box per vertex */
+           FINE_LOG2 = 4,               /* px of its box per vertex */
+           LONGEST = 1023 };            /* px */
     const struct smear_viewport viewport = { w->width, w->height };
     int32_t apart = 0, way = 0, x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
-    bool seen = false, behind = true;
+    bool seen = false, behind = true, near = false;
     for (uint32_t i = 0; i < mesh->vertex_count; i += 1u + mesh->vertex_count / SAMPLES) {
         struct smear_screen s;
         int32_t a[2], b[2], c[2];
-        if ((placement_project(&s, place, i, &viewport) & (OUT_NEAR | OUT_GUARD)) != 0)
+        const int out = placement_project(&s, place, i, &viewport);
+        near = near || (out & OUT_NEAR) != 0;
+        if ((out & (OUT_NEAR | OUT_GUARD)) != 0)
             continue;           /* what goes round the camera is seen in part */
         seen = true;
         x0 = min_i32(x0, s.x >> 8);
@@ -68,6 +72,9 @@ static enum smear_line_kind kind_of(bool *twice, const struct smear_flow *own, c
         apart = max_i32(apart, max_i32(abs_i32(a[0] - b[0]), abs_i32(a[1] - b[1])));
         way = max_i32(way, max_i32(abs_i32(a[0]), abs_i32(a[1])));
     }
+    const int32_t columns = seen ? max_i32(min_i32(x1, w->width) - max_i32(x0, 0), 0) : 0,
+                  rows = seen ? max_i32(min_i32(y1, w->height) - max_i32(y0, 0), 0) : 0;
+    *passed = near ? UINT32_MAX : (uint32_t)(columns * rows) * min_u32((uint32_t)way >> 8, LONGEST);
     *twice = !seen || way > FAR || (way < SHORT && (uint32_t)((x1 - x0) * (y1 - y0)) >> FINE_LOG2 < mesh->vertex_count);
     return !seen ? LINE_MOVES : apart <= ALIKE ? LINE_GOES_ALONG : way > STILL ? LINE_MOVES : behind ? LINE_IS_BEHIND : LINE_IS_STILL;
 }
@@ -87,9 +94,15 @@ bool smear_movers_take(struct smear_lines *lines, struct smear_draw_poses *p, co
     smear_lines_make_flow(&lines->own[draw], shot, w, camera);
     smear_draw_poses_place(&place, p, shot, mesh, &lines->mover_instant[0]);
     bool twice;
-    const enum smear_line_kind kind = kind_of(&twice, &lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
+    uint32_t passed;
+    const enum smear_line_kind kind = kind_of(&twice, &passed, &lines->own[draw], lines, &place, w, mesh, &shot->camera[0]);
     if (kind != LINE_GOES_ALONG && !lines->takes_movers)
         return false;
+    if (kind == LINE_MOVES && passed > lines->room) {
+        lines->measures = true;
+        return false;
+    }
+    lines->room -= kind == LINE_MOVES ? passed : 0;
     lines->kind[draw] = (uint8_t)kind;
     lines->movers = (uint16_t)(lines->movers + (kind != LINE_GOES_ALONG));
     lines->behind = (uint16_t)(lines->behind + (kind == LINE_IS_BEHIND));

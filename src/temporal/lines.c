@@ -107,7 +107,8 @@ bool smear_lines_begin(struct smear_lines *lines, const struct smear_shot *shot,
 {
     lines->most = smooth ? 1 : LINE_PICTURES;
     lines->takes_movers = !smooth;
-    lines->twice = false;
+    lines->room = (uint32_t)(w->width * w->height >> 7) * (uint32_t)target;     /* half a pixel for each code */
+    lines->twice = lines->measures = false;
     lines->transfer = transfer;
     const int least = least_pictures(shot, target, lines->most), pictures = min_i32(pictures_for(lines, target, least), lines->most);
     if (least > lines->most) {

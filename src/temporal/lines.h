@@ -59,6 +59,8 @@ struct smear_lines {
     uint8_t most;                   /* pictures in this frame */
     uint8_t wait;                   /* frames by instants after one that lines did not do for */
     bool takes_movers;              /* else they are drawn at instants */
+    bool measures;                  /* how many these are is measured: there was no room for a mover */
+    uint32_t room;                  /* for movers that lines may still take: pixels times how far they go, px */
     bool twice;                     /* one picture of one of them does not do, so that there are two of all */
     uint8_t *kind;                  /* of each draw: enum smear_line_kind */
     struct smear_flow *own;         /* of each draw that has one */
