@@ -12,12 +12,12 @@ enum {
     small_carry = 32            /* 1/8 px: less motion along an axis hardly carries anything out of a tile */
 };
 
-/* Returns the step from one velocity to another. One of a pixel and more from what stands still is an edge, and counts four
- * times: what is carried over it is seen. */
+/* Returns the step from one velocity to another. One of a pixel and more from what stands still is an edge where all is slow: what is
+ * carried over it is seen. */
 static int32_t change(struct smear_pixel_velocity a, struct smear_pixel_velocity b)
 {
     const int32_t step = max_i32(abs_i32(a.x - b.x), abs_i32(a.y - b.y));
-    return step >= 8 && ((a.x | a.y) == 0 || (b.x | b.y) == 0) ? step << 2 : step;
+    return step >= 8 && ((a.x | a.y) == 0 || (b.x | b.y) == 0) ? max_i32(step, small_step + 1) : step;
 }
 
 /* Whether n velocities of a row are those above them, as most are: blocks of pixels share one. */
