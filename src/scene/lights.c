@@ -16,36 +16,35 @@ enum { FINE = 4 };
 
 /* ------------------------------------------------------------------ numbers of any size, once per draw */
 
-/* m 2^e; m >= 2^31, or 0. */
-struct real {
-    uint32_t m;
-    int e;
-};
+/* m 2^e, m >= 2^31 or 0: m in the lower word, e in the upper one. Structs would be returned in memory. */
+typedef uint64_t real_number;
 
-static struct real real_of(uint64_t x, int e)
+static inline real_number real_make(uint32_t m, int e) { return (uint64_t)(uint32_t)e << 32 | m; }
+static inline uint32_t real_m(real_number a) { return (uint32_t)a; }
+static inline int real_e(real_number a) { return (int)(int32_t)(uint32_t)(a >> 32); }
+
+static real_number real_of(uint64_t x, int e)
 {
     if (x == 0)
-        return (struct real){ 0, 0 };
+        return 0;
     const int zeros = count_leading_zeros_64(x);
-    return (struct real){ (uint32_t)(x << zeros >> 32), e + 32 - zeros };
+    return real_make((uint32_t)(x << zeros >> 32), e + 32 - zeros);
 }
 
-static struct real real_times(struct real a, struct real b)
+static SMEAR_NOINLINE real_number real_times(real_number a, real_number b)
 {
-    return real_of((uint64_t)a.m * b.m, a.e + b.e);
+    return real_of((uint64_t)real_m(a) * real_m(b), real_e(a) + real_e(b));
 }
 
-/* Returns 1 / a, for a > 0. */
-static struct real real_over(struct real a)
-{
-    return real_of(recip_norm_precise(a.m), -61 - a.e);
-}
+/* Returns 2^by / a, for a > 0. */
+static real_number real_over(real_number a, int by) { return real_of(recip_norm_precise(real_m(a)), by - 61 - real_e(a)); }
 
 /* Returns x r, within +-2^28. */
-static int32_t times_real(int64_t x, struct real r)
+static int32_t times_real(int64_t x, real_number r)
 {
-    const struct real p = real_times(real_of(magnitude(x), 0), r);
-    const int32_t size = p.m == 0 || p.e <= -32 ? 0 : p.e > -4 ? 1 << 28 : (int32_t)(p.m >> -p.e);
+    const real_number p = real_times(real_of(magnitude(x), 0), r);
+    const int e = real_e(p);
+    const int32_t size = real_m(p) == 0 || e <= -32 ? 0 : e > -4 ? 1 << 28 : (int32_t)(real_m(p) >> -e);
     return x < 0 ? -size : size;
 }
 
@@ -79,12 +78,12 @@ static const struct smear_lights_used *begin(struct smear_lights_used *used, con
 static inline int32_t within(int64_t x) { return (int32_t)(x > 1 << 29 ? 1 << 29 : x < -(1 << 29) ? -(1 << 29) : x); }
 
 /* Takes the lamp's reach in units of any size, and returns the power of two that makes 13 to 14 bits of it. */
-static int set_reach(struct smear_lights_seen *l, struct real reach)
+static int set_reach(struct smear_lights_seen *l, real_number reach)
 {
-    l->reach = (int32_t)(reach.m >> 18);
-    l->square = (reach.m >> 16) * (reach.m >> 16) >> 4;
+    l->reach = (int32_t)(real_m(reach) >> 18);
+    l->square = (real_m(reach) >> 16) * (real_m(reach) >> 16) >> 4;
     l->share = 0xffffffffu / (l->square >> 12) - 1u;
-    return -18 - reach.e;
+    return -18 - real_e(reach);
 }
 
 /* Returns where along an axis of the world a place of the mesh, in thirds of steps, lies. */
@@ -113,14 +112,14 @@ static bool is_reached(struct smear_lights_seen *l, const struct smear_assembly 
 }
 
 /* Returns the length of a column of a basis, all of which have one. */
-static struct real length_of(const smear_transform *object)
+static real_number length_of(const smear_transform *object)
 {
     const int32_t *b = object->basis;
     return real_of(max_u32(sqrt_floor_64((uint64_t)dot_wide(b, 3, b, 3)), 1), 0);
 }
 
 /* Turns a vector of the world to an axis of object space. */
-static int32_t turned(const smear_transform *object, int axis, const int32_t v[3], struct real over_length)
+static int32_t turned(const smear_transform *object, int axis, const int32_t v[3], real_number over_length)
 {
     return times_real(dot_wide(object->basis + axis, 3, v, 1), over_length);
 }
@@ -129,20 +128,20 @@ static int32_t turned(const smear_transform *object, int axis, const int32_t v[3
 static bool place_even(struct smear_lights_seen *l, const struct smear_lights_used *used, const struct smear_assembly *d,
                        const smear_transform *object)
 {
-    const struct real length = length_of(object);
+    const real_number length = length_of(object);
     int32_t way[3];
-    struct real steps = real_over(real_times(length, real_of((uint32_t)max_i32(d->mesh->scale, 1), -8 - d->mesh->shift)));
+    real_number steps = real_over(real_times(length, real_of((uint32_t)max_i32(d->mesh->scale, 1), -8 - d->mesh->shift)), 0);
     const int up = set_reach(l, real_times(real_of((uint32_t)used->word[LIGHTS_REACH], 0), steps));
     if (up > 15)
         return false;           /* a step is beyond the reach */
     l->up = (uint8_t)max_i32(up, 0);
     l->down = (uint8_t)clamp_i32(-up, 0, 31);
-    steps.e += up + FINE;
+    steps += (uint64_t)(uint32_t)(up + FINE) << 32;
     for (int i = 0; i < 3; i++)
         way[i] = times_real((int64_t)used->word[LIGHTS_LAMP + i] - object->origin[i], steps);
     for (int i = 0; i < 3; i++) {
         const int64_t offset = (int64_t)d->mesh->offset[i] * (1 << l->up) >> l->down;
-        l->lamp[i] = within((turned(object, i, way, real_over(length)) >> FINE) - offset);
+        l->lamp[i] = within((turned(object, i, way, real_over(length, 0)) >> FINE) - offset);
     }
     return is_reached(l, d);
 }
@@ -153,16 +152,16 @@ static bool place_uneven(struct smear_lights_seen *l, const struct smear_lights_
 {
     uint64_t largest = 1;
     const int up = set_reach(l, real_of((uint32_t)used->word[LIGHTS_REACH], 0));
-    const struct real units = real_of(1, up);
-    struct real steps = real_times(units, real_of((uint32_t)max_i32(mesh->scale, 1), -8 - mesh->shift));
-    steps = real_times(steps, (struct real){ 0xaaaaaaabu, -33 });      /* a third */
+    const real_number units = real_of(1, up);
+    real_number steps = real_times(units, real_of((uint32_t)max_i32(mesh->scale, 1), -8 - mesh->shift));
+    steps = real_times(steps, real_make(0xaaaaaaabu, -33));      /* a third */
     for (int i = 0; i < 9; i++)
         largest |= magnitude(object->basis[i]);
-    const int down = -4 - real_times(steps, real_of(largest, 0)).e;
+    const int down = -4 - real_e(real_times(steps, real_of(largest, 0)));
     if (down < 0)
         return false;
     l->down = (uint8_t)min_i32(down, 40);
-    steps.e += l->down;
+    steps += (uint64_t)l->down << 32;
     for (int i = 0; i < 9; i++)
         l->step[i] = times_real(object->basis[i], steps);
     const int32_t offset[3] = { 3 * mesh->offset[0], 3 * mesh->offset[1], 3 * mesh->offset[2] };
@@ -443,8 +442,7 @@ static bool see(struct smear_lights_seen *l, const struct smear_lights_used *use
         l->second[i] = used->word[LIGHTS_SECOND + i];
         l->half[i] = used->word[LIGHTS_HALF + i];
     }
-    struct real finer = real_over(length_of(object));
-    finer.e += 9;               /* q14 to q23 */
+    const real_number finer = real_over(length_of(object), 9);      /* q14 to q23 */
     for (int i = 0; l->even && i < 3; i++) {
         l->second[i] = turned(object, i, used->word + LIGHTS_SECOND, finer) / 127;
         l->half[i] = turned(object, i, used->word + LIGHTS_HALF, finer) / 127;
