@@ -70,9 +70,6 @@ struct map {
     int64_t offset[3];          /* a, q40 world units */
 };
 
-static const struct map same_place = { { { 1 << 27, 0, 0 }, { 0, 1 << 27, 0 }, { 0, 0, 1 << 27 } },
-                                       { 0, 0, 0 } };
-
 static SMEAR_NOINLINE int32_t clamp_narrow(int64_t a, int32_t limit) { return clamp_i32(narrow_sat(a), -limit, limit); }
 
 static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
@@ -84,7 +81,7 @@ static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
 static void map_make(struct map *m, const smear_camera *now, const smear_camera *camera)
 {
     const int32_t *to = camera->pose.basis, *from = now->pose.basis;
-    *m = same_place;
+    *m = (struct map){ .turn[0][0] = 1 << 27, .turn[1][1] = 1 << 27, .turn[2][2] = 1 << 27 };
     if (!smear_transform_is_same(&camera->pose, &now->pose)) {
         for (int i = 0; i < 3; i++) {
             int64_t offset = 0;
