@@ -51,20 +51,24 @@ SMEAR_STATIC_ASSERT(sizeof(struct smear_joint_matrix) == 48, "SMEAR_ACTOR_MEMORY
 
 /* ------------------------------------------------------------------ transforms */
 
-static int32_t within_factor(int32_t a)
+static SMEAR_NOINLINE int32_t within_factor(int32_t a) { return clamp_i32(a, -FACTOR_LIMIT, FACTOR_LIMIT); }
+
+static SMEAR_NOINLINE void keep_within_factor(int32_t a[], int count)
 {
-    return clamp_i32(a, -FACTOR_LIMIT, FACTOR_LIMIT);
+    for (int i = 0; i < count; i++)
+        a[i] = within_factor(a[i]);
 }
 
-/* Returns a b for a in Q8.24 within +-8, in the format of b: Q8.24 within +-8, or Q16.16. */
-static int32_t times_factor(int32_t a, int32_t b)
+/* Returns 1/16 of the product of a row in Q8.24 within +-8 and a vector, in its format. */
+static SMEAR_NOINLINE int32_t row_times_high(const int32_t row[3], int32_t x, int32_t y, int32_t z)
 {
-    return mulh_i32(shl_wrap(a, 4), shl_wrap(b, 4));
+    return add_wrap(add_wrap(mulh_i32(shl_wrap(row[0], 4), x), mulh_i32(shl_wrap(row[1], 4), y)), mulh_i32(shl_wrap(row[2], 4), z));
 }
 
+/* Returns the product where the vector is Q8.24 within +-8, or Q16.16. */
 static int32_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
 {
-    return add_wrap(add_wrap(times_factor(row[0], x), times_factor(row[1], y)), times_factor(row[2], z));
+    return row_times_high(row, shl_wrap(x, 4), shl_wrap(y, 4), shl_wrap(z, 4));
 }
 
 /* Computes parent x local; `out` is neither. */
@@ -375,10 +379,8 @@ static void pose_nodes(struct smear_actor *a, const smear_play *play, struct cur
         for (uint32_t k = 0; k < play->move_count; k++)
             if (play->move[k].node == i) {
                 smear_transform by = play->move[k].local;
-                for (int j = 0; j < 9; j++)
-                    by.basis[j] = within_factor(by.basis[j]);
-                for (int j = 0; j < 3; j++)
-                    by.origin[j] = within_factor(by.origin[j]);
+                keep_within_factor(by.basis, 9);
+                keep_within_factor(by.origin, 3);
                 compose(&moved, &local, &by);
                 local = moved;
             }
@@ -424,9 +426,7 @@ static void pose_joints(struct smear_actor *a, const smear_model_skin *skin)
             const int32_t *basis = w->basis + 3 * row, *origin = joint->origin;
             for (int k = 0; k < 3; k++)             /* q20 to q14 */
                 out->row[row][k] = clamp_i32(
-                    scale_sat(add_wrap(add_wrap(mulh_i32(shl_wrap(basis[0], 4), joint->basis[k]),
-                                                mulh_i32(shl_wrap(basis[1], 4), joint->basis[3 + k])),
-                                       mulh_i32(shl_wrap(basis[2], 4), joint->basis[6 + k])), -6),
+                    scale_sat(row_times_high(basis, joint->basis[k], joint->basis[3 + k], joint->basis[6 + k]), -6),
                     -SMEAR_JOINT_LIMIT, SMEAR_JOINT_LIMIT);
             int32_t at = within_factor(add_wrap(w->origin[row],
                                                 row_times(basis, origin[0], origin[1], origin[2])));
@@ -580,8 +580,7 @@ int smear_actor_set(smear_actor *a, smear_pose pose, const smear_play *play)
         return SMEAR_ERR_ARG;
     smear_transform *place = &a->pose[which].transform[0];
     *place = play->place != NULL ? *play->place : identity;
-    for (int i = 0; i < 9; i++)
-        place->basis[i] = within_factor(place->basis[i]);
+    keep_within_factor(place->basis, 9);
     a->when[which] = (struct clip_time){ play->time, play->clip, play->rest, play->loop };
     a->known = (uint8_t)(a->known | 1u << which);
     make_pose(a, which, play);
