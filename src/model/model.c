@@ -368,27 +368,26 @@ int smear_mesh_check(const void *blob, size_t bytes)
 
 const char *smear_mesh_reason(int error)
 {
-    switch (error) {
-    case SMEAR_OK:                 return "";
-    case SMEAR_ERR_MEMORY:         return "too little memory for its tables";
-    case SMEAR_MODEL_ERR_ENDIAN:   return "blobs are little-endian and this core is not: take the header";
-    case SMEAR_MODEL_ERR_ALIGN:    return "does not lie on a multiple of 4";
-    case SMEAR_MODEL_ERR_MAGIC:    return "not a model of smear convert";
-    case SMEAR_MODEL_ERR_FORMAT:   return "made for another version of smear";
-    case SMEAR_MODEL_ERR_SIZE:     return "cut short";
-    case SMEAR_MODEL_ERR_CRC:      return "damaged: its checksum is wrong";
-    case SMEAR_MODEL_ERR_TABLE:    return "a table does not lie within it";
-    case SMEAR_MODEL_ERR_MESH:     return "a mesh points outside of it";
-    case SMEAR_MODEL_ERR_TEXTURE:  return "a texture points outside of it";
-    case SMEAR_MODEL_ERR_MATERIAL: return "a material has no such texture or alpha mode";
-    case SMEAR_MODEL_ERR_DRAW:     return "a draw names something that is not there";
-    case SMEAR_MODEL_ERR_NODE:     return "a node comes before its parent or is out of range";
-    case SMEAR_MODEL_ERR_SKIN:     return "a skin names a joint that is not there";
-    case SMEAR_MODEL_ERR_MORPH:    return "a morph target names a vertex that is not there";
-    case SMEAR_MODEL_ERR_SHARED:   return "its records share arrays so often that checking them would take too long";
-    case SMEAR_MODEL_ERR_CLIP:     return "a clip has keys out of order or a target that is not there";
-    default:                       return "unknown error";
-    }
+    /* One after the other, each with its end: SMEAR_OK, SMEAR_ERR_MEMORY, and from SMEAR_MODEL_ERR_ENDIAN down. */
+    static const char texts[] = "\0too little memory for its tables\0"
+                                "blobs are little-endian and this core is not: take the header\0"
+                                "does not lie on a multiple of 4\0not a model of smear convert\0"
+                                "made for another version of smear\0cut short\0damaged: its checksum is wrong\0"
+                                "a table does not lie within it\0a mesh points outside of it\0"
+                                "a texture points outside of it\0a material has no such texture or alpha mode\0"
+                                "a draw names something that is not there\0"
+                                "a node comes before its parent or is out of range\0"
+                                "a skin names a joint that is not there\0"
+                                "a morph target names a vertex that is not there\0"
+                                "a clip has keys out of order or a target that is not there\0"
+                                "its records share arrays so often that checking them would take too long\0unknown error";
+    int number = error == SMEAR_OK ? 0 : error == SMEAR_ERR_MEMORY ? 1 : 18;
+    if (error <= SMEAR_MODEL_ERR_ENDIAN && error >= SMEAR_MODEL_ERR_SHARED)
+        number = 2 + SMEAR_MODEL_ERR_ENDIAN - error;
+    const char *text = texts;
+    for (; number > 0; text++)
+        number -= *text == '\0';
+    return text;
 }
 
 /* ------------------------------------------------------------------ a model from a blob */
