@@ -17,16 +17,17 @@
 /* What 0 means for scales, of which SMEAR_SCALE_NONE means 0. */
 enum { WHOLE = 256 };
 
-/* A field of a struct: what 0 means, and its range. */
+/* A field of a struct: what 0 means, and its range: up to most 2^up. */
 struct field {
-    uint8_t offset, size;           /* size 1, 2 or 4 */
+    uint8_t offset, size : 4, up : 4;       /* size 1, 2 or 4 */
     uint8_t fault;
-    uint16_t least, otherwise;
-    uint32_t most;
+    uint16_t least, otherwise, most;
 };
 
+#define UP_OF(most) ((most) > 1 << 20 ? 10 : (most) > 65535 ? 6 : 0)
 #define FIELD(type, member, fault, otherwise, least, most) \
-    { (uint8_t)offsetof(type, member), sizeof(((type *)0)->member), FAULT_NUMBER_##fault, least, otherwise, most }
+    { (uint8_t)offsetof(type, member), sizeof(((type *)0)->member), UP_OF(most), FAULT_NUMBER_##fault, least, otherwise, \
+      (most) >> UP_OF(most) }
 
 static uint32_t read_field(const uint8_t *at, int size)
 {
@@ -65,7 +66,7 @@ static int resolve_fields(void *record, const struct field *field, int count)
             value = 0;
         if (value != given)
             write_field(at, field->size, value);
-        if (value < field->least || value > field->most)
+        if (value < field->least || value > (uint32_t)field->most << field->up)
             return SMEAR_ERR_FIELD - 1 - field->fault;
     }
     return SMEAR_OK;
@@ -203,7 +204,9 @@ static const struct field blur_fields[] = {
     FRAME(shutter.mode, MODE, 0, 0, SMEAR_SHUTTER_MODE_MOST),
     FRAME(shutter.path, PATH, SMEAR_PATH_LEAST, SMEAR_PATH_LEAST, SMEAR_PATH_MOST),
     FRAME(shutter.reference_hz, REFERENCE, 30, 1, 1000), FRAME(shutter.frame_us, TIME, 0, 0, 1000000),
-    FRAME(shutter.us, US, 0, 0, SMEAR_SHUTTER_US_MOST),
+#if !SMEAR_SHUTTER_US_ANY
+    FRAME(shutter.us, US, 0, 0, 0),
+#endif
     FRAME(filter.weights, WEIGHTS, 0, 0, SMEAR_WEIGHTS_MOST),
     FRAME(filter.camera_step, STEP, 0, 0, SMEAR_CAMERA_STEP_MOST),
 #if SMEAR_WITH_FILTERS
