@@ -304,6 +304,12 @@ static big_number change_of(const struct change *c, int64_t first, int64_t secon
     return times(number_of((c->r->poses == 2 ? second : 0) - first, -q), c->exposure);
 }
 
+/* Returns the same of a term of 32 bits, times 2^up, less than 2^bits in magnitude. */
+static SMEAR_NOINLINE int32_t fixed_change(const struct change *c, int32_t first, int32_t second, int up, int bits)
+{
+    return fixed_of(change_of(c, first, second, -up), 0, bits);
+}
+
 /* Makes terms per unit of 11 bits. Returns by how many they are to be shifted down. */
 static uint8_t take_units(int32_t out[], const big_number term[], int count)
 {
@@ -326,13 +332,13 @@ void smear_flow_make(struct smear_flow *f, const struct smear_reprojection *r, i
     const big_number turn = change_of(&c, -scale_up(p->w_u, p->w_shift), -scale_up(q->w_u, q->w_shift), 48);
     big_number aside[2];
     *f = (struct smear_flow){ .width = r->width, .height = r->height };
-    f->turn_x = fixed_of(change_of(&c, -(int64_t)p->w_x, -(int64_t)q->w_x, 30), 22, 19);
-    f->turn_y = fixed_of(change_of(&c, -(int64_t)p->w_y, -(int64_t)q->w_y, 30), 22, 19);
+    f->turn_x = fixed_change(&c, -p->w_x, -q->w_x, -8, 19);
+    f->turn_y = fixed_change(&c, -p->w_y, -q->w_y, -8, 19);
     for (int i = 0; i < 2; i++) {
         const int32_t *from = i == 0 ? p->x : p->y, *to = i == 0 ? q->x : q->y;
-        f->along[i] = fixed_of(change_of(&c, (int64_t)from[i] - p->w_1, (int64_t)to[i] - q->w_1, 27), 16, 17);
-        f->across[i] = fixed_of(change_of(&c, from[1 - i], to[1 - i], 27), 16, 17);
-        f->one[i] = fixed_of(change_of(&c, p->one[i], q->one[i], 16), 16, MOST);
+        f->along[i] = fixed_change(&c, from[i] - p->w_1, to[i] - q->w_1, -11, 17);
+        f->across[i] = fixed_change(&c, from[1 - i], to[1 - i], -11, 17);
+        f->one[i] = fixed_change(&c, p->one[i], q->one[i], 0, MOST);
         aside[i] = change_of(&c, scale_up(p->u[i], p->u_shift), scale_up(q->u[i], q->u_shift), 37);
     }
     f->turn_down = take_units(&f->turn_u, &turn, 1);
