@@ -38,7 +38,7 @@ static void screw_second(int32_t out[3], const struct smear_turn *turn, const in
     across_axis(across, turn->axis, first);
     cross_axis(aside, turn->axis, across);
     for (int i = 0; i < 3; i++)
-        out[i] = narrow_sat((((int64_t)turn->cosine - (1 << 30)) * across[i] - (int64_t)turn->sine * aside[i]) >> 30);
+        out[i] = narrow_sat((((int64_t)turn->cosine - (1 << 30)) * across[i] - mul_wide(turn->sine, aside[i])) >> 30);
 }
 
 /* ------------------------------------------------------------------ choice */
@@ -154,7 +154,7 @@ static void bend(int64_t b[2], const struct smear_turn *turn, int32_t time)
     const int32_t one = 1 << 30, cosine = turn->cosine, sine = turn->sine;
     /* q24: 130 at most */
     const int64_t x = (cosine_t - (int64_t)one + ((int64_t)time * ((int64_t)cosine - one) >> 24)) >> 6;
-    const int64_t y = (sine_t - ((int64_t)time * sine >> 24)) >> 6;
+    const int64_t y = (sine_t - (mul_wide(time, sine) >> 24)) >> 6;
     /* 1 / w = cosine + i sine */
     const int64_t over_x = -(x * cosine - y * sine) >> 30, over_y = -(x * sine + y * cosine) >> 30;
     const uint32_t square = (uint32_t)((int64_t)one - cosine);      /* q30 */

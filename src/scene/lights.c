@@ -140,7 +140,7 @@ static bool place_even(struct smear_lights_seen *l, const struct smear_lights_us
     for (int i = 0; i < 3; i++)
         way[i] = times_real((int64_t)used->word[LIGHTS_LAMP + i] - object->origin[i], steps);
     for (int i = 0; i < 3; i++) {
-        const int64_t offset = (int64_t)d->mesh->offset[i] * (1 << l->up) >> l->down;
+        const int64_t offset = mul_wide(d->mesh->offset[i], 1 << l->up) >> l->down;
         l->lamp[i] = within((turned(object, i, way, real_over(length, 0)) >> FINE) - offset);
     }
     return is_reached(l, d);

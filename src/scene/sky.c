@@ -45,10 +45,10 @@ static void find_plane(int32_t plane[3], const struct smear_shot *shot, const in
     int64_t sum[3] = { 0, 0, 0 };
     for (int k = 0; k < 3; k++) {
         const int32_t *up = &shot->camera[k].pose.basis[3];
-        const int64_t step = weight[k] != 0 ? step_of(&shot->camera[k], width, shot->height) : 0;
+        const int32_t step = weight[k] != 0 ? step_of(&shot->camera[k], width, shot->height) : 0;
         sum[0] -= mul_wide(up[2], weight[k]);
-        sum[1] += (up[0] * step >> 24) * weight[k];
-        sum[2] += (up[1] * step >> 24) * weight[k];
+        sum[1] += (mul_wide(up[0], step) >> 24) * weight[k];
+        sum[2] += (mul_wide(up[1], step) >> 24) * weight[k];
     }
     /* Sums of the three stay within 2^30: more is no picture any more. */
     for (int i = 0; i < 3; i++) {
