@@ -375,10 +375,8 @@ const char *smear_mesh_reason(int error)
                                 "made for another version of smear\0cut short\0damaged: its checksum is wrong\0"
                                 "a table does not lie within it\0a mesh points outside of it\0"
                                 "a texture points outside of it\0a material has no such texture or alpha mode\0"
-                                "a draw names something that is not there\0"
-                                "a node comes before its parent or is out of range\0"
-                                "a skin names a joint that is not there\0"
-                                "a morph target names a vertex that is not there\0"
+                                "a draw names something that is not there\0a node comes before its parent or is out of range\0"
+                                "a skin names a joint that is not there\0a morph target names a vertex that is not there\0"
                                 "a clip has keys out of order or a target that is not there\0"
                                 "its records share arrays so often that checking them would take too long\0unknown error";
     int number = error == SMEAR_OK ? 0 : error == SMEAR_ERR_MEMORY ? 1 : 18;
