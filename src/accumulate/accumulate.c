@@ -97,7 +97,8 @@ static void accumulate_rows(struct smear_context *c, int first, int end)
             struct smear_refill refill;
             const int part = smear_draws_assemble(c, row, row, end, &instant, &refill);
             for (; row < part; row++) {
-                smear_sharp_draw_row(&(struct row_job){ .rows = &c->rows, .row = row });
+                struct row_job job = { .rows = &c->rows, .row = row };
+                smear_sharp_draw_row(&job);
                 smear_row_blend(&c->rows, row);
                 rows_draw_points(&c->rows, row);
                 sums_add_row(c->sums, &c->rows, row);

@@ -81,7 +81,9 @@ static SMEAR_PRODUCT_CALL int64_t clamp_i64(int64_t a, int64_t limit)
 static void map_make(struct map *m, const smear_camera *now, const smear_camera *camera)
 {
     const int32_t *to = camera->pose.basis, *from = now->pose.basis;
-    *m = (struct map){ .turn[0][0] = 1 << 27, .turn[1][1] = 1 << 27, .turn[2][2] = 1 << 27 };
+    __builtin_memset(m, 0, sizeof *m);
+    for (int i = 0; i < 3; i++)
+        m->turn[i][i] = 1 << 27;
     if (!smear_transform_is_same(&camera->pose, &now->pose)) {
         for (int i = 0; i < 3; i++) {
             int64_t offset = 0;

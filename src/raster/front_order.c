@@ -34,7 +34,7 @@ static inline int32_t level_of(int32_t units)
 {
     const uint32_t u = (uint32_t)max_i32(units, 1);
     const int zeros = count_leading_zeros(u);       /* 1 at least */
-    return max_i32((FRONT_LEVELS / OCTAVE - zeros) * OCTAVE + (int32_t)(u << zeros >> 29 & 3u), 0);
+    return max_i32(((int32_t)FRONT_LEVELS / OCTAVE - zeros) * OCTAVE + (int32_t)(u << zeros >> 29 & 3u), 0);
 }
 
 static inline void range_add(struct front_range *r, const int32_t *v)

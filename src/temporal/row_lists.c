@@ -589,7 +589,7 @@ static void moving_range(struct front_range *r, const struct smear_bins *g, uint
     }
     const int32_t reach = ((b->travel + b->curvature) << 3) + ((bins_margin(g) + 1) << 8);
     const int32_t box[4] = { -reach, (top << 8) - reach, (w->width << 8) + reach, ((top + w->tile) << 8) + reach };
-    if (in.nearest - in.farthest > in.nearest >> 3 && max_i32(b->travel, b->curvature) < UINT16_MAX)
+    if (in.nearest - in.farthest > in.nearest >> 3 && max_i32(b->travel, b->curvature) < (int32_t)UINT16_MAX)
         narrow_range(&in, v, box);
     r->farthest = max_i32(in.farthest - off, SMEAR_DEPTH_MIN);
     r->nearest = off < SMEAR_DEPTH_MAX - in.nearest ? in.nearest + off : SMEAR_DEPTH_MAX;

@@ -169,7 +169,7 @@ int32_t smear_tile_plan_instants(const struct smear_tile_plan *plan, const struc
 enum smear_tile_method smear_tile_method_choose(const struct smear_chooser *chooser, const struct smear_tile_travel *tile,
                                                 int32_t *instants)
 {
-    if ((tile->flags & (TILE_MOVES | PATH_SUBFRAMES)) == 0)
+    if (((tile->flags & TILE_MOVES) | (tile->flags & PATH_SUBFRAMES)) == 0)
         return TILE_COPY;
     if (SMEAR_WITH_TIMEMASK && chooser->method == SMEAR_TIMEMASK && (tile->flags & PATH_WITHOUT_MASK) == 0)
         return TILE_TIMEMASK;
