@@ -18,7 +18,7 @@ BEGIN {
     reach["src/draws.c"] = "lights\\.c:see(\\.|$)"
     reach["src/geometry/vertex.c"] = "lights\\.c:shade_"
     reach["src/overlay/overlay.c"] = "(^|:)(turned|line)_(find_box|draw_row)(\\.|$)"
-    reach["src/methods/temporal.c"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
+    reach["src/methods/temporal.c"] = reach["src/temporal/subframes.h"] = reach["src/temporal/subframes.c"] = "(^|:)fill_tiles(\\.|$)"
     reach["src/geometry/assemble_path.c"] = reach["src/geometry/batch_clip.c"] = "(^|:)place_fine(\\.|$)"
     reach["src/kernels/pixel_rows.c"] = "(^|:)ordered_(555|565)(_swapped)?(\\.|$)"
     reach["src/raster/cover.c"] = "(^|:)rows_|smear_span_(flat|general|level|shadow)(\\.|$)"
@@ -104,7 +104,7 @@ END {
             print depth(f), f | "sort -rn"
     # Core 0 alone fills a row's store again, between jobs or in place of them.
     delete known
-    edge["@src/display/row.c"] = edge["@src/methods/temporal.c"] = edge["@src/temporal/subframes.c"] = ""
+    edge["@src/display/row.c"] = edge["@src/methods/temporal.c"] = edge["@src/temporal/subframes.h"] = edge["@src/temporal/subframes.c"] = ""
     if (root == "" && "smear_work" in own)
         print depth("smear_work"), "smear_work" | "sort -rn"
     close("sort -rn")

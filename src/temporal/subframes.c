@@ -88,15 +88,20 @@ static void draw_moving_triangle(const struct subframes *f, struct smear_raster_
     }
 }
 
-static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
+/* Draws those that are there. What it keeps is gone before others are found: stack. */
+static SMEAR_NOINLINE void draw_those(const struct subframes *f, int32_t time, struct subframe_box *all)
 {
     struct smear_raster_pass pass;
-    for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true)) {
-        smear_raster_begin(&pass, f->t->frame, &f->work);
-        for (uint32_t i = 0; i < f->t->moving_count; i++)
-            if (subframes_see(f, &f->t->moving[i]))
-                draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
-    }
+    smear_raster_begin(&pass, f->t->frame, &f->work);
+    for (uint32_t i = 0; i < f->t->moving_count; i++)
+        if (subframes_see(f, &f->t->moving[i]))
+            draw_moving_triangle(f, &pass, f->t->moving[i].triangle, time, all);
+}
+
+static void draw_moving(struct subframes *f, int32_t time, struct subframe_box *all)
+{
+    for (bool any = fill(f, FILL_MOVING, false); any; any = fill(f, FILL_MOVING, true))
+        draw_those(f, time, all);
 }
 
 enum blend_step {
@@ -120,16 +125,22 @@ static void blend_one(const struct subframes *f, struct smear_raster_pass *pass,
             smear_raster_triangle(pass, p.segment, p.color, p.v, &p.bounds);
 }
 
-static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_step step,
-                             const struct smear_raster_target *target, struct subframe_box *all)
+/* Blends those that are there, likewise. */
+static SMEAR_NOINLINE void blend_those(struct subframes *f, int32_t time, enum blend_step step, const struct smear_raster_target *target,
+                                       struct subframe_box *all)
 {
     struct smear_raster_pass pass;
-    for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true)) {
-        if (step != BLEND_BOX)
-            smear_raster_begin(&pass, f->t->frame, target);
-        for (uint32_t i = f->t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(f->t->frame->bins, i)->next)
-            blend_one(f, &pass, i, time, step, all);
-    }
+    if (step != BLEND_BOX)
+        smear_raster_begin(&pass, f->t->frame, target);
+    for (uint32_t i = f->t->blend; i != SMEAR_NO_TRIANGLE; i = bins_triangle(f->t->frame->bins, i)->next)
+        blend_one(f, &pass, i, time, step, all);
+}
+
+static SMEAR_RARE void blend(struct subframes *f, int32_t time, enum blend_step step, const struct smear_raster_target *target,
+                             struct subframe_box *all)
+{
+    for (bool any = fill(f, FILL_BLENDED, false); any; any = fill(f, FILL_BLENDED, true))
+        blend_those(f, time, step, target, all);
 }
 
 /* The work planes within a box. */
