@@ -450,7 +450,7 @@ void smear_line_mix_reference(uint32_t *mean, uint32_t *more, const uint32_t *la
 SMEAR_INLINE void mix_rounds(uint32_t *mean, const uint32_t *more, const uint32_t *last, int32_t n, bool three, bool linear)
 {
 #if SMEAR_VECTORS
-    for (; n >= 4; n -= 4, mean += 4, more += 4, last += three ? 4 : 0) {
+    for (; n >= 4; n -= 4, mean += 4, more += 4, last += 4) {
         const smear_v4u a = v4u_load(mean), b = v4u_load(more), c = three ? v4u_load(last) : b;
         if (!v4u_any((a ^ b) | (a ^ c)))
             continue;
@@ -473,5 +473,5 @@ void smear_line_mix(uint32_t *mean, uint32_t *more, const uint32_t *last, int32_
     if (k == 2)
         mix_rounds(mean, more, last, n, true, linear);
     for (int32_t two = k == 3 ? 2 : k == 1; two > 0; two--)
-        mix_rounds(two == 2 ? more : mean, two == 2 ? last : more, NULL, n, false, linear);
+        mix_rounds(two == 2 ? more : mean, two == 2 ? last : more, more, n, false, linear);
 }
