@@ -18,8 +18,10 @@ LDFLAGS += --target=wasm32 -nostdlib -Wl,--no-entry -Wl,--gc-sections -Wl,--stri
 ifeq ($(PAGE),1)
 BUILD  := $(BUILD)/page
 CFLAGS += -Os -DSMEAR_WITH_ALL=0 $(foreach switch,SUBFRAMES OVERLAY RGB BOUNDS SKY,-DSMEAR_WITH_$(switch)=1)
-# What moves cars takes a small part of a frame.
+# What moves cars, and what is done once a frame or draw, takes a small part of a frame.
 $(BUILD)/platform/game/%.o: CFLAGS += -Oz
+$(addprefix $(BUILD)/src/,$(addsuffix .o,smear validate layout frame draws draws_prepare geometry/matrix geometry/shot \
+    geometry/batch_clip methods/temporal methods/along_lines temporal/row_space temporal/tile_method overlay/overlay)): CFLAGS += -Oz
 endif
 
 PLATFORM_SRC := platform/wasm/platform.c $(addprefix platform/common/,arguments.c memory.c)
